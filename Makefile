@@ -1,0 +1,58 @@
+# Everything a person does with this project. A first run installs what it needs and says so.
+PYTHON ?= python3
+VENV := .venv
+export PYTHON VENV
+# Tools come from the venv; make's own PATH stays, so that PYTHON means the same throughout.
+IN_VENV := PATH="$(CURDIR)/$(VENV)/bin:$$PATH"
+
+.NOTPARALLEL:
+.PHONY: help demo test lint format bench wheel asan clean setup setup-dev test-cpp types test-python
+
+help: ## list the commands
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-8s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+
+demo: setup ## install cdcr, pull cable 1 of the paper's robot with 5 N, write picture and data to out/
+	@echo "[4/4] cdcr run step-tension"
+	@$(VENV)/bin/cdcr run step-tension --out out --overwrite
+
+test: setup-dev test-cpp types test-python ## all tests, C++ and Python, and the type checks
+
+lint: setup-dev ## style and static analysis: clang-format, clang-tidy, ruff, mypy, gersemi, codespell
+	@$(IN_VENV) tools/lint.sh
+
+format: setup-dev ## rewrite all sources in the project's style
+	@$(IN_VENV) tools/format.sh
+
+bench: setup-dev ## build and run the benchmarks
+	@$(IN_VENV) cmake --preset bench
+	@$(IN_VENV) cmake --build --preset bench
+	@$(IN_VENV) python bench/run.py --build-dir build/bench
+
+wheel: setup-dev ## a wheel that needs nothing installed, in dist/
+	@$(IN_VENV) tools/wheel.sh
+
+asan: setup-dev ## C++ tests under the address and undefined-behaviour sanitizers
+	@$(IN_VENV) cmake --preset asan
+	@$(IN_VENV) cmake --build --preset asan
+	@$(IN_VENV) ctest --preset asan
+
+clean: ## remove what make made, .venv included; out/ stays
+	rm -rf build dist $(VENV) .mypy_cache .pytest_cache .ruff_cache .hypothesis
+
+setup:
+	@tools/setup.sh demo
+
+setup-dev:
+	@tools/setup.sh dev
+
+test-cpp: setup-dev
+	@$(IN_VENV) cmake --preset release
+	@$(IN_VENV) cmake --build --preset release
+	@$(IN_VENV) ctest --preset release
+
+types: setup-dev
+	@$(IN_VENV) mypy
+	@$(IN_VENV) python -m mypy.stubtest cdcr._core
+
+test-python: setup-dev
+	@$(IN_VENV) pytest --doctest-modules --pyargs cdcr tests/python

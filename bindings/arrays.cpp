@@ -1,0 +1,95 @@
+#include "arrays.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+namespace cdcr::python {
+namespace {
+
+template <class Sizes>
+std::string shape_text(const Sizes& sizes) {
+  std::string text = "(";
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    if (i > 0) text += ", ";
+    text += sizes[i] < 0 ? std::string("any") : std::to_string(sizes[i]);
+  }
+  return text + (sizes.size() == 1 ? ",)" : ")");
+}
+
+/// "[1]" or "[0, 1]" for the flat index of an entry.
+std::string index_text(Index flat, const std::vector<Index>& sizes) {
+  std::string text;
+  for (std::size_t i = sizes.size(); i-- > 0;) {
+    text = std::to_string(flat % sizes[i]) + (text.empty() ? "" : ", ") + text;
+    flat /= sizes[i];
+  }
+  return "[" + text + "]";
+}
+
+[[noreturn]] void refuse(const std::ostringstream& text) { throw py::value_error(text.str()); }
+
+}  // namespace
+
+Array read_array(const py::handle& object, const char* name, const std::vector<Index>& shape) {
+  Array array = Array::ensure(object);
+  if (!array) {
+    PyErr_Clear();
+    std::ostringstream text;
+    text << name << " must be numbers of shape " << shape_text(shape) << ", got "
+         << py::str(py::type::of(object).attr("__name__")).cast<std::string>();
+    refuse(text);
+  }
+  const std::vector<Index> got(array.shape(), array.shape() + array.ndim());
+  const bool fits = got.size() == shape.size() &&
+                    std::equal(got.begin(), got.end(), shape.begin(),
+                               [](Index a, Index b) { return b < 0 || a == b; });
+  if (!fits) {
+    std::ostringstream text;
+    text << name << " must have shape " << shape_text(shape) << ", got " << shape_text(got);
+    refuse(text);
+  }
+  const double* data = array.data();
+  for (Index i = 0; i < array.size(); ++i) {
+    if (std::isfinite(data[i])) continue;
+    std::ostringstream text;
+    text << name << index_text(i, got) << " must be finite, got " << data[i];
+    refuse(text);
+  }
+  return array;
+}
+
+VectorArgument read_bending(const Model& model, const py::handle& object, const char* name) {
+  VectorArgument q(object, name, model.num_coordinates());
+  for (Index i = 0; i < model.num_sections(); ++i) {
+    const double theta = (*q).segment<2>(2 * i).norm();
+    if (theta <= max_bending) continue;
+    std::ostringstream text;
+    text << name << " must bend each section by at most 3 pi rad, got " << theta
+         << " rad in section " << i;
+    refuse(text);
+  }
+  return q;
+}
+
+VectorArgument read_tension(const Model& model, const py::handle& object) {
+  VectorArgument tension(object, "tension", model.num_cables());
+  for (Index j = 0; j < model.num_cables(); ++j) {
+    if ((*tension)[j] >= 0.0) continue;
+    std::ostringstream text;
+    text << "tension[" << j << "] must be >= 0 N (a cable cannot push), got " << (*tension)[j];
+    refuse(text);
+  }
+  return tension;
+}
+
+py::array_t<double> to_array(const Eigen::Ref<const VectorXd>& vector) {
+  return py::array_t<double>(vector.size(), vector.data());
+}
+
+py::array_t<double> to_rows(const RowMatrixXd& matrix) {
+  return py::array_t<double>({matrix.rows(), matrix.cols()}, matrix.data());
+}
+
+}  // namespace cdcr::python

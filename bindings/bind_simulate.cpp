@@ -1,0 +1,134 @@
+#include <pybind11/native_enum.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+
+#include "arrays.hpp"
+#include "bind.hpp"
+#include "cdcr/cvode.hpp"
+#include "cdcr/simulate.hpp"
+
+namespace cdcr::python {
+namespace {
+
+namespace py = pybind11;
+using namespace py::literals;
+
+/// A Python callable as tension function: the slow path, one call of Python for each evaluation.
+TensionInput call_python(py::function function, Index num_cables,
+                         std::vector<double> break_points) {
+  // Shared, because copying a Python object would need the GIL wherever the input is copied.
+  const auto shared = std::make_shared<py::function>(std::move(function));
+  return TensionInput::function(
+      [shared, num_cables](double t, const ConstVectorRef& q, const ConstVectorRef& qd,
+                           VectorRef tension) {
+        const py::gil_scoped_acquire locked;
+        const VectorArgument value((*shared)(t, to_array(q), to_array(qd)),
+                                   "the value of the tension function", num_cables);
+        tension = *value;
+      },
+      num_cables, std::move(break_points));
+}
+
+Trajectory run(const Model& model, const py::object& q0, const py::object& qd0,
+               const py::object& t, const TensionInput& input, Method method,
+               const Options& options, const py::object& progress) {
+  const VectorXd q = *read_bending(model, q0, "q0");
+  const VectorXd qd = *VectorArgument(qd0, "qd0", model.num_coordinates());
+  const VectorXd times = *VectorArgument(t, "t", -1);
+  const auto report = [&progress](double now) {
+    const py::gil_scoped_acquire locked;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (!progress.is_none()) progress(now);
+    return true;
+  };
+  const py::gil_scoped_release unlocked;
+  return simulate(model, q, qd, times, input, method, options, make_cvode_integrator, report);
+}
+
+}  // namespace
+
+void bind_simulate(py::module_& m) {
+  py::native_enum<Method>(m, "Method", "enum.Enum", "How to integrate.")
+      .value("rk4", Method::rk4)
+      .value("dopri5", Method::dopri5)
+      .value("bdf", Method::bdf)
+      .value("adams", Method::adams)
+      .finalize();
+
+  const Options defaults;
+  py::class_<Options>(m, "Options", "Tolerances, steps and limits of a run.")
+      .def(py::init([](double rtol, double atol, double step, double max_step, long max_steps) {
+             Options options;
+             options.rtol = rtol;
+             options.atol = atol;
+             options.step = step;
+             options.max_step = max_step;
+             options.max_steps = max_steps;
+             validate(options);
+             return options;
+           }),
+           py::kw_only(), "rtol"_a = defaults.rtol, "atol"_a = defaults.atol,
+           "step"_a = defaults.step, "max_step"_a = defaults.max_step,
+           "max_steps"_a = defaults.max_steps)
+      .def_readonly("rtol", &Options::rtol)
+      .def_readonly("atol", &Options::atol)
+      .def_readonly("step", &Options::step)
+      .def_readonly("max_step", &Options::max_step)
+      .def_readonly("max_steps", &Options::max_steps);
+
+  py::class_<Stats>(m, "Stats", "What a run cost.")
+      .def_readonly("steps", &Stats::steps)
+      .def_readonly("rejected", &Stats::rejected)
+      .def_readonly("evaluations", &Stats::evaluations)
+      .def_readonly("jacobians", &Stats::jacobians)
+      .def_readonly("newton_failures", &Stats::newton_failures)
+      .def("__repr__", [](const Stats& s) {
+        return "Stats(steps=" + std::to_string(s.steps) +
+               ", rejected=" + std::to_string(s.rejected) +
+               ", evaluations=" + std::to_string(s.evaluations) +
+               ", jacobians=" + std::to_string(s.jacobians) +
+               ", newton_failures=" + std::to_string(s.newton_failures) + ")";
+      });
+
+  py::class_<TensionInput>(m, "TensionInput", "Tensions as a function of time.")
+      .def_static(
+          "constant",
+          [](const Model& model, const py::object& tension) {
+            return TensionInput::constant(*read_tension(model, tension));
+          },
+          "model"_a, "tension"_a)
+      .def_static(
+          "table",
+          [](const Model& model, const py::object& t, const py::object& tension, bool linear) {
+            const VectorXd times = *VectorArgument(t, "the table's t", -1);
+            const Array rows =
+                read_array(tension, "the table's tension", {times.size(), model.num_cables()});
+            const Eigen::Map<const RowMatrixXd> values(rows.data(), rows.shape(0), rows.shape(1));
+            return TensionInput::table(times, values,
+                                       linear ? TensionInput::Interpolation::linear
+                                              : TensionInput::Interpolation::previous);
+          },
+          "model"_a, "t"_a, "tension"_a, "linear"_a)
+      .def_static(
+          "function",
+          [](const Model& model, py::function function, std::vector<double> break_points) {
+            return call_python(std::move(function), model.num_cables(), std::move(break_points));
+          },
+          "model"_a, "function"_a, "break_points"_a);
+
+  py::class_<Trajectory>(m, "Trajectory", "A run as the core returns it.")
+      .def_property_readonly("t", [](const Trajectory& self) { return to_array(self.t); })
+      .def_property_readonly("q", [](const Trajectory& self) { return to_rows(self.q); })
+      .def_property_readonly("qd", [](const Trajectory& self) { return to_rows(self.qd); })
+      .def_property_readonly("tension",
+                             [](const Trajectory& self) { return to_rows(self.tension); })
+      .def_readonly("status", &Trajectory::status)
+      .def_readonly("message", &Trajectory::message)
+      .def_readonly("stats", &Trajectory::stats);
+
+  m.def("simulate", &run, "model"_a, "q0"_a, "qd0"_a, "t"_a, "input"_a, "method"_a, "options"_a,
+        "progress"_a);
+}
+
+}  // namespace cdcr::python

@@ -1,0 +1,48 @@
+#include <pybind11/stl.h>
+
+#include "arrays.hpp"
+#include "bind.hpp"
+#include "cdcr/allocation.hpp"
+#include "cdcr/statics.hpp"
+
+namespace cdcr::python {
+
+namespace py = pybind11;
+using namespace py::literals;
+
+void bind_statics(py::module_& m, PyModel& model) {
+  py::class_<Equilibrium>(m, "Equilibrium", "A point of rest and whether the robot stays there.")
+      .def_property_readonly("q", [](const Equilibrium& self) { return to_array(self.q); })
+      .def_property_readonly("eigenvalues",
+                             [](const Equilibrium& self) { return to_array(self.eigenvalues); })
+      .def_readonly("stable", &Equilibrium::stable)
+      .def_readonly("residual", &Equilibrium::residual)
+      .def_readonly("iterations", &Equilibrium::iterations)
+      .def_readonly("status", &Equilibrium::status);
+
+  py::class_<Allocation>(m, "Allocation", "Tensions for a generalised force, or the nearest.")
+      .def_property_readonly("tension",
+                             [](const Allocation& self) { return to_array(self.tension); })
+      .def_property_readonly("force", [](const Allocation& self) { return to_array(self.force); })
+      .def_readonly("distance", &Allocation::distance)
+      .def_readonly("feasible", &Allocation::feasible)
+      .def_readonly("limiting", &Allocation::limiting);
+
+  model.def(
+      "find_tension",
+      [](const Model& self, const py::object& force, double min_tension, double max_tension) {
+        return allocate(self, *VectorArgument(force, "force", self.num_coordinates()),
+                        min_tension, max_tension);
+      },
+      "force"_a, "min_tension"_a, "max_tension"_a);
+  model.def(
+      "find_equilibrium",
+      [](const Model& self, const py::object& tension, const py::object& q0) {
+        const VectorXd start =
+            q0.is_none() ? VectorXd() : VectorXd(*read_bending(self, q0, "q0"));
+        return equilibrium(self, *read_tension(self, tension), start);
+      },
+      "tension"_a, "q0"_a = py::none());
+}
+
+}  // namespace cdcr::python

@@ -1,0 +1,13 @@
+# Linked as $<BUILD_INTERFACE:cdcr_warnings>, so consumers never inherit our warning flags.
+add_library(cdcr_warnings INTERFACE)
+target_compile_options(
+  cdcr_warnings
+  INTERFACE
+    -Wall
+    -Wextra
+    -Wpedantic
+    -Wshadow
+    -Wconversion
+    -Wno-sign-conversion
+    $<$<BOOL:${CDCR_WARNINGS_AS_ERRORS}>:-Werror>
+)

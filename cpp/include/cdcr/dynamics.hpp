@@ -1,0 +1,56 @@
+#pragma once
+
+#include "cdcr/model.hpp"
+#include "cdcr/types.hpp"
+
+// Equations of motion  M(q) qdd + h(q, qd) = B F,  cpp/README.md eqs. (8) to (16).
+//
+// q, qd, qdd: bending vectors and their rates, base to tip (2n) [rad], [rad/s], [rad/s^2].
+// tension: one for each cable (num_cables) [N]. Outputs are written to caller-owned storage.
+// Every function here is real-time safe: no allocation, no exception, no I/O. Sizes are the
+// caller's duty; a non-finite input, or a section bent beyond max_bending, gives NaN.
+
+namespace cdcr {
+
+/// Generalised force Q = B F (2n) [N m] of the tensions.
+void actuation_force(const Model& model, const ConstVectorRef& tension, VectorRef force) noexcept;
+
+/// Mass matrix M(q) (2n, 2n) [kg m^2].
+void mass_matrix(const Model& model, Data& data, const ConstVectorRef& q, MatrixRef M) noexcept;
+
+/// Bias h(q, qd) (2n) [N m]: Coriolis, damping, elastic and gravity terms.
+void bias(const Model& model, Data& data, const ConstVectorRef& q, const ConstVectorRef& qd,
+          VectorRef h) noexcept;
+
+/// Accelerations under the given tensions.
+void forward_dynamics(const Model& model, Data& data, const ConstVectorRef& q,
+                      const ConstVectorRef& qd, const ConstVectorRef& tension,
+                      VectorRef qdd) noexcept;
+
+/// Accelerations under a generalised force (2n) [N m].
+void forward_dynamics_force(const Model& model, Data& data, const ConstVectorRef& q,
+                            const ConstVectorRef& qd, const ConstVectorRef& force,
+                            VectorRef qdd) noexcept;
+
+/// Generalised force (2n) [N m] that produces the given accelerations.
+void inverse_dynamics(const Model& model, Data& data, const ConstVectorRef& q,
+                      const ConstVectorRef& qd, const ConstVectorRef& qdd,
+                      VectorRef force) noexcept;
+
+/// T = 1/2 qd^T M qd [J].
+[[nodiscard]] double kinetic_energy(const Model& model, Data& data, const ConstVectorRef& q,
+                                    const ConstVectorRef& qd) noexcept;
+
+/// Elastic energy plus weight, the latter zero at the base: U = K |q|^2 / 2 - sum m g.r [J].
+[[nodiscard]] double potential_energy(const Model& model, Data& data,
+                                      const ConstVectorRef& q) noexcept;
+
+/// Gradient dU/dq (2n) [N m]: the generalised force that holds the robot still at q.
+void potential_gradient(const Model& model, Data& data, const ConstVectorRef& q,
+                        VectorRef gradient) noexcept;
+
+/// Hessian d2U/dq2 (2n, 2n) [N m/rad]: the stiffness about q.
+void potential_hessian(const Model& model, Data& data, const ConstVectorRef& q,
+                       MatrixRef hessian) noexcept;
+
+}  // namespace cdcr

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <memory>
+
+#include "cdcr/plant.hpp"
+#include "cdcr/status.hpp"
+#include "cdcr/types.hpp"
+
+namespace cdcr {
+
+/// rk4: fixed step. dopri5: Dormand-Prince 5(4), adaptive. bdf, adams: CVODE (cdcr/cvode.hpp).
+enum class Method { rk4, dopri5, bdf, adams };
+
+/// How to integrate. The defaults put theta(t) of the scenario step-tension within 1e-6 rad of
+/// the truth over 10 s with bdf; bench/README.md has the figure of each method.
+struct Options {
+  double rtol = 1e-10;       ///< relative tolerance of one step, adaptive methods
+  double atol = 1e-12;       ///< absolute tolerance of one step [rad], [rad/s]
+  double step = 1e-3;        ///< step of rk4 [s]
+  double max_step = 0.0;     ///< largest step of adaptive methods [s]; 0: no limit
+  long max_steps = 1000000;  ///< internal steps in one run
+};
+
+/// What a run cost.
+struct Stats {
+  long steps = 0;            ///< internal steps accepted
+  long rejected = 0;         ///< steps thrown away by the error test
+  long evaluations = 0;      ///< evaluations of the equations of motion
+  long jacobians = 0;        ///< evaluations of their Jacobian
+  long newton_failures = 0;  ///< Newton iterations that did not converge
+};
+
+/// Carries a state through time step by step. One object serves one thread.
+///
+/// The driver (simulate) calls restart at the start and at every break point, step until the stop
+/// time is reached, and interpolate for any time inside the step just made; so the steps do not
+/// depend on where the run is sampled.
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+
+  /// Starts anew from y = (q, qd) at t; steps will end exactly at t_stop > t.
+  virtual Status restart(double t, const VectorXd& y, double t_stop) = 0;
+  /// One internal step. On failure the state is the one before the step.
+  virtual Status step() = 0;
+  /// State at a time within the last step.
+  virtual void interpolate(double t, VectorXd& y) = 0;
+  [[nodiscard]] virtual double time() const noexcept = 0;
+  [[nodiscard]] virtual const VectorXd& state() const noexcept = 0;
+  [[nodiscard]] virtual Stats stats() const noexcept = 0;
+};
+
+/// Makes the integrator for a method; the plant must outlive it.
+using IntegratorFactory = std::unique_ptr<Integrator> (*)(Plant&, Method, const Options&);
+
+/// rk4 and dopri5. Throws std::invalid_argument for other methods and for bad options.
+[[nodiscard]] std::unique_ptr<Integrator> make_integrator(Plant& plant, Method method,
+                                                          const Options& options);
+
+/// Throws std::invalid_argument naming the option that is out of range.
+void validate(const Options& options);
+
+}  // namespace cdcr

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "cdcr/integrator.hpp"
+
+namespace cdcr {
+
+/// A run, sampled: one row for each output time reached.
+struct Trajectory {
+  VectorXd t;           ///< (N) [s]
+  RowMatrixXd q;        ///< (N, 2n) [rad]
+  RowMatrixXd qd;       ///< (N, 2n) [rad/s]
+  RowMatrixXd tension;  ///< (N, num_cables) [N]; at a jump, the value after it
+  Status status = Status::ok;
+  std::string message;  ///< empty when ok; else when it stopped, why, and what to try
+  Stats stats;
+};
+
+/// Told the time reached every few hundred internal steps; returning false ends the run.
+using Progress = std::function<bool(double t)>;
+
+/// Runs the robot from (q0, qd0) at times[0] through strictly increasing output times.
+///
+/// Break points of the input are hit exactly. A run that fails keeps the samples up to there.
+/// Throws std::invalid_argument for arguments out of range, and whatever the input throws.
+/// `factory` is make_integrator, or make_cvode_integrator of cdcr/cvode.hpp.
+[[nodiscard]] Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
+                                  const VectorXd& times, const TensionInput& input,
+                                  Method method = Method::dopri5, const Options& options = {},
+                                  IntegratorFactory factory = make_integrator,
+                                  const Progress& progress = {});
+
+}  // namespace cdcr

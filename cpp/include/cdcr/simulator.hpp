@@ -1,0 +1,47 @@
+#pragma once
+
+#include <memory>
+
+#include "cdcr/dynamics.hpp"
+#include "cdcr/status.hpp"
+
+namespace cdcr {
+
+/// The robot inside a control loop: one period at a time, tensions held over the period.
+///
+/// Set up: the constructor and reset may allocate and throw std::invalid_argument. Run: step and
+/// the accessors are noexcept and allocate nothing; on failure the last good state stays.
+class Simulator {
+ public:
+  /// `step` is the control period [s], made of `substeps` equal Runge-Kutta 4 steps.
+  explicit Simulator(const Model& model, double step = 1e-3, int substeps = 1);
+  ~Simulator();
+  Simulator(Simulator&&) noexcept;
+  Simulator& operator=(Simulator&&) noexcept;
+
+  /// Sets the state (2n each) and the time [s].
+  void reset(const VectorXd& q, const VectorXd& qd, double time = 0.0);
+
+  /// Advances one period under constant tensions (num_cables) [N], each >= 0. Real-time safe.
+  [[nodiscard]] Status step(const ConstVectorRef& tension) noexcept;
+
+  [[nodiscard]] const Model& model() const noexcept { return model_; }
+  [[nodiscard]] const VectorXd& q() const noexcept { return q_; }    ///< (2n) [rad]
+  [[nodiscard]] const VectorXd& qd() const noexcept { return qd_; }  ///< (2n) [rad/s]
+  [[nodiscard]] double time() const noexcept { return time_; }       ///< [s]
+  [[nodiscard]] double period() const noexcept { return period_; }   ///< [s]
+
+ private:
+  Model model_;
+  Data data_;
+  double period_ = 0.0, time_ = 0.0, start_ = 0.0;
+  long long periods_ = 0;
+  int substeps_ = 1;
+  bool started_ = false;
+  VectorXd q_, qd_, force_;
+  VectorXd y_, trial_;  // (q, qd) within a period
+  struct Stages;
+  std::unique_ptr<Stages> stages_;
+};
+
+}  // namespace cdcr

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace cdcr {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+/// Read-only vector argument; binds to a VectorXd, a segment or a Map without a copy.
+using ConstVectorRef = Eigen::Ref<const VectorXd>;
+/// Caller-owned output vector; it must already have its size.
+using VectorRef = Eigen::Ref<VectorXd>;
+/// Caller-owned output matrix; it must already have its size.
+using MatrixRef = Eigen::Ref<MatrixXd>;
+/// One sample in each row, C-contiguous, as NumPy lays it out.
+using RowMatrixXd = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+}  // namespace cdcr

@@ -1,0 +1,62 @@
+#include "cdcr/model.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "section_series.hpp"
+
+namespace cdcr {
+
+Model::Model(Robot robot) : robot_(std::move(robot)) {
+  validate(robot_);
+  const auto n = static_cast<Index>(robot_.sections.size());
+  if (n != 1) {
+    throw std::invalid_argument("Model takes a robot of exactly one section for now, got " +
+                                std::to_string(n) + " sections");
+  }
+  stiffness_.resize(n);
+  damping_.resize(n);
+  Index num_cables = 0;
+  for (Index i = 0; i < n; ++i) {
+    const Section& section = robot_.sections[i];
+    tables_.emplace_back(detail::exact_series(section, robot_.payload));
+    stiffness_[i] = section.stiffness();
+    damping_[i] = section.damping;
+    num_cables += static_cast<Index>(section.cable_angles.size());
+  }
+
+  // A cable runs from the base to the end of its own section: Q_k += r e(gamma) F for k <= i.
+  actuation_.setZero(2 * n, num_cables);
+  straight_lengths_.setZero(num_cables);
+  Index cable = 0;
+  for (Index i = 0; i < n; ++i) {
+    const Section& section = robot_.sections[i];
+    for (const double gamma : section.cable_angles) {
+      for (Index k = 0; k <= i; ++k) {
+        actuation_(2 * k, cable) = section.cable_radius * std::cos(gamma);
+        actuation_(2 * k + 1, cable) = section.cable_radius * std::sin(gamma);
+        straight_lengths_[cable] += robot_.sections[k].length;
+      }
+      ++cable;
+    }
+  }
+
+  has_inertia_ = tables_[0](detail::ShapeTable::Group::inertia, 0.0)[0] > 0.0;
+  has_gravity_ = robot_.gravity != Vector3d::Zero();
+}
+
+void require_inertia(const Model& model) {
+  if (!model.has_inertia()) {
+    throw std::invalid_argument(
+        "the robot has no inertia, so it has no dynamics: give sections[0] a backbone_mass or "
+        "disks with a disk_mass, or the robot a payload");
+  }
+}
+
+Data::Data(const Model& model)
+    : force(VectorXd::Zero(model.num_coordinates())),
+      acceleration(VectorXd::Zero(model.num_coordinates())) {}
+
+}  // namespace cdcr

@@ -1,0 +1,147 @@
+#include "cdcr/simulate.hpp"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace cdcr {
+namespace {
+
+constexpr long steps_between_reports = 256;
+
+void check_vector(const VectorXd& v, Index size, const char* item) {
+  if (v.size() == size && v.allFinite()) return;
+  std::ostringstream text;
+  text << item << " must be " << size << " finite values, got [" << v.transpose() << "]";
+  throw std::invalid_argument(text.str());
+}
+
+void check_times(const VectorXd& times) {
+  if (times.size() == 0) throw std::invalid_argument("t must hold at least one time, got none");
+  for (Index i = 0; i < times.size(); ++i) {
+    if (std::isfinite(times[i]) && (i == 0 || times[i] > times[i - 1])) continue;
+    std::ostringstream text;
+    text << "t must be finite and strictly increasing, got " << times[i] << " s at index " << i;
+    throw std::invalid_argument(text.str());
+  }
+}
+
+/// Fills the rows of a trajectory as the run passes their times.
+class Recorder {
+ public:
+  Recorder(Plant& plant, const VectorXd& times, Trajectory& out)
+      : plant_(plant), out_(out), y_(plant.num_states()) {
+    const Index m = plant.model().num_coordinates();
+    out_.t = times;
+    out_.q.resize(times.size(), m);
+    out_.qd.resize(times.size(), m);
+    out_.tension.resize(times.size(), plant.model().num_cables());
+    tension_.resize(plant.model().num_cables());
+  }
+
+  [[nodiscard]] bool done() const { return next_ == out_.t.size(); }
+  [[nodiscard]] double next_time() const { return out_.t[next_]; }
+
+  /// Records the state at the next output time.
+  void record(const VectorXd& y) {
+    const Index m = out_.q.cols();
+    out_.q.row(next_) = y.head(m).transpose();
+    out_.qd.row(next_) = y.tail(m).transpose();
+    const double t = out_.t[next_];
+    plant_.tension(t, plant_.input().segment(t), y, tension_);  // at a jump: the value after it
+    out_.tension.row(next_) = tension_.transpose();
+    ++next_;
+  }
+
+  /// Records all output times up to the end of the integrator's last step.
+  void record_step(Integrator& integrator) {
+    while (!done() && next_time() <= integrator.time()) {
+      if (next_time() == integrator.time()) {
+        record(integrator.state());
+      } else {
+        integrator.interpolate(next_time(), y_);
+        record(y_);
+      }
+    }
+  }
+
+  /// Drops the rows that were not reached.
+  void finish() {
+    if (done()) return;
+    out_.t.conservativeResize(next_);
+    out_.q.conservativeResize(next_, Eigen::NoChange);
+    out_.qd.conservativeResize(next_, Eigen::NoChange);
+    out_.tension.conservativeResize(next_, Eigen::NoChange);
+  }
+
+ private:
+  Plant& plant_;
+  Trajectory& out_;
+  VectorXd y_, tension_;
+  Index next_ = 0;
+};
+
+/// One stretch without break points, from the integrator's restart to its stop time.
+Status run_segment(Integrator& integrator, Recorder& recorder, double stop,
+                   const Options& options, const Progress& progress) {
+  while (integrator.time() < stop) {
+    const long steps = integrator.stats().steps;
+    if (steps >= options.max_steps) return Status::step_limit;
+    if (progress && steps % steps_between_reports == 0 && !progress(integrator.time())) {
+      return Status::interrupted;
+    }
+    const Status status = integrator.step();
+    if (status != Status::ok) return status;
+    recorder.record_step(integrator);
+  }
+  return Status::ok;
+}
+
+}  // namespace
+
+Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
+                    const VectorXd& times, const TensionInput& input, Method method,
+                    const Options& options, IntegratorFactory factory, const Progress& progress) {
+  check_vector(q0, model.num_coordinates(), "q0");
+  check_vector(qd0, model.num_coordinates(), "qd0");
+  check_times(times);
+  Plant plant(model, input);
+  const auto integrator = factory(plant, method, options);
+
+  VectorXd y(plant.num_states());
+  y << q0, qd0;
+  if (plant.check(y.data()) != Status::ok) {
+    std::ostringstream text;
+    text << "q0 must bend each section by at most 3 pi rad, got [" << q0.transpose() << "]";
+    throw std::invalid_argument(text.str());
+  }
+
+  Trajectory out;
+  Recorder recorder(plant, times, out);
+  recorder.record(y);
+  const double end = times[times.size() - 1];
+  double t = times[0];
+  while (t < end && out.status == Status::ok) {
+    const Index segment = input.segment(t);
+    const auto& breaks = input.break_points();
+    const bool has_break = segment < static_cast<Index>(breaks.size());
+    const double stop = has_break ? std::min(end, breaks[segment]) : end;
+    plant.set_segment(segment);
+    out.status = integrator->restart(t, y, stop);
+    if (out.status == Status::ok) {
+      out.status = run_segment(*integrator, recorder, stop, options, progress);
+    }
+    t = integrator->time();
+    y = integrator->state();
+  }
+  recorder.finish();
+  out.stats = integrator->stats();
+  if (out.status != Status::ok) {
+    std::ostringstream text;
+    text << "Stopped at t = " << t << " s (" << name(out.status) << "). " << message(out.status);
+    out.message = text.str();
+  }
+  return out;
+}
+
+}  // namespace cdcr

@@ -1,0 +1,64 @@
+#include "cdcr/status.hpp"
+
+namespace cdcr {
+
+const char* message(Status status) noexcept {
+  switch (status) {
+    case Status::ok:
+      return "";
+    case Status::not_started:
+      return "No state has been set: call reset with a state first.";
+    case Status::step_limit:
+      return "The run needed more than max_steps internal steps: raise max_steps, loosen rtol and "
+             "atol, or use method bdf if the robot is stiff.";
+    case Status::step_too_small:
+      return "The step size fell to rounding level: the motion changes too abruptly here. Check "
+             "the tensions for a jump that is not a break point of a table, or loosen rtol.";
+    case Status::tolerance_not_met:
+      return "The implicit solver could not converge: loosen rtol and atol, give a smaller "
+             "initial step, or use method dopri5.";
+    case Status::non_finite_state:
+      return "The state became infinite or not a number: use a smaller step, and check the "
+             "tensions and the initial state.";
+    case Status::bending_limit:
+      return "A section bent beyond 3 pi rad, past the model's validity: lower the tensions, add "
+             "damping, or use a smaller step.";
+    case Status::invalid_tension:
+      return "The tensions must be finite, not negative (a cable cannot push), and one for each "
+             "cable; the state was left as it was.";
+    case Status::not_converged:
+      return "No equilibrium was found: start nearer to it with q0, or lower the tensions; the "
+             "robot may have none within the bending limit.";
+    case Status::interrupted:
+      return "The run was stopped before its end; the samples up to then are kept.";
+  }
+  return "Unknown status.";
+}
+
+const char* name(Status status) noexcept {
+  switch (status) {
+    case Status::ok:
+      return "ok";
+    case Status::not_started:
+      return "not_started";
+    case Status::step_limit:
+      return "step_limit";
+    case Status::step_too_small:
+      return "step_too_small";
+    case Status::tolerance_not_met:
+      return "tolerance_not_met";
+    case Status::non_finite_state:
+      return "non_finite_state";
+    case Status::bending_limit:
+      return "bending_limit";
+    case Status::invalid_tension:
+      return "invalid_tension";
+    case Status::not_converged:
+      return "not_converged";
+    case Status::interrupted:
+      return "interrupted";
+  }
+  return "unknown";
+}
+
+}  // namespace cdcr

@@ -1,0 +1,49 @@
+"""cdcr: dynamics and control of cable-driven continuum robots.
+
+SI units and radians throughout. q stacks one bending vector per section, base to tip:
+q_i = theta_i (cos phi_i, sin phi_i). Arrays are float64 with time on axis 0.
+"""
+
+try:
+    from cdcr import _core
+except ImportError as error:  # pragma: no cover
+    raise ImportError(
+        f"cdcr's compiled core could not be loaded ({error}). Install the package "
+        "('pip install .' in the project's folder) and do not import it from its source folder."
+    ) from error
+
+from cdcr import robots, scenarios
+from cdcr._coordinates import bending, polar
+from cdcr._core import Equilibrium, Simulator, Stats, Status, max_bending
+from cdcr._model import ConvergenceError, InfeasibleError, InverseKinematics, Model
+from cdcr._robot import Robot, Section
+from cdcr._simulate import TensionTable, simulate
+from cdcr._trajectory import Trajectory
+
+__version__: str = _core.__version__
+
+__all__ = [
+    "ConvergenceError",
+    "Equilibrium",
+    "InfeasibleError",
+    "InverseKinematics",
+    "Model",
+    "Robot",
+    "Section",
+    "Simulator",
+    "Stats",
+    "Status",
+    "TensionTable",
+    "Trajectory",
+    "__version__",
+    "bending",
+    "max_bending",
+    "polar",
+    "robots",
+    "scenarios",
+    "simulate",
+]
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -1,0 +1,140 @@
+"""The commands: list, info, run."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+import cdcr
+from cdcr import _cli_run, _cli_tables
+from cdcr._robot import Robot
+
+app = typer.Typer(
+    help="Dynamics of cable-driven continuum robots.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+
+@contextmanager
+def _told_plainly() -> Iterator[None]:
+    """Turn what users can mend into a sentence on stderr and an exit code, without a traceback."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        typer.echo("cdcr: interrupted", err=True)
+        raise typer.Exit(130) from None
+    except _cli_run.RunFailed as failure:
+        typer.echo(f"cdcr: {failure}", err=True)
+        raise typer.Exit(1) from None
+    except (ValueError, ImportError, OSError) as error:
+        typer.echo(f"cdcr: {_sentence(error)}", err=True)
+        raise typer.Exit(2) from None
+
+
+def _sentence(error: Exception) -> str:
+    if isinstance(error, OSError) and error.strerror:
+        return f"{error.filename}: {error.strerror}"
+    return str(error)
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"cdcr {cdcr.__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def cdcr_command(
+    version: Annotated[
+        bool,
+        typer.Option("--version", callback=_version, is_eager=True, help="Print the version."),
+    ] = False,
+) -> None:
+    """Dynamics of cable-driven continuum robots: scenarios, robots, pictures and data."""
+
+
+@app.command("list")
+def list_command() -> None:
+    """List the scenarios and robots that `run` and `info` know by name."""
+    with _told_plainly():
+        _cli_tables.print_list(Console())
+
+
+@app.command("info")
+def info_command(
+    robot: Annotated[
+        str, typer.Argument(metavar="ROBOT|FILE.toml", help="A name from `cdcr list` or a file.")
+    ],
+) -> None:
+    """Show what a robot is made of: masses, stiffness, cables and its natural frequency."""
+    with _told_plainly():
+        file = robot.endswith(".toml") or Path(robot).is_file()
+        described = Robot.load(robot) if file else cdcr.robots.get(robot)
+        _cli_tables.print_robot(Console(), robot, described)
+
+
+@app.command("run")
+def run_command(
+    scenario: Annotated[
+        str,
+        typer.Argument(
+            metavar="NAME|FILE.toml", help="A scenario from `cdcr list` or a file of your own."
+        ),
+    ],
+    out: Annotated[
+        Path, typer.Option(help="Folder for the picture and the data; made where missing.")
+    ] = Path("out"),
+    method: Annotated[
+        str | None,
+        typer.Option(metavar="METHOD", help="Integrator: bdf, adams, dopri5 or rk4."),
+    ] = None,
+    t_end: Annotated[
+        float | None,
+        typer.Option(metavar="SECONDS", help="End of the run; samples keep their spacing."),
+    ] = None,
+    rtol: Annotated[
+        float | None, typer.Option(metavar="NUMBER", help="Relative tolerance of one step.")
+    ] = None,
+    atol: Annotated[
+        float | None,
+        typer.Option(metavar="NUMBER", help="Absolute tolerance of one step [rad], [rad/s]."),
+    ] = None,
+    overwrite: Annotated[
+        bool, typer.Option("--overwrite", help="Replace files of an earlier run.")
+    ] = False,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print one JSON object in place of tables.")
+    ] = False,
+) -> None:
+    """Run a scenario; write a picture (.png) and the data (.csv, .nc); print a summary.
+
+    Exit codes: 0 all went well, 1 the integration failed, 2 something in the command or in a file
+    has to be mended first, 130 interrupted. Files appear only when a run is complete.
+    """
+    with _told_plainly():
+        report = _cli_run.run(
+            scenario,
+            out,
+            overwrite=overwrite,
+            console=Console(stderr=True),
+            method=method,
+            t_end=t_end,
+            rtol=rtol,
+            atol=atol,
+        )
+        if as_json:
+            typer.echo(json.dumps(report.as_dict(), indent=2, allow_nan=False))
+        else:
+            _cli_tables.print_report(Console(), report)
+        if not report.run.success:
+            raise _cli_run.RunFailed(f"{report.run.message} No file was written.")

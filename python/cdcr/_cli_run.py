@@ -1,0 +1,166 @@
+"""What ``cdcr run`` does: check first, run, then write all files or none."""
+
+from __future__ import annotations
+
+import time
+from contextlib import ExitStack
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
+
+from cdcr import scenarios
+from cdcr._export import new_file
+from cdcr._extras import require
+from cdcr._scenario_file import load_scenario
+from cdcr._trajectory import Trajectory
+from cdcr.scenarios import Scenario
+from cdcr.scenarios._findings import Finding
+
+STATS = ("steps", "rejected", "evaluations", "jacobians", "newton_failures")
+BAR_DELAY = 1.0  # shorter runs show no progress bar [s]
+
+
+class RunFailed(Exception):
+    """The integration ended before its time."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Report:
+    """A run from the command line and what came of it."""
+
+    scenario: Scenario
+    method: str
+    run: Trajectory
+    wall_time: float  # of the integration alone [s]
+    findings: tuple[Finding, ...]
+    files: tuple[Path, ...]
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return everything as JSON has it."""
+        run = self.run
+        return {
+            "scenario": self.scenario.name,
+            "title": self.scenario.title,
+            "source": self.scenario.source,
+            "robot": asdict(self.scenario.robot),
+            "formulation": self.scenario.formulation,
+            "method": self.method,
+            "t_end": float(run.t[-1]),
+            "num_samples": len(run),
+            "success": run.success,
+            "status": run.status.name,
+            "message": run.message,
+            "findings": {finding.key: float(finding.value) for finding in self.findings},
+            "stats": {name: getattr(run.stats, name) for name in STATS},
+            "wall_time_s": self.wall_time,
+            "files": [str(path) for path in self.files],
+        }
+
+
+def run(
+    name: str,
+    out: Path,
+    *,
+    overwrite: bool,
+    console: Console,
+    method: str | None,
+    t_end: float | None,
+    rtol: float | None,
+    atol: float | None,
+) -> Report:
+    """Run a scenario by name or file and write its files; a failed run writes none."""
+    scenario = find_scenario(name)
+    targets = tuple(out / f"{scenario.name}{suffix}" for suffix in (".png", ".csv", ".nc"))
+    refuse_existing(out, targets, overwrite=overwrite)
+    for module, extra in (("matplotlib", "plot"), ("xarray", "data"), ("h5netcdf", "data")):
+        require(module, extra)
+    with DelayedBar(console, scenario.name, scenario.t_end if t_end is None else t_end) as bar:
+        start = time.perf_counter()
+        trajectory = scenario.simulate(
+            t_end=t_end, method=method, rtol=rtol, atol=atol, progress=bar
+        )
+        wall_time = time.perf_counter() - start
+    if trajectory.success:
+        write(scenario, trajectory, targets, overwrite=overwrite)
+    return Report(
+        scenario=scenario,
+        method=method or scenario.method,
+        run=trajectory,
+        wall_time=wall_time,
+        findings=scenario.summary(trajectory) if trajectory.success else (),
+        files=targets if trajectory.success else (),
+    )
+
+
+def find_scenario(name: str) -> Scenario:
+    """Return a scenario of the package by name, or a user's one by its file."""
+    if name.endswith(".toml") or Path(name).is_file():
+        return load_scenario(name)
+    return scenarios.get(name)
+
+
+def refuse_existing(out: Path, targets: tuple[Path, ...], *, overwrite: bool) -> None:
+    """Refuse before the run what would stop it after."""
+    if out.exists() and not out.is_dir():
+        raise NotADirectoryError(f"{out} is a file, not a folder to write to")
+    existing = [str(path) for path in targets if path.exists()]
+    if existing and not overwrite:
+        raise FileExistsError(
+            f"{', '.join(existing)} exist{'s' if len(existing) == 1 else ''} already; "
+            "give --overwrite to replace, or another folder with --out"
+        )
+
+
+def write(
+    scenario: Scenario, run: Trajectory, targets: tuple[Path, ...], *, overwrite: bool
+) -> None:
+    """Write picture, CSV and netCDF; they appear together when all three are complete."""
+    made = [folder for folder in (targets[0].parent, *targets[0].parent.parents) if not folder.exists()]
+    targets[0].parent.mkdir(parents=True, exist_ok=True)
+    try:
+        with ExitStack() as stack:
+            png, *data = [stack.enter_context(new_file(t, overwrite=overwrite)) for t in targets]
+            scenario.figure(run).savefig(png)
+            for path in data:
+                run.save(path)
+    except BaseException:
+        for folder in made:
+            folder.rmdir()
+        raise
+
+
+class DelayedBar:
+    """A progress bar on a run that lasts longer than BAR_DELAY."""
+
+    def __init__(self, console: Console, name: str, t_end: float) -> None:
+        self._bar = Progress(
+            TextColumn("{task.description}"),
+            BarColumn(),
+            TaskProgressColumn(),
+            TimeRemainingColumn(),
+            console=console,
+            transient=True,
+        )
+        self._task = self._bar.add_task(name, total=t_end)
+        self._shown_from = time.monotonic() + BAR_DELAY
+
+    def __enter__(self) -> DelayedBar:
+        return self
+
+    def __call__(self, t: float) -> None:
+        """Show the time reached [s]."""
+        if not self._bar.live.is_started and time.monotonic() >= self._shown_from:
+            self._bar.start()
+        self._bar.update(self._task, completed=t)
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._bar.stop()

@@ -1,0 +1,184 @@
+"""Runs: the robot under its tensions through time."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from cdcr import _core
+from cdcr._model import Model
+from cdcr._trajectory import Trajectory
+
+FloatArray = NDArray[np.float64]
+Interpolation = Literal["linear", "previous"]
+MethodName = Literal["bdf", "adams", "dopri5", "rk4"]
+
+
+@dataclass(frozen=True, eq=False)
+class TensionTable:
+    """Tensions at given times.
+
+    Parameters
+    ----------
+    t : (N,) array_like
+        Times, strictly increasing [s]. Integrators stop exactly at each.
+    tension : (N, num_cables) array_like
+        Tensions at those times [N]. Before the first and after the last time these rows hold.
+    interpolation : {"linear", "previous"}, optional
+        Connect the rows by lines, or hold each until the next time.
+    """
+
+    t: ArrayLike
+    tension: ArrayLike
+    interpolation: Interpolation = "linear"
+
+    def __post_init__(self) -> None:
+        if self.interpolation not in ("linear", "previous"):
+            raise ValueError(
+                f"interpolation must be 'linear' or 'previous', got {self.interpolation!r}"
+            )
+
+
+TensionFunction: TypeAlias = Callable[..., ArrayLike]
+Tension: TypeAlias = (
+    "ArrayLike | TensionTable | tuple[ArrayLike, ArrayLike] | TensionFunction | None"
+)
+
+
+def _takes_state(function: Callable[..., Any]) -> bool:
+    """Whether a tension function wants (t, q, qd) rather than t alone."""
+    try:
+        parameters = inspect.signature(function).parameters.values()
+    except (TypeError, ValueError):
+        return False
+    if any(p.kind is p.VAR_POSITIONAL for p in parameters):
+        return True
+    kinds = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
+    accepted = sum(p.kind in kinds for p in parameters)
+    required = sum(p.kind in kinds and p.default is p.empty for p in parameters)
+    if required == 3:
+        return True
+    if required <= 1 <= accepted:
+        return False
+    raise ValueError(
+        f"a tension function must take (t) or (t, q, qd), got one that needs {required} arguments"
+    )
+
+
+def tension_input(
+    model: Model, tension: Tension, break_points: Sequence[float] = ()
+) -> _core.TensionInput:
+    """Turn what a user gives as tension into the core's input."""
+    if tension is None:
+        tension = np.zeros(model.num_cables)
+    if callable(tension):
+        function = tension
+        if not _takes_state(function):
+            time_only = function
+            function = lambda t, q, qd: time_only(t)  # noqa: E731
+        return _core.TensionInput.function(model, function, [float(b) for b in break_points])
+    if len(break_points) > 0:
+        raise ValueError("break_points go with a tension function; a table has its own")
+    if isinstance(tension, tuple) and len(tension) == 2 and np.ndim(tension[1]) == 2:
+        tension = TensionTable(*tension)
+    if isinstance(tension, TensionTable):
+        linear = tension.interpolation == "linear"
+        return _core.TensionInput.table(model, tension.t, tension.tension, linear)
+    return _core.TensionInput.constant(model, tension)
+
+
+def _options(given: dict[str, Any]) -> _core.Options:
+    return _core.Options(**{name: value for name, value in given.items() if value is not None})
+
+
+def simulate(
+    model: Model,
+    q0: ArrayLike,
+    qd0: ArrayLike,
+    *,
+    t: ArrayLike,
+    tension: Tension = None,
+    method: MethodName = "bdf",
+    rtol: float | None = None,
+    atol: float | None = None,
+    step: float | None = None,
+    max_step: float | None = None,
+    max_steps: int | None = None,
+    break_points: Sequence[float] = (),
+    progress: Callable[[float], object] | None = None,
+    throw: bool = False,
+) -> Trajectory:
+    """Run the robot from a state and sample it at output times.
+
+    Parameters
+    ----------
+    model : Model
+        The robot, ready for computing.
+    q0, qd0 : (2n,) array_like
+        Bending vectors and their rates at the first time [rad], [rad/s].
+    t : (N,) array_like
+        Output times, strictly increasing; the first is the start [s].
+    tension : optional
+        None (no tension), (num_cables,) constant tensions [N], a `TensionTable` or a pair
+        ``(times, tensions)`` read as one, or a callable ``f(t)`` or ``f(t, q, qd)`` returning
+        tensions. A callable is the slow path: Python is called at every evaluation.
+    method : {"bdf", "adams", "dopri5", "rk4"}, optional
+        bdf and adams: CVODE. dopri5: Dormand-Prince 5(4), the quickest where nothing is stiff.
+        rk4: fixed step.
+
+    Returns
+    -------
+    Trajectory
+        A run that fails keeps the samples up to there; ``run.success`` and ``run.message`` tell.
+
+    Other Parameters
+    ----------------
+    rtol, atol : float, optional
+        Tolerances of one step, adaptive methods.
+    step : float, optional
+        Step of rk4 [s].
+    max_step : float, optional
+        Largest step of the adaptive methods [s].
+    max_steps : int, optional
+        Limit of internal steps in the run.
+    break_points : sequence of float, optional
+        Times at which a callable `tension` is not smooth [s]; the run stops exactly there.
+    progress : callable, optional
+        Told the time reached, every few hundred steps.
+    throw : bool, optional
+        Raise RuntimeError with the message when the run fails.
+
+    Raises
+    ------
+    ValueError
+        For an argument out of range; the sentence names it.
+    """
+    try:
+        chosen = _core.Method[method]
+    except KeyError:
+        known = ", ".join(repr(m.name) for m in _core.Method)
+        raise ValueError(f"method must be one of {known}, got {method!r}") from None
+    options = _options(
+        {"rtol": rtol, "atol": atol, "step": step, "max_step": max_step, "max_steps": max_steps}
+    )
+    raw = _core.simulate(
+        model, q0, qd0, t, tension_input(model, tension, break_points), chosen, options, progress
+    )
+    run = Trajectory(
+        model=model,
+        t=raw.t,
+        q=raw.q,
+        qd=raw.qd,
+        tension=raw.tension,
+        status=raw.status,
+        message=raw.message,
+        stats=raw.stats,
+    )
+    if throw and not run.success:
+        raise RuntimeError(run.message)
+    return run

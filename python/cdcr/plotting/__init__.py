@@ -1,0 +1,15 @@
+"""Pictures and films of runs and robots. Needs the extra ``plot``.
+
+Nothing here shows a window, uses pyplot or leaves Matplotlib's settings changed.
+"""
+# ruff: noqa: E402 - the extra is asked for before its first import, so that one sentence says so
+
+from cdcr._extras import require
+
+require("matplotlib", "plot")
+
+from cdcr.plotting.animation import animate
+from cdcr.plotting.panels import plot_run
+from cdcr.plotting.robot3d import plot_robot, plot_run_robot
+
+__all__ = ["animate", "plot_robot", "plot_run", "plot_run_robot"]

@@ -1,0 +1,128 @@
+"""A run as a film: the robot in space beside its bending angles and tensions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from numpy.typing import NDArray
+
+from cdcr._export import new_file
+from cdcr.plotting import panels, space
+from cdcr.plotting.geometry import states_at
+from cdcr.plotting.robot3d import RobotArtists, show_robot
+from cdcr.plotting.style import BLACK, StyledFigure, style
+from cdcr.plotting.video import MAX_GIF_FPS, film_path, write_film
+
+if TYPE_CHECKING:
+    from cdcr import Trajectory
+
+__all__ = ["animate"]
+
+SIZE = (10.0, 5.6)  # of the picture [in]
+DPI = 100  # with SIZE, even numbers of pixels: films want that
+ROBOT_ROOM = np.array([4.8, 5.4])  # of the robot's part, left [in]
+NUM_FITTED = 50  # shapes that must fit into the picture, besides all tips
+
+
+def animate(
+    run: Trajectory,
+    path: str | PathLike[str],
+    *,
+    fps: float = 30.0,
+    speed: float = 1.0,
+    overwrite: bool = False,
+    progress: Callable[[int, int], None] | None = None,
+) -> Path:
+    """Write a film of a run; see Trajectory.animate."""
+    path = film_path(Path(path))
+    for name, value in {"fps": fps, "speed": speed}.items():
+        if not (math.isfinite(value) and value > 0.0):
+            raise ValueError(f"{name} must be > 0 and finite, got {value!r}")
+    if path.suffix == ".gif" and fps > MAX_GIF_FPS:
+        raise ValueError(f"fps must be at most {MAX_GIF_FPS:g} in a .gif, got {fps!r}")
+    times = frame_times(run, speed / fps)
+
+    def frames() -> Iterator[NDArray[np.uint8]]:
+        for done, frame in enumerate(draw_frames(run, times), start=1):
+            yield frame
+            if progress is not None:
+                progress(done, len(times))
+
+    with new_file(path, overwrite=overwrite) as partial:
+        write_film(partial, frames(), fps)
+    return path
+
+
+def frame_times(run: Trajectory, step: float) -> NDArray[np.float64]:
+    """Return the times of the frames: every `step` [s] from the start, as far as the run goes."""
+    span = run.t[-1] - run.t[0]
+    count = math.floor(span / step + 1e-6) + 1  # a last frame must not be lost to rounding
+    times: NDArray[np.float64] = np.minimum(run.t[0] + step * np.arange(count), run.t[-1])
+    return times
+
+
+def draw_frames(run: Trajectory, times: NDArray[np.float64]) -> Iterator[NDArray[np.uint8]]:
+    """Yield a picture (height, width, 4) for each time.
+
+    What stands still is drawn once; each frame only draws what moves on a copy of it.
+    """
+    with style():
+        film = _Film(run)
+    states = states_at(run, times)
+    samples = np.searchsorted(run.t, times, side="right") - 1  # tensions hold until the next one
+    for time, q, sample in zip(times, states, samples, strict=True):
+        yield film.frame(time, q, run.tension[sample])
+
+
+class _Film:
+    """The picture with its moving parts."""
+
+    def __init__(self, run: Trajectory) -> None:
+        figure = StyledFigure(figsize=SIZE, dpi=DPI)
+        self._canvas = FigureCanvasAgg(figure)
+        robot_axes = space.add_axes(figure)
+        chosen = np.linspace(0, len(run) - 1, min(len(run), NUM_FITTED)).astype(int)
+        show_robot(robot_axes, run.model, run.q[chosen], run.tip)
+        scale, size = space.fit(robot_axes, ROBOT_ROOM)
+        space.place(robot_axes, scale, size)
+        self._robot = RobotArtists(robot_axes, run.model, run.q[0])
+        self._largest = np.max(run.tension, initial=0.0)
+
+        names = [panels.plot_theta] + ([panels.plot_tension] if run.model.num_cables else [])
+        grid = figure.add_gridspec(len(names), 1, left=0.57, right=0.98, bottom=0.1, top=0.93)
+        charts = [figure.add_subplot(grid[k]) for k in range(len(names))]
+        for plot, axes in zip(names, charts, strict=True):
+            plot(axes, run)
+            panels.show_time(axes, run, named=axes is charts[-1])
+        figure.align_ylabels(charts)
+        self._marks = [axes.axvline(run.t[0], color=BLACK, linewidth=1.0) for axes in charts]
+        self._clock = figure.text(0.02, 0.95, "", fontsize=12)
+
+        robot = self._robot
+        self._moving: list[Any] = [robot.disks, robot.backbone, *robot.cables]
+        self._moving += [*self._marks, self._clock]
+        for artist in self._moving:
+            artist.set_animated(True)
+        self._canvas.draw()
+        self._still = self._canvas.copy_from_bbox(figure.bbox)
+
+    def frame(
+        self, time: float, q: NDArray[np.float64], tension: NDArray[np.float64]
+    ) -> NDArray[np.uint8]:
+        """Return the picture (height, width, 4) of one moment."""
+        self._robot.update(q)
+        self._robot.show_tension(tension, self._largest)
+        self._robot.disks.do_3d_projection()
+        for mark in self._marks:
+            mark.set_xdata([time, time])
+        self._clock.set_text(f"t = {time:.2f} s")
+        self._canvas.restore_region(self._still)
+        for artist in self._moving:
+            artist.draw(self._canvas.get_renderer())
+        return np.array(self._canvas.buffer_rgba())

@@ -1,0 +1,165 @@
+"""The robot in space: base plate, backbone, disks and cables."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.colors import to_rgba
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # type: ignore[import-untyped]
+from numpy.typing import ArrayLike, NDArray
+
+from cdcr.plotting import space
+from cdcr.plotting.geometry import base_plate, robot_shape, states_at
+from cdcr.plotting.style import BLACK, DISK, GREY, StyledFigure, line_colors, style
+
+if TYPE_CHECKING:
+    from cdcr import Model, Trajectory
+
+__all__ = ["RobotArtists", "plot_robot", "plot_run_robot", "show_robot"]
+
+Array = NDArray[np.float64]
+
+SLACK_WIDTH, TAUT_WIDTH = 0.8, 2.2  # of the line of a cable [pt]
+FAINTEST = 0.25  # opacity of the earliest of several shapes
+PICTURE = np.array([7.0, 6.5])  # largest picture of a robot, legend apart [in]
+LEGEND_WIDTH = 1.3  # [in]
+
+
+class RobotArtists:
+    """The drawing of one robot. `update` moves it without drawing anew."""
+
+    def __init__(
+        self, axes: Any, model: Model, q: Array, *, alpha: float = 1.0, layer: float = 3.0
+    ) -> None:
+        """Draw the robot at q (2n,) [rad] into Axes3D, above what lies in lower layers."""
+        self._model = model
+        shape = robot_shape(model, q)
+        # Matplotlib sorts whole artists only by depth, so the order is fixed: cables in front.
+        self.disks = Poly3DCollection(
+            shape.disks,
+            facecolor=to_rgba(DISK, 0.6 * alpha),
+            edgecolor=to_rgba(GREY, alpha),
+            linewidth=0.7,
+            zorder=layer,
+        )
+        axes.add_collection3d(self.disks, autolim=False)
+        (self.backbone,) = axes.plot(
+            *shape.backbone.T, color=BLACK, linewidth=2.4, alpha=alpha, zorder=layer + 0.1
+        )
+        self.cables = [
+            axes.plot(*cable.T, color=color, linewidth=1.2, alpha=alpha, zorder=layer + 0.2)[0]
+            for cable, color in zip(shape.cables, line_colors(model.num_cables), strict=True)
+        ]
+
+    def update(self, q: Array) -> None:
+        """Move everything to q (2n,) [rad]."""
+        shape = robot_shape(self._model, q)
+        self.disks.set_verts(shape.disks)
+        self.backbone.set_data_3d(*shape.backbone.T)
+        for line, cable in zip(self.cables, shape.cables, strict=True):
+            line.set_data_3d(*cable.T)
+
+    def show_tension(self, tension: Array, largest: float) -> None:
+        """Draw the cables the thicker, the more tension (num_cables,) they carry."""
+        for line, value in zip(self.cables, tension, strict=True):
+            share = value / largest if largest > 0.0 else 0.0
+            line.set_linewidth(SLACK_WIDTH + (TAUT_WIDTH - SLACK_WIDTH) * share)
+
+    def name_cables(self, suffixes: list[str] | None = None) -> None:
+        """Name the cables for the legend."""
+        for j, line in enumerate(self.cables):
+            line.set_label(f"cable {j + 1}" + (suffixes[j] if suffixes else ""))
+
+
+def plot_robot(
+    model: Model,
+    q: ArrayLike,
+    ax: Any = None,
+    *,
+    tension: ArrayLike | None = None,
+    alpha: float = 1.0,
+) -> Any:
+    """Draw a robot in space, to scale.
+
+    Parameters
+    ----------
+    model : Model
+        The robot.
+    q : array_like, shape (2n,)
+        Bending vectors [rad].
+    ax : Axes3D, optional
+        Axes to draw into; by default those of a new figure.
+    tension : array_like, shape (num_cables,), optional
+        Tensions [N]: told in the legend, and taut cables are drawn thicker.
+    alpha : float
+        Opacity, 0 to 1.
+
+    Returns
+    -------
+    Axes3D
+        The axes; their figure is ``ax.figure``.
+    """
+    state = _checked("q", q, model.num_coordinates)
+    with style():
+        axes = space.add_axes(StyledFigure(figsize=PICTURE)) if ax is None else ax
+        show_robot(axes, model, [state])
+        robot = RobotArtists(axes, model, state, alpha=alpha)
+        if tension is None:
+            robot.name_cables()
+        else:
+            values = _checked("tension", tension, model.num_cables)
+            robot.show_tension(values, np.max(values, initial=0.0))
+            robot.name_cables([f": {value:g} N" for value in values])
+        if ax is None:
+            _finish(axes)
+    return axes
+
+
+def plot_run_robot(
+    run: Trajectory, times: ArrayLike | None = None, *, num: int = 5, ax: Any = None
+) -> Any:
+    """Draw the robot at several times of a run; see Trajectory.plot_robot."""
+    if times is None:
+        times = np.linspace(run.t[0], run.t[-1], num)
+    chosen = np.atleast_1d(np.asarray(times, dtype=np.float64))
+    states = states_at(run, chosen)
+    fading = np.linspace(FAINTEST, 1.0, len(chosen)) if len(chosen) > 1 else [1.0]
+    with style():
+        axes = space.add_axes(StyledFigure(figsize=PICTURE)) if ax is None else ax
+        show_robot(axes, run.model, states, run.tip)
+        axes.plot(*run.tip.T, color=GREY, linewidth=0.9, linestyle=":", label="path of the tip")
+        for k, (time, q, alpha) in enumerate(zip(chosen, states, fading, strict=True)):
+            robot = RobotArtists(axes, run.model, q, alpha=alpha, layer=3.0 + k)
+            robot.backbone.set_label(f"{time:.3g} s")
+        robot.name_cables()
+        if ax is None:
+            _finish(axes)
+    return axes
+
+
+def show_robot(axes: Any, model: Model, states: Iterable[Array], *more: Array) -> None:
+    """Show a base plate, and make Axes3D wide enough for all states (M, 2n) and more points."""
+    plate = base_plate(model)
+    shapes = [robot_shape(model, q).points for q in states]
+    space.show_points(axes, np.concatenate([plate, *shapes, *more]))
+    base = Poly3DCollection([plate], facecolor=GREY, edgecolor=BLACK, linewidth=0.8, zorder=1)
+    axes.add_collection3d(base, autolim=False)
+
+
+def _finish(axes: Any) -> None:
+    """Give a new picture its size, and its legend at the right."""
+    scale, size = space.fit(axes, PICTURE)
+    figure = axes.figure
+    figure.set_size_inches(size + [LEGEND_WIDTH, 0.0])
+    space.place(axes, scale, size)
+    if axes.get_legend_handles_labels()[0]:
+        figure.legend(loc="center right", borderaxespad=0.5, handlelength=1.4)
+
+
+def _checked(name: str, value: ArrayLike, size: int) -> Array:
+    array = np.asarray(value, dtype=np.float64)
+    if array.shape != (size,):
+        raise ValueError(f"{name} must have shape ({size},), got {array.shape}")
+    return array

@@ -1,0 +1,92 @@
+"""Axes in space that show a robot to scale and fill the picture."""
+
+from __future__ import annotations
+
+from itertools import product
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+from mpl_toolkits.mplot3d import proj3d  # type: ignore[import-untyped]
+from numpy.typing import NDArray
+
+__all__ = ["add_axes", "fit", "place", "show_points"]
+
+Array = NDArray[np.float64]
+
+VIEW = {"elev": 20.0, "azim": -65.0}  # [deg]
+MAX_TICKS = 7  # along the longest side
+SLENDEREST = 0.3  # shortest side of the box over its longest: room for the numbers
+LABEL_OFFSET, TICK_OFFSET = 26.0, 11.5  # of a cube's labels and numbers [pt]
+LABELS = (0.55, 0.55, 0.85, 0.2)  # room left, below, right, above the box for its labels [in]
+
+
+def add_axes(figure: Figure) -> Any:
+    """Add Axes3D with a parallel projection, labelled in metres."""
+    axes: Any = figure.add_axes((0.0, 0.0, 1.0, 1.0), projection="3d", proj_type="ortho")
+    axes.view_init(**VIEW)
+    axes.computed_zorder = False
+    axes.set(xlabel="x [m]", ylabel="y [m]", zlabel="z [m]")
+    for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
+        axis.pane.fill = False
+        axis.pane.set_edgecolor("none")
+    return axes
+
+
+def show_points(axes: Any, points: Array) -> None:
+    """Widen Axes3D to show points (P, 3) [m], with the same scale in all directions."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    if axes.has_data():
+        shown = _limits(axes)
+        low, high = np.minimum(low, shown[:, 0]), np.maximum(high, shown[:, 1])
+    size = high - low
+    missing = np.maximum(SLENDEREST * size.max() - size, 0.0)
+    low, high = low - missing / 2, high + missing / 2
+    axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
+    _number_axes(axes, low, high)
+
+
+def _number_axes(axes: Any, low: Array, high: Array) -> None:
+    """Give the box its proportions, and its axes as many numbers as have room."""
+    size = high - low
+    axes.set_box_aspect(size)
+    cube = size / np.sqrt(np.mean(size**2))  # 1 for a cube
+    for k, axis in enumerate((axes.xaxis, axes.yaxis, axes.zaxis)):
+        nbins = max(2, round(MAX_TICKS * size[k] / size.max()))
+        ticks = MaxNLocator(nbins).tick_values(low[k], high[k])
+        corner = low[k] + 0.2 * size[k] * (axis is axes.yaxis)  # where x and y meet, x is numbered
+        axis.set_ticks(ticks[(ticks >= corner) & (ticks <= high[k])])
+        # Matplotlib keeps labels off an axis by shares of the other two sides: even that out.
+        away = np.sqrt(np.mean(np.delete(cube, k) ** 2))
+        axis.labelpad = LABEL_OFFSET / away - 21.0
+        axis.set_tick_params(pad=TICK_OFFSET / away - 8.0)
+
+
+def fit(axes: Any, room: Array) -> tuple[float, Array]:
+    """Return the scale at which Axes3D fills a room (width, height) and the size it takes [in].
+
+    Matplotlib draws Axes3D into a square; the scale is the side of that square.
+    """
+    corners = np.array(list(product(*_limits(axes))))
+    x, y, _ = proj3d.proj_transform(*corners.T, axes.get_proj())
+    box = np.array([np.ptp(x), np.ptp(y)]) / axes.viewLim.width
+    left, below, right, above = LABELS
+    labels = np.array([left + right, below + above])
+    scale = float(np.min((room - labels) / box))
+    return scale, scale * box + labels
+
+
+def place(axes: Any, scale: float, size: Array) -> None:
+    """Put Axes3D of a size (width, height) [in] at the left of its figure, half-way up."""
+    paper = axes.figure.get_size_inches()
+    left, below, right, above = LABELS
+    center = np.array([size[0] + left - right, paper[1] + below - above]) / 2
+    # The middle of the box has the coordinates (0, 0) of the square.
+    corner = center + scale * axes.viewLim.min / axes.viewLim.size
+    axes.set_position((*(corner / paper), *(scale / paper)))
+
+
+def _limits(axes: Any) -> Array:
+    """Lower and upper limit of x, y, z (3, 2) [m]."""
+    return np.array([axes.get_xlim(), axes.get_ylim(), axes.get_zlim()])

@@ -1,0 +1,74 @@
+"""Pictures one after the other as a film: GIF by Pillow, MP4 by ffmpeg."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from collections.abc import Iterable, Iterator
+from itertools import chain
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+__all__ = ["MAX_GIF_FPS", "film_path", "write_film"]
+
+Frame = NDArray[np.uint8]  # (height, width, 4): red, green, blue, opacity
+GIF_COLORS = 64
+MAX_GIF_FPS = 50.0  # browsers slow down anything faster
+
+
+def film_path(path: Path) -> Path:
+    """Return the path with the suffix of the format to write, or say why it cannot be written."""
+    if not path.suffix:
+        return path.with_suffix(".mp4" if shutil.which("ffmpeg") else ".gif")
+    if path.suffix not in (".gif", ".mp4"):
+        raise ValueError(f"the file name must end in .gif or .mp4, got {path.name!r}")
+    if path.suffix == ".mp4" and not shutil.which("ffmpeg"):
+        raise RuntimeError(
+            f"writing {path.name} needs the program ffmpeg, which is not on the PATH; "
+            "install it, or write a .gif"
+        )
+    return path
+
+
+def write_film(path: Path, frames: Iterable[Frame], fps: float) -> None:
+    """Write frames, at least one, to a .gif or .mp4."""
+    write = _write_gif if path.suffix == ".gif" else _write_mp4
+    write(path, iter(frames), fps)
+
+
+def _write_gif(path: Path, frames: Iterator[Frame], fps: float) -> None:
+    # A colour table for each frame, made at once, so that a waiting frame takes a byte a pixel.
+    first, *rest = (_indexed(frame) for frame in frames)
+    # A GIF counts in hundredths of a second: round the frames' times, so that errors cancel.
+    times = np.rint(np.arange(len(rest) + 2) * 100.0 / fps).astype(int)
+    durations = (10 * np.diff(times)).tolist()  # Pillow counts in milliseconds
+    first.save(path, save_all=True, append_images=rest, duration=durations, loop=0)
+
+
+def _indexed(frame: Frame) -> Image.Image:
+    image = Image.fromarray(frame).convert("RGB")
+    return image.quantize(GIF_COLORS, Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+
+
+def _write_mp4(path: Path, frames: Iterator[Frame], fps: float) -> None:
+    first = next(frames)
+    height, width, _ = first.shape
+    command = ["ffmpeg", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgba"]
+    command += ["-s", f"{width}x{height}", "-r", f"{fps:.12g}", "-i", "-"]
+    command += ["-c:v", "h264", "-pix_fmt", "yuv420p", str(path)]  # what every player understands
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE) as ffmpeg:
+        assert ffmpeg.stdin is not None
+        try:
+            for frame in chain([first], frames):
+                ffmpeg.stdin.write(frame.tobytes())
+        except BrokenPipeError:
+            pass  # ffmpeg has given up, and says why below
+        except BaseException:
+            ffmpeg.kill()
+            raise
+        _, complaint = ffmpeg.communicate()
+    if ffmpeg.returncode:
+        raise RuntimeError(f"ffmpeg could not write {path.name}: {complaint.decode().strip()}")

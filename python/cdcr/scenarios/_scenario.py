@@ -1,0 +1,145 @@
+"""What a scenario is: a robot, a start, tensions over time, and what is told about the run."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cdcr._fields import Check
+from cdcr._model import Model
+from cdcr._robot import Robot
+from cdcr._simulate import TensionTable, simulate
+from cdcr._trajectory import Trajectory
+from cdcr.scenarios._findings import Finding, findings
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+def _figure(scenario: Scenario, run: Trajectory) -> Figure:
+    from cdcr.scenarios._figure import run_figure
+
+    return run_figure(scenario, run)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Scenario:
+    """A run that can be repeated: data, and how to summarise and draw it.
+
+    Parameters
+    ----------
+    name, title, description, source : str
+        What it is called, what happens in it, and where its numbers come from.
+    robot : Robot
+        The robot.
+    q0, qd0 : tuple of float, 2n each
+        Bending vectors [rad] and their rates [rad/s] at t = 0.
+    tension : tuple of float, num_cables, or TensionTable
+        Cable tensions [N], constant or over time.
+    t_end : float
+        End of the run [s].
+    num_samples : int
+        Number of samples, evenly spaced, both ends included.
+    formulation : str
+        Of the model's equations.
+    method : str
+        Integration method: "bdf", "adams", "dopri5" or "rk4".
+    rtol, atol, step, max_step : float, optional
+        Tolerances of the adaptive methods, step of rk4 [s] and largest step [s].
+    tell : callable
+        From scenario and run to the findings of `summary`.
+    draw : callable
+        From scenario and run to the picture of `figure`.
+    """
+
+    name: str
+    title: str
+    description: str
+    source: str
+    robot: Robot
+    q0: tuple[float, ...]
+    qd0: tuple[float, ...]
+    tension: tuple[float, ...] | TensionTable
+    t_end: float
+    num_samples: int
+    formulation: str = "exact"
+    method: str = "bdf"
+    rtol: float | None = None
+    atol: float | None = None
+    step: float | None = None
+    max_step: float | None = None
+    tell: Callable[[Scenario, Trajectory], tuple[Finding, ...]] = findings
+    draw: Callable[[Scenario, Trajectory], Figure] = _figure
+
+    def times(self, t_end: float | None = None, num_samples: int | None = None) -> NDArray[np.float64]:
+        """Return the output times (N,) [s]; another end alone leaves their spacing."""
+        check, wanted = Check(), "a time > 0 s and finite"
+        end = check.number("t_end", self.t_end if t_end is None else t_end, wanted)
+        if not (0.0 < end < math.inf) and not check.sentences:
+            check.refuse("t_end", wanted, t_end)
+        check.done()
+        if num_samples is None:
+            num_samples = 1 + max(1, round((self.num_samples - 1) * end / self.t_end))
+        num = check.whole("num_samples", num_samples, "a whole number >= 2")
+        if num < 2 and not check.sentences:
+            check.refuse("num_samples", "a whole number >= 2", num_samples)
+        check.done()
+        return np.linspace(0.0, end, num)
+
+    def simulate(
+        self,
+        *,
+        t_end: float | None = None,
+        num_samples: int | None = None,
+        method: str | None = None,
+        rtol: float | None = None,
+        atol: float | None = None,
+        step: float | None = None,
+        max_step: float | None = None,
+        max_steps: int | None = None,
+        progress: Callable[[float], None] | None = None,
+    ) -> Trajectory:
+        """Run the scenario.
+
+        Parameters
+        ----------
+        t_end : float, optional
+            Another end of the run [s]; without `num_samples`, samples keep their spacing.
+        num_samples : int, optional
+            Another number of samples.
+        method, rtol, atol, step, max_step : optional
+            In place of the scenario's own; see `cdcr.simulate`.
+        max_steps, progress : optional
+            See `cdcr.simulate`.
+
+        Returns
+        -------
+        Trajectory
+        """
+        return simulate(
+            Model(self.robot, formulation=self.formulation),
+            self.q0,
+            self.qd0,
+            t=self.times(t_end, num_samples),
+            tension=self.tension,
+            method=method or self.method,
+            rtol=self.rtol if rtol is None else rtol,
+            atol=self.atol if atol is None else atol,
+            step=self.step if step is None else step,
+            max_step=self.max_step if max_step is None else max_step,
+            max_steps=max_steps,
+            progress=progress,
+        )
+
+    def summary(self, run: Trajectory) -> tuple[Finding, ...]:
+        """Return what is worth knowing about a run of this scenario."""
+        return self.tell(self, run)
+
+    def figure(self, run: Trajectory) -> Figure:
+        """Return a picture of a run of this scenario. Needs the extra ``plot``."""
+        return self.draw(self, run)

@@ -1,0 +1,178 @@
+#!/bin/sh
+# Brings a fresh machine to where cdcr runs: system packages, .venv, the package itself.
+# Looks first and does only what is missing, so a second run takes a second or two.
+#
+# Usage: tools/setup.sh demo|dev     dev adds what tests and linters need
+# Environment: PYTHON (python3), VENV (.venv)
+set -eu
+cd "$(dirname "$0")/.."
+
+goal=${1:-demo}
+python=${PYTHON:-python3}
+venv=${VENV:-.venv}
+log=build/setup.log
+case $goal in demo) steps=4 ;; *) steps=3 ;; esac
+
+step() { echo "[$1/$steps] $2"; }
+note() { echo "      $1"; }
+die() {
+  echo "cdcr set-up stopped: $1" >&2
+  exit 1
+}
+quietly() { "$@" >>"$log" 2>&1 </dev/null; }
+
+{ mkdir -p build && : >"$log"; } 2>/dev/null ||
+  die "$(pwd)/build cannot be written; work in a copy that belongs to you."
+
+# 1. System packages ---------------------------------------------------------------------------
+
+# True where one of the patterns exists under a prefix that CMake searches.
+installed() {
+  for prefix in $(echo "${CMAKE_PREFIX_PATH:-}" | tr ':;' '  ') /usr/local /usr; do
+    for pattern in "$@"; do
+      for file in "$prefix"/$pattern; do
+        if [ -e "$file" ]; then return 0; fi
+      done
+    done
+  done
+  return 1
+}
+
+packages=""
+need() {
+  [ -n "$packages" ] || note "to be installed:"
+  packages="$packages $1"
+  printf '        %-18s %s\n' "$1" "$2"
+}
+
+check_python() {
+  command -v "$python" >/dev/null || die "there is no $python here; cdcr needs Python 3.10 or \
+newer (apt-get install python3 python3-venv), or name one: make $goal PYTHON=/path/to/python3."
+  "$python" -c 'import sys; sys.exit(sys.version_info < (3, 10))' ||
+    die "cdcr needs Python 3.10 or newer, $python is $("$python" -V 2>&1); \
+name another one: make $goal PYTHON=/path/to/python3."
+}
+
+# The Debian package with a part of this Python, such as python3.11-dev for "dev".
+python_package() {
+  "$python" -c 'import sys; sys.exit(sys.base_prefix != "/usr")' ||
+    die "$python, which is not the system's own, was installed without its $2; \
+add that, or name another Python: make $goal PYTHON=/usr/bin/python3."
+  "$python" -c "import sys; print('python%d.%d-$1' % sys.version_info[:2])"
+}
+
+find_missing_packages() {
+  command -v "${CXX:-c++}" >/dev/null || need g++ "compiles the C++ core"
+  installed share/eigen3/cmake/Eigen3Config.cmake 'lib*/cmake/eigen3/Eigen3Config.cmake' ||
+    need libeigen3-dev "vectors and matrices of the C++ core"
+  installed 'lib/*/libsundials_cvodes.a' 'lib*/libsundials_cvodes.a' ||
+    need libsundials-dev "CVODE, the default integrator; brings many packages of its own"
+  if ! "$python" -c 'import os, sys, sysconfig
+sys.exit(not os.path.exists(os.path.join(sysconfig.get_path("include"), "Python.h")))'; then
+    package=$(python_package dev "header files (Python.h)")
+    need "$package" "Python.h, to bind the core to Python"
+  fi
+  if ! "$python" -c 'import ensurepip, venv' 2>/dev/null; then
+    package=$(python_package venv "modules venv and ensurepip")
+    need "$package" "makes $venv"
+  fi
+  [ "$goal" = demo ] || installed 'lib*/cmake/doctest/doctestConfig.cmake' ||
+    need doctest-dev "runs the C++ tests"
+}
+
+install_packages() {
+  command="apt-get install --no-install-recommends$packages"
+  command -v apt-get >/dev/null ||
+    die "this machine has no apt-get; install these by its own means:$packages."
+  if [ "$(id -u)" -eq 0 ]; then
+    sudo=""
+  elif command -v sudo >/dev/null && quietly sudo true; then
+    sudo=sudo
+  else
+    die "installing system packages takes root's rights; run as root: $command"
+  fi
+  note "by: ${sudo:+sudo }$command"
+  # A package list that is missing or old is the usual cause of a first failure.
+  apt_get install -y --no-install-recommends $packages ||
+    { apt_get update && apt_get install -y --no-install-recommends $packages; } ||
+    die "apt-get could not install$packages; is the network up? Its own words are in $log."
+}
+
+apt_get() {
+  quietly $sudo env DEBIAN_FRONTEND=noninteractive NEEDRESTART_SUSPEND=1 \
+    apt-get -o DPkg::Lock::Timeout=120 "$@"
+}
+
+step 1 "system packages"
+check_python
+find_missing_packages
+[ -z "$packages" ] || install_packages
+
+# 2. Python environment ------------------------------------------------------------------------
+
+identity='import pip, sys; print(sys.version, sys.base_prefix)'
+same_python() {
+  [ -x "$venv/bin/python" ] &&
+    [ "$("$venv/bin/python" -c "$identity" 2>/dev/null)" = \
+      "$("$python" -c "${identity#import pip, }" 2>/dev/null)" ]
+}
+
+pip() { quietly env PIP_DISABLE_PIP_VERSION_CHECK=1 "$venv/bin/python" -m pip "$@"; }
+pip_online() {
+  PIP_RETRIES=${PIP_RETRIES:-2} pip "$@" ||
+    die "pip could not download the Python packages; is the network up? Its own words are in $log."
+}
+
+# Installs a dependency group of pyproject.toml, unless that has been done since the last change.
+install_group() {
+  stamp=$venv/.cdcr-$1
+  if [ ! "$stamp" -nt pyproject.toml ]; then
+    note "installing the tools of group \"$1\""
+    pip_online install --group "$1"
+    touch "$stamp"
+  fi
+}
+
+step 2 "Python environment $venv ($("$python" -V 2>&1))"
+if ! same_python; then
+  rm -rf "$venv"
+  quietly "$python" -m venv "$venv" || die "$python could not make $venv; see $log."
+fi
+# Groups need pip 25.1.
+"$venv/bin/python" -c 'import pip, sys
+sys.exit(tuple(map(int, pip.__version__.split(".")[:2])) < (25, 1))' ||
+  pip_online install --upgrade 'pip>=25.1'
+install_group build
+[ "$goal" = demo ] || install_group dev
+
+# 3. cdcr ----------------------------------------------------------------------------------------
+
+stamp=$venv/.cdcr-installed
+up_to_date() {
+  [ -e "$stamp" ] &&
+    [ -z "$(find CMakeLists.txt LICENSE pyproject.toml cmake cpp bindings python \
+      -newer "$stamp" ! -name '*.md' ! -path '*/__pycache__*' -print -quit)" ]
+}
+
+build_failed() {
+  grep -m 1 -A 5 -E 'error: |CMake Error' "$log" >&2 || true
+  die "cdcr could not be built; the whole log is $log."
+}
+
+step 3 "cdcr"
+if up_to_date; then
+  note "unchanged since it was installed"
+else
+  note "building"
+  rm -rf "$stamp" build/wheel
+  : >build/started
+  # The tools are already in .venv, so this needs no network: a failure is the build's own.
+  pip wheel --no-deps --no-index --no-build-isolation -C build-dir=build/python \
+    -w build/wheel . || build_failed
+  note "installing with extras all"
+  pip uninstall -y cdcr
+  for wheel in build/wheel/cdcr-*.whl; do
+    pip_online install "$wheel[all]"
+  done
+  touch -r build/started "$stamp"
+fi
