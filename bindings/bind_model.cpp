@@ -1,3 +1,5 @@
+#include <pybind11/native_enum.h>
+
 #include "arrays.hpp"
 #include "bind.hpp"
 
@@ -7,8 +9,14 @@ namespace py = pybind11;
 using namespace py::literals;
 
 void bind_model(py::module_& m) {
+  py::native_enum<Formulation>(m, "Formulation", "enum.Enum", "Which inertia functions to use.")
+      .value("exact", Formulation::exact)
+      .value("taylor", Formulation::taylor)
+      .value("printed", Formulation::printed)
+      .value("printed_taylor", Formulation::printed_taylor)
+      .finalize();
   PyModel model(m, "Model");
-  model.def(py::init<Robot>(), "robot"_a)
+  model.def(py::init<Robot, Formulation>(), "robot"_a, "formulation"_a)
       .def_property_readonly("num_sections", &Model::num_sections)
       .def_property_readonly("num_coordinates", &Model::num_coordinates)
       .def_property_readonly("num_cables", &Model::num_cables)

@@ -110,11 +110,11 @@ find_missing_packages
 
 # 2. Python environment ------------------------------------------------------------------------
 
-identity='import pip, sys; print(sys.version, sys.base_prefix)'
+identity='import sys; print(sys.version, sys.base_prefix)'
+# A .venv without pip, or of a Python that has gone or is not the one asked for, is made anew.
 same_python() {
-  [ -x "$venv/bin/python" ] &&
-    [ "$("$venv/bin/python" -c "$identity" 2>/dev/null)" = \
-      "$("$python" -c "${identity#import pip, }" 2>/dev/null)" ]
+  [ -x "$venv/bin/python" ] && "$venv/bin/python" -c 'import pip' 2>/dev/null &&
+    [ "$("$venv/bin/python" -c "$identity")" = "$("$python" -c "$identity")" ]
 }
 
 pip() { quietly env PIP_DISABLE_PIP_VERSION_CHECK=1 "$venv/bin/python" -m pip "$@"; }

@@ -71,7 +71,7 @@ class Cvode final : public Integrator {
   int guarded(Function function) noexcept;
 
   Status begin(double t, const VectorXd& y, double t_stop);
-  [[nodiscard]] Status why_undefined(const double* y) const noexcept;
+  Status evaluate(double t, const double* y, VectorRef slope);
   [[nodiscard]] double norm(const VectorXd& v) const noexcept;
   double first_step();
   Status advance();
@@ -87,7 +87,7 @@ class Cvode final : public Integrator {
   double time_ = 0.0, stop_ = 0.0;
   VectorXd state_, slope_, moved_, slope_there_;
   Status status_ = Status::not_started;
-  Status undefined_ = Status::non_finite_state;  // why the last derivative was not finite
+  Status undefined_ = Status::ok;  // or why the last derivative does not exist
   std::exception_ptr exception_;                 // thrown during a call of CVODE
   Stats stats_;  // without the failures that CVODE has counted since the last restart
 };
@@ -135,12 +135,9 @@ int Cvode::guarded(Function function) noexcept {
 int Cvode::derivative(double t, N_Vector y, N_Vector dydt, void* self) noexcept {
   Cvode& me = *static_cast<Cvode*>(self);
   return me.guarded([&] {
-    ++me.stats_.evaluations;
-    me.plant_.derivative(t, NV_DATA_S(y), NV_DATA_S(dydt));
-    const bool finite =
-        Eigen::Map<const VectorXd>(NV_DATA_S(dydt), NV_LENGTH_S(dydt)).allFinite();
-    if (!finite) me.undefined_ = me.why_undefined(NV_DATA_S(y));
-    return finite;
+    Eigen::Map<VectorXd> slope(NV_DATA_S(dydt), NV_LENGTH_S(dydt));
+    me.undefined_ = me.evaluate(t, NV_DATA_S(y), slope);
+    return me.undefined_ == Status::ok;
   });
 }
 
@@ -169,11 +166,8 @@ Status Cvode::begin(double t, const VectorXd& y, double t_stop) {
   time_ = t;
   stop_ = t_stop;
   state_ = y;
-  const Status status = plant_.check(state_.data());
+  const Status status = evaluate(time_, state_.data(), slope_);
   if (status != Status::ok) return status;
-  ++stats_.evaluations;
-  plant_.derivative(time_, state_.data(), slope_.data());
-  if (!slope_.allFinite()) return why_undefined(state_.data());
 
   void* const cvode = cvode_.get();
   const double h = first_step();
@@ -185,9 +179,13 @@ Status Cvode::begin(double t, const VectorXd& y, double t_stop) {
   return Status::ok;
 }
 
-Status Cvode::why_undefined(const double* y) const noexcept {
+/// y' at (t, y), which the tension function gets to see only where the model holds.
+Status Cvode::evaluate(double t, const double* y, VectorRef slope) {
   const Status status = plant_.check(y);
-  return status == Status::ok ? Status::non_finite_state : status;
+  if (status != Status::ok) return status;
+  ++stats_.evaluations;
+  plant_.derivative(t, y, slope.data());
+  return slope.allFinite() ? Status::ok : Status::non_finite_state;
 }
 
 /// Root mean square in units of the tolerances at the present state.
@@ -210,13 +208,14 @@ double Cvode::first_step() {
   const double wanted = d0 < 1e-5 || d1 < 1e-5 ? 1e-6 : 0.01 * d0 / d1;
   const double h0 = std::min(wanted, stop_ - time_);
   moved_ = state_ + h0 * slope_;
-  ++stats_.evaluations;
-  plant_.derivative(time_ + h0, moved_.data(), slope_there_.data());
-  moved_ = (slope_there_ - slope_) / h0;
-  const double h = std::min(std::sqrt(0.5 / norm(moved_)), 100.0 * h0);
+  double h = h0;
+  if (evaluate(time_ + h0, moved_.data(), slope_there_) == Status::ok) {
+    moved_ = (slope_there_ - slope_) / h0;
+    h = std::min(std::sqrt(0.5 / norm(moved_)), 100.0 * h0);
+  }
   const double resolution =
       4.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(time_), std::abs(stop_));
-  return std::max(std::isfinite(h) ? h : h0, resolution);
+  return std::max(h, resolution);
 }
 
 Status Cvode::step() {

@@ -9,7 +9,26 @@
 
 namespace cdcr {
 
-Model::Model(Robot robot) : robot_(std::move(robot)) {
+namespace {
+
+detail::SectionSeries series_of(const Section& section, double payload, Formulation formulation) {
+  switch (formulation) {
+    case Formulation::exact:
+      break;
+    case Formulation::taylor:
+      return detail::cut_after_fourth_power(detail::exact_series(section, payload));
+    case Formulation::printed:
+      return detail::printed_series(section, payload);
+    case Formulation::printed_taylor:
+      return detail::cut_after_fourth_power(detail::printed_series(section, payload));
+  }
+  return detail::exact_series(section, payload);
+}
+
+}  // namespace
+
+Model::Model(Robot robot, Formulation formulation)
+    : robot_(std::move(robot)), formulation_(formulation) {
   validate(robot_);
   const auto n = static_cast<Index>(robot_.sections.size());
   if (n != 1) {
@@ -21,7 +40,7 @@ Model::Model(Robot robot) : robot_(std::move(robot)) {
   Index num_cables = 0;
   for (Index i = 0; i < n; ++i) {
     const Section& section = robot_.sections[i];
-    tables_.emplace_back(detail::exact_series(section, robot_.payload));
+    tables_.emplace_back(series_of(section, robot_.payload, formulation));
     stiffness_[i] = section.stiffness();
     damping_[i] = section.damping;
     num_cables += static_cast<Index>(section.cable_angles.size());

@@ -21,4 +21,10 @@ struct SectionSeries {
 /// Power series about the straight section, exact up to the last term kept.
 [[nodiscard]] SectionSeries exact_series(const Section& section, double payload);
 
+/// The paper's factors as printed, made consistent (paper_series.cpp).
+[[nodiscard]] SectionSeries printed_series(const Section& section, double payload);
+
+/// M11 and M22 cut after theta^4; weight is left whole.
+[[nodiscard]] SectionSeries cut_after_fourth_power(SectionSeries series);
+
 }  // namespace cdcr::detail

@@ -18,12 +18,12 @@ constexpr double sigma_limit = max_bending * max_bending;
 Series derivative(const Series& f) {
   Series d;
   for (std::size_t k = 1; k < f.size(); ++k) d.push_back(f[k] * static_cast<long double>(k));
-  d.push_back(0.0L);
   return d;
 }
 
 /// Coefficients in t of f(centre + half_width t), by repeated synthetic division.
 Series recentred(Series f, long double centre, long double half_width) {
+  if (f.size() < num_powers) f.resize(num_powers, 0.0L);  // a cut series is short
   const std::size_t n = f.size();
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t k = n - 1; k-- > i;) f[k] += centre * f[k + 1];

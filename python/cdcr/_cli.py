@@ -9,7 +9,7 @@ from cdcr._extras import require
 
 
 def main(args: Sequence[str] | None = None) -> None:
-    """Run the command line; exit codes: 0 fine, 1 the run failed, 2 a user's mistake, 130 Ctrl-C."""
+    """Run the command line; exit codes: 0 fine, 1 run failed, 2 user's mistake, 130 Ctrl-C."""
     try:
         require("typer", "cli")
         require("rich", "cli")

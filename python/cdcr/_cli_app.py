@@ -6,7 +6,7 @@ import json
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, cast
 
 import typer
 from rich.console import Console
@@ -14,6 +14,9 @@ from rich.console import Console
 import cdcr
 from cdcr import _cli_run, _cli_tables
 from cdcr._robot import Robot
+
+if TYPE_CHECKING:
+    from cdcr._simulate import MethodName
 
 app = typer.Typer(
     help="Dynamics of cable-driven continuum robots.",
@@ -63,14 +66,14 @@ def cdcr_command(
     """Dynamics of cable-driven continuum robots: scenarios, robots, pictures and data."""
 
 
-@app.command("list")
+@app.command("list", short_help="List the known scenarios and robots.")
 def list_command() -> None:
     """List the scenarios and robots that `run` and `info` know by name."""
     with _told_plainly():
         _cli_tables.print_list(Console())
 
 
-@app.command("info")
+@app.command("info", short_help="Show what a robot is made of.")
 def info_command(
     robot: Annotated[
         str, typer.Argument(metavar="ROBOT|FILE.toml", help="A name from `cdcr list` or a file.")
@@ -83,7 +86,7 @@ def info_command(
         _cli_tables.print_robot(Console(), robot, described)
 
 
-@app.command("run")
+@app.command("run", short_help="Run a scenario; write picture and data; print a summary.")
 def run_command(
     scenario: Annotated[
         str,
@@ -127,7 +130,7 @@ def run_command(
             out,
             overwrite=overwrite,
             console=Console(stderr=True),
-            method=method,
+            method=cast("MethodName | None", method),
             t_end=t_end,
             rtol=rtol,
             atol=atol,

@@ -16,10 +16,13 @@ from cdcr import scenarios
 from cdcr._export import new_file
 from cdcr._extras import require
 from cdcr._scenario_file import load_scenario
+from cdcr._simulate import MethodName
 from cdcr._trajectory import Trajectory
 from cdcr.scenarios import Scenario
 from cdcr.scenarios._findings import Finding
 
+# Modules the files are written with, and the extras that bring them.
+NEEDED = (("matplotlib", "plot"), ("xarray", "data"), ("h5netcdf", "data"), ("h5py", "data"))
 STATS = ("steps", "rejected", "evaluations", "jacobians", "newton_failures")
 BAR_DELAY = 1.0  # shorter runs show no progress bar [s]
 
@@ -54,7 +57,7 @@ class Report:
             "success": run.success,
             "status": run.status.name,
             "message": run.message,
-            "findings": {finding.key: float(finding.value) for finding in self.findings},
+            "findings": {finding.key: finding.value for finding in self.findings},
             "stats": {name: getattr(run.stats, name) for name in STATS},
             "wall_time_s": self.wall_time,
             "files": [str(path) for path in self.files],
@@ -67,7 +70,7 @@ def run(
     *,
     overwrite: bool,
     console: Console,
-    method: str | None,
+    method: MethodName | None,
     t_end: float | None,
     rtol: float | None,
     atol: float | None,
@@ -76,7 +79,7 @@ def run(
     scenario = find_scenario(name)
     targets = tuple(out / f"{scenario.name}{suffix}" for suffix in (".png", ".csv", ".nc"))
     refuse_existing(out, targets, overwrite=overwrite)
-    for module, extra in (("matplotlib", "plot"), ("xarray", "data"), ("h5netcdf", "data")):
+    for module, extra in NEEDED:
         require(module, extra)
     with DelayedBar(console, scenario.name, scenario.t_end if t_end is None else t_end) as bar:
         start = time.perf_counter()
@@ -119,8 +122,9 @@ def write(
     scenario: Scenario, run: Trajectory, targets: tuple[Path, ...], *, overwrite: bool
 ) -> None:
     """Write picture, CSV and netCDF; they appear together when all three are complete."""
-    made = [folder for folder in (targets[0].parent, *targets[0].parent.parents) if not folder.exists()]
-    targets[0].parent.mkdir(parents=True, exist_ok=True)
+    out = targets[0].parent
+    made = [folder for folder in (out, *out.parents) if not folder.exists()]
+    out.mkdir(parents=True, exist_ok=True)
     try:
         with ExitStack() as stack:
             png, *data = [stack.enter_context(new_file(t, overwrite=overwrite)) for t in targets]

@@ -6,6 +6,7 @@ import math
 from dataclasses import fields
 
 import numpy as np
+from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
@@ -15,24 +16,29 @@ from cdcr._cli_run import STATS, Report
 from cdcr._model import Model
 from cdcr._robot import Robot, Section
 
+_LABELS = {
+    "youngs_modulus": "Young's modulus",
+    "num_disks": "disks",
+    "cable_angles": "cable angles",
+}
 _SAME = 1e-9  # relative; two modes closer than this are told as one
 
 
 def _table(title: str, *columns: str) -> Table:
-    table = Table(title=Text(title), title_justify="left", title_style="bold")
+    """Return an empty table; its first column is for words, the others for numbers."""
+    table = Table(title=Text(title), title_justify="left", title_style="bold", box=SIMPLE_HEAD)
     for i, column in enumerate(columns):
-        table.add_column(column, justify="left" if i == 0 else "right")
+        table.add_column(column, justify="right" if i else "left")
     return table
 
 
 def print_list(console: Console) -> None:
     """Print scenarios and robots."""
-    table = Table(title="Scenarios", title_justify="left", title_style="bold")
-    table.add_column("name", no_wrap=True)
-    table.add_column("what happens")
+    table = _table("Scenarios", "name")
+    table.add_column("what happens, and its source")
     for name in scenarios.names():
         scenario = scenarios.get(name)
-        table.add_row(Text(name), Text(f"{scenario.title}\n{scenario.source}"))
+        table.add_row(Text(name, no_wrap=True), Text(f"{scenario.title}\n{scenario.source}"))
     console.print(table)
     table = _table("Robots", "name", "sections", "cables", "length [m]", "mass [kg]")
     for name in robots.names():
@@ -53,12 +59,13 @@ def print_robot(console: Console, name: str, robot: Robot) -> None:
     table = _table("Sections, base to tip", "", *numbers)
     for item in fields(Section):
         unit = item.metadata["unit"]
-        label = item.name.replace("_", " ")
+        label = _LABELS.get(item.name, item.name.replace("_", " "))
         if item.name == "cable_angles":
-            label, unit = "cable angles", "deg"
+            unit = "deg"
         _add_row(table, label, unit, [_text(getattr(s, item.name)) for s in robot.sections])
-    _add_row(table, "bending stiffness E I / l", "N m/rad", [_text(s.stiffness) for s in robot.sections])
-    _add_row(table, "mass", "kg", [_text(s.mass) for s in robot.sections])
+    stiffness = [_text(section.stiffness) for section in robot.sections]
+    _add_row(table, "bending stiffness E I / l", "N m/rad", stiffness)
+    _add_row(table, "mass", "kg", [_text(section.mass) for section in robot.sections])
     console.print(table)
 
     table = _table(name, "", "robot")
@@ -67,7 +74,7 @@ def print_robot(console: Console, name: str, robot: Robot) -> None:
     _add_row(table, "total mass", "kg", [_text(robot.mass)])
     _add_row(table, "gravity", "m/s^2", [", ".join(map(_text, robot.gravity))])
     _add_row(table, "cables", "", [str(robot.num_cables)])
-    _add_row(table, "natural frequency, straight", "", ["\n".join(straight_modes(robot))])
+    _add_row(table, "vibration about straight", "", ["\n".join(straight_modes(robot))])
     console.print(table)
 
 

@@ -34,6 +34,14 @@ class Method(enum.Enum):
     bdf = 2
     adams = 3
 
+class Formulation(enum.Enum):
+    """Which inertia functions to use."""
+
+    exact = 0
+    taylor = 1
+    printed = 2
+    printed_taylor = 3
+
 def status_message(status: Status) -> str: ...
 def polar_along(q: ArrayLike) -> tuple[FloatArray, FloatArray]: ...
 
@@ -93,7 +101,7 @@ class Allocation:
     def limiting(self) -> list[int]: ...
 
 class Model:
-    def __init__(self, robot: Robot) -> None: ...
+    def __init__(self, robot: Robot, formulation: Formulation) -> None: ...
     @property
     def num_sections(self) -> int: ...
     @property

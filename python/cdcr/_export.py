@@ -96,6 +96,8 @@ def _attributes(run: Trajectory) -> dict[str, str | int]:
         "cdcr_version": cdcr.__version__,
         "status": run.status.name,
         "message": run.message,
+        "method": run.method,
+        "formulation": run.model.formulation,
         "robot": json.dumps(asdict(run.model.robot)),
         "steps": stats.steps,
         "rejected": stats.rejected,

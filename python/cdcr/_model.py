@@ -13,7 +13,7 @@ from cdcr._robot import Robot
 
 FloatArray = NDArray[np.float64]
 
-FORMULATIONS = ("exact",)
+FORMULATIONS = tuple(f.name.replace("_", "-") for f in _core.Formulation)
 
 
 class ConvergenceError(RuntimeError):
@@ -82,8 +82,8 @@ class Model(_core.Model):
     ----------
     robot : Robot
         The robot described.
-    formulation : {"exact"}, optional
-        Which inertia functions to use.
+    formulation : {"exact", "taylor", "printed", "printed-taylor"}, optional
+        Which inertia functions to use; all but the first are the origin paper's, for one section.
 
     Examples
     --------
@@ -99,7 +99,9 @@ class Model(_core.Model):
             raise TypeError(f"robot must be a cdcr.Robot, got {type(robot).__name__}")
         if formulation not in FORMULATIONS:
             raise ValueError(f"formulation must be one of {FORMULATIONS}, got {formulation!r}")
-        super().__init__(robot._to_core())
+        super().__init__(
+            robot._to_core(), _core.Formulation[formulation.replace("-", "_")]
+        )
         self._robot = robot
         self._formulation = formulation
 

@@ -64,7 +64,7 @@ def _defaults(kind: type[Robot | Section]) -> dict[str, Any]:
 
 
 def robot_text(robot: Robot) -> str:
-    """Return the robot as TOML; every float with all the digits that tell it from its neighbours."""
+    """Return the robot as TOML; repr gives every float the digits it needs to come back exactly."""
     lines = list(_lines(robot, ("gravity", "payload")))
     for section in robot.sections:
         lines += ["", "[[sections]]", *_lines(section, [item.name for item in fields(section)])]

@@ -12,9 +12,9 @@ from cdcr._robot import Robot, Section
 _WANTED = {item.name: item.metadata["wanted"] for item in (*fields(Section), *fields(Robot))}
 
 
-def _number(name: str) -> Any:
-    """Return an optional field for which the description's default holds."""
-    return Field(default=None, description=_WANTED[name])
+def _optional(wanted: str, **limits: Any) -> Any:
+    """Return a key that may be left out; the default of Section or Robot then holds."""
+    return Field(default=None, description=wanted, **limits)
 
 
 class SectionTable(BaseModel):
@@ -26,15 +26,13 @@ class SectionTable(BaseModel):
     backbone_mass: float = Field(description=_WANTED["backbone_mass"])
     backbone_diameter: float = Field(description=_WANTED["backbone_diameter"])
     youngs_modulus: float = Field(description=_WANTED["youngs_modulus"])
-    disk_mass: float = _number("disk_mass")
-    disk_diameter: float = _number("disk_diameter")
-    num_disks: int = Field(default=None, ge=-(2**31), lt=2**31, description=_WANTED["num_disks"])
-    cable_radius: float = _number("cable_radius")
-    cable_angles: list[float] = Field(default=None, description="an array of 0 to 16 numbers [rad]")
-    cable_angles_deg: list[float] = Field(
-        default=None, description="an array of 0 to 16 numbers [deg]"
-    )
-    damping: float = _number("damping")
+    disk_mass: float = _optional(_WANTED["disk_mass"])
+    disk_diameter: float = _optional(_WANTED["disk_diameter"])
+    num_disks: int = _optional(_WANTED["num_disks"], ge=-(2**31), lt=2**31)
+    cable_radius: float = _optional(_WANTED["cable_radius"])
+    cable_angles: list[float] = _optional("an array of 0 to 16 numbers [rad]")
+    cable_angles_deg: list[float] = _optional("an array of 0 to 16 numbers [deg]")
+    damping: float = _optional(_WANTED["damping"])
 
 
 class RobotTable(BaseModel):
@@ -42,11 +40,6 @@ class RobotTable(BaseModel):
 
     model_config = ConfigDict(extra="forbid", strict=True)
 
-    gravity: list[float] = Field(
-        default=None,
-        min_length=3,
-        max_length=3,
-        description="an array of three numbers [m/s^2]",
-    )
-    payload: float = _number("payload")
+    gravity: list[float] = _optional("an array of 3 numbers [m/s^2]", min_length=3, max_length=3)
+    payload: float = _optional(_WANTED["payload"])
     sections: list[dict[str, Any]] = Field(description="one [[sections]] table for each section")

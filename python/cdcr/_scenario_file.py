@@ -21,7 +21,8 @@ Files named in it are found from the folder it is in.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -33,15 +34,16 @@ from cdcr._coordinates import bending
 from cdcr._model import Model
 from cdcr._robot import Robot
 from cdcr._robot_file import load_robot, robot_from_table
-from cdcr._simulate import TensionTable
+from cdcr._simulate import TensionTable, tension_input
 from cdcr._tension_file import read_tension_csv
 from cdcr._toml import complaints, read_toml, refuse, shown_toml
 from cdcr.scenarios import Scenario
 
 _ANGLES = ("theta", "theta_deg", "phi", "phi_deg")
 _RIVALS = (("theta", "theta_deg"), ("phi", "phi_deg"), *(("q", angle) for angle in _ANGLES))
-# Options a file gives as simulate takes them.
-_OPTIONS = ("t_end", "method", "rtol", "atol", "step", "max_step", "formulation")
+# Keys that a file has in common with Scenario.
+_COMMON = ("title", "description", "source", "formulation", "t_end", "num_samples", "method")
+_OPTIONS = ("rtol", "atol", "step", "max_step")
 
 
 def load_scenario(path: str | PathLike[str]) -> Scenario:
@@ -60,23 +62,18 @@ def load_scenario(path: str | PathLike[str]) -> Scenario:
     table = read_toml(file, "scenario file")
     refuse(str(file), complaints(ScenarioTable, table))
     robot = _robot(table["robot"], file)
-    formulation = table.get("formulation", "exact")
-    try:
-        Model(robot, formulation=formulation)
-    except ValueError as error:
-        refuse(str(file), str(error).splitlines())
+    with _said_by(str(file)):
+        model = Model(robot, formulation=table.get("formulation", "exact"))
     q0, qd0 = _initial(table.get("initial", {}), len(robot.sections), file)
+    given: dict[str, Any] = {"title": file.stem, "description": "", "source": str(file)}
+    given |= {name: table[name] for name in (*_COMMON, *_OPTIONS) if name in table}
     return Scenario(
         name=file.stem,
-        title=table.get("title", file.stem),
-        description=table.get("description", ""),
-        source=table.get("source", str(file)),
         robot=robot,
         q0=q0,
         qd0=qd0,
-        tension=_tension(table.get("tension"), robot.num_cables, file),
-        num_samples=table.get("num_samples", 1001),
-        **{name: table[name] for name in _OPTIONS if name in table},
+        tension=_tension(table.get("tension"), model, file),
+        **given,
     )
 
 
@@ -85,10 +82,17 @@ def _robot(value: str | dict[str, Any], file: Path) -> Robot:
         return robot_from_table(value, where=f"{file}, [robot]")
     if value.endswith(".toml"):
         return load_robot(file.parent / value)
-    try:
+    with _said_by(f"{file}, robot"):
         return robots.get(value)
+
+
+@contextmanager
+def _said_by(where: str) -> Iterator[None]:
+    """Begin what is refused inside with where it stands."""
+    try:
+        yield
     except ValueError as error:
-        raise ValueError(f"{file}: robot: {error}") from None
+        raise ValueError(f"{where}: {error}") from None
 
 
 def _initial(
@@ -117,9 +121,10 @@ def _initial(
     return tuple(map(float, q0)), tuple(map(float, table.get("qd", 2 * straight)))
 
 
-def _tension(value: Any, num_cables: int, file: Path) -> tuple[float, ...] | TensionTable:
+def _tension(value: Any, model: Model, file: Path) -> tuple[float, ...] | TensionTable:
     if isinstance(value, dict):
-        return _tension_over_time(value, num_cables, file)
+        return _tension_over_time(value, model, file)
+    num_cables = model.num_cables
     tension = [0.0] * num_cables if value is None else value
     if len(tension) != num_cables:
         wanted = f"tension must have {_count(num_cables, 'number')}, one for each cable"
@@ -127,22 +132,21 @@ def _tension(value: Any, num_cables: int, file: Path) -> tuple[float, ...] | Ten
     return tuple(map(float, tension))
 
 
-def _tension_over_time(table: dict[str, Any], num_cables: int, file: Path) -> TensionTable:
+def _tension_over_time(table: dict[str, Any], model: Model, file: Path) -> TensionTable:
     from cdcr._scenario_schema import TensionFile, TensionRows
 
     refuse(str(file), complaints(TensionFile if "file" in table else TensionRows, table, "tension"))
     if "file" in table:
         where = str(file.parent / table["file"])
-        t, rows = read_tension_csv(Path(where), num_cables)
+        t, rows = read_tension_csv(Path(where), model.num_cables)
     else:
         where = f"{file}, [tension]"
         t, rows = table["t"], table["rows"]
-        refuse(where, _row_complaints(t, rows, num_cables))
-    try:
-        return TensionTable(t, rows, table.get("interpolation", "linear"))
-    except ValueError as error:
-        refuse(where, str(error).splitlines())
-        raise
+        refuse(where, _row_complaints(t, rows, model.num_cables))
+    tension = TensionTable(t, rows, table.get("interpolation", "linear"))
+    with _said_by(where):
+        tension_input(model, tension)
+    return tension
 
 
 def _row_complaints(t: list[float], rows: list[list[float]], num_cables: int) -> list[str]:

@@ -11,44 +11,42 @@ _Tension = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
 _STRICT = ConfigDict(extra="forbid", strict=True)
 
 
-def _positive(description: str, **default: Any) -> Any:
-    return Field(gt=0.0, allow_inf_nan=False, description=description, **default)
+def _optional(wanted: str, **limits: Any) -> Any:
+    """Return a key that may be left out."""
+    return Field(default=None, description=wanted, **limits)
 
 
-def _angles(description: str) -> Any:
-    return Field(default=None, description=f"an array with one {description} for each section")
+def _positive(wanted: str) -> Any:
+    """Return a key that may be left out, for a number > 0."""
+    return _optional(wanted, gt=0.0, allow_inf_nan=False)
 
 
 class ScenarioTable(BaseModel):
-    """A scenario file. What robot and tension hold is checked apart, as each may be several things."""
+    """A scenario file. The tables in robot, initial and tension are checked on their own."""
 
     model_config = _STRICT
 
-    title: str = Field(default="", description="a string")
-    description: str = Field(default="", description="a string")
-    source: str = Field(default="", description="a string")
+    title: str = _optional("a string")
+    description: str = _optional("a string")
+    source: str = _optional("a string")
     robot: str | dict[str, Any] = Field(
         description="the name of a robot, the name of a robot file (.toml) or a table with sections"
     )
-    formulation: str = Field(default="exact", description='a string such as "exact"')
-    initial: dict[str, Any] = Field(
-        default={}, description="a table with q or theta and phi, and qd"
+    formulation: str = _optional("a string")
+    initial: dict[str, Any] = _optional("a table with q or theta and phi, and qd")
+    tension: list[_Tension] | dict[str, Any] = _optional(
+        "an array with a number >= 0 [N] for each cable, "
+        "or a table with t and rows, or a table with file"
     )
-    tension: list[_Tension] | dict[str, Any] = Field(
-        default=None,
-        description="an array with one number >= 0 [N] for each cable, or a table with t and rows, or with file",
+    t_end: float = Field(gt=0.0, allow_inf_nan=False, description="a number > 0 [s]")
+    num_samples: int = _optional("a whole number 2 to 100000000", ge=2, le=100_000_000)
+    method: Literal["bdf", "adams", "dopri5", "rk4"] = _optional(
+        '"bdf", "adams", "dopri5" or "rk4"'
     )
-    t_end: float = _positive("a number > 0 [s]")
-    num_samples: int = Field(
-        default=1001, ge=2, le=100_000_000, description="a whole number 2 to 100000000"
-    )
-    method: Literal["bdf", "adams", "dopri5", "rk4"] = Field(
-        default="bdf", description='"bdf", "adams", "dopri5" or "rk4"'
-    )
-    rtol: float = _positive("a number > 0 [1]", default=None)
-    atol: float = _positive("a number > 0 [rad], [rad/s]", default=None)
-    step: float = _positive("a number > 0 [s]", default=None)
-    max_step: float = _positive("a number > 0 [s]", default=None)
+    rtol: float = _positive("a number > 0 [1]")
+    atol: float = _positive("a number > 0 [rad], [rad/s]")
+    step: float = _positive("a number > 0 [s]")
+    max_step: float = _positive("a number > 0 [s]")
 
 
 class InitialTable(BaseModel):
@@ -56,24 +54,18 @@ class InitialTable(BaseModel):
 
     model_config = _STRICT
 
-    q: list[_Finite] = Field(
-        default=None, description="an array with two numbers [rad] for each section"
-    )
-    theta: list[_Finite] = _angles("number [rad]")
-    theta_deg: list[_Finite] = _angles("number [deg]")
-    phi: list[_Finite] = _angles("number [rad]")
-    phi_deg: list[_Finite] = _angles("number [deg]")
-    qd: list[_Finite] = Field(
-        default=None, description="an array with two numbers [rad/s] for each section"
-    )
+    q: list[_Finite] = _optional("an array with two numbers [rad] for each section")
+    theta: list[_Finite] = _optional("an array with a number [rad] for each section")
+    theta_deg: list[_Finite] = _optional("an array with a number [deg] for each section")
+    phi: list[_Finite] = _optional("an array with a number [rad] for each section")
+    phi_deg: list[_Finite] = _optional("an array with a number [deg] for each section")
+    qd: list[_Finite] = _optional("an array with two numbers [rad/s] for each section")
 
 
 class _TensionOverTime(BaseModel):
     model_config = _STRICT
 
-    interpolation: Literal["linear", "previous"] = Field(
-        default="linear", description='"linear" or "previous"'
-    )
+    interpolation: Literal["linear", "previous"] = _optional('"linear" or "previous"')
 
 
 class TensionRows(_TensionOverTime):
@@ -89,4 +81,6 @@ class TensionRows(_TensionOverTime):
 class TensionFile(_TensionOverTime):
     """The [tension] table that names a CSV file."""
 
-    file: str = Field(description="the name of a CSV file with the columns t, cable 1, cable 2, ...")
+    file: str = Field(
+        description="the name of a CSV file with the columns t, cable 1, cable 2, ..."
+    )

@@ -10,7 +10,7 @@ FloatRows = list[list[float]]
 
 
 def read_tension_csv(path: Path, num_cables: int) -> tuple[list[float], FloatRows]:
-    """Return the times and the rows of tensions, or raise a ValueError with file, line and column."""
+    """Return times and rows of tensions, or raise a ValueError with file, line and column."""
     wanted = ["t", *(f"cable {j + 1}" for j in range(num_cables))]
     try:
         with path.open(encoding="utf-8-sig", newline="") as file:

@@ -5,20 +5,17 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Iterable, Mapping
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from cdcr._fields import nearest
 
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
-
 if TYPE_CHECKING:
     from pydantic import BaseModel
     from pydantic_core import ErrorDetails
 
+_TOML = import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
 _KINDS = {dict: "table", list: "array", str: "string", bool: "boolean", int: "integer"}
 
 
@@ -34,9 +31,10 @@ def read_toml(path: Path, what: str) -> dict[str, Any]:
         line = error.object[: error.start].count(b"\n") + 1
         raise ValueError(f"{path}, line {line}: not UTF-8 text") from None
     try:
-        return tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
+        table: dict[str, Any] = _TOML.loads(text)
+    except _TOML.TOMLDecodeError as error:
         raise ValueError(f"{path}, {_place_and_reason(str(error), text)}") from None
+    return table
 
 
 def _place_and_reason(message: str, text: str) -> str:

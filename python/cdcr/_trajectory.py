@@ -45,6 +45,8 @@ class Trajectory:
         Empty when all went well; else when the run stopped, why, and what to try.
     stats : Stats
         What the run cost.
+    method : str
+        The integration method, where known.
     """
 
     model: Model
@@ -55,6 +57,7 @@ class Trajectory:
     status: Status
     message: str
     stats: Stats
+    method: str = ""
 
     def __post_init__(self) -> None:
         """Take copies nobody else can write to, and check that they fit together."""
@@ -77,13 +80,14 @@ class Trajectory:
 
     def __repr__(self) -> str:
         """Say what a person wants to know first."""
-        span = f"t = {self.t[0]:g} to {self.t[-1]:g} s, " if len(self) else ""
+        parts = [_count(len(self), "sample")]
+        if len(self):
+            parts.append(f"t = {self.t[0]:g} to {self.t[-1]:g} s")
+        parts.append(_count(self.model.num_sections, "section"))
+        parts.append(_count(self.model.num_cables, "cable"))
+        parts += [self.method] if self.method else []
         end = f": {self.message}" if self.message else ""
-        return (
-            f"<Trajectory {span}{_count(len(self), 'sample')}, "
-            f"{_count(self.model.num_sections, 'section')}, "
-            f"{_count(self.model.num_cables, 'cable')}, status {self.status.name}{end}>"
-        )
+        return f"<Trajectory: {', '.join(parts)}, status {self.status.name}{end}>"
 
     @property
     def success(self) -> bool:
@@ -135,7 +139,9 @@ class Trajectory:
         with E[0] = 0. An error only where nothing feeds or drains the robot: no damping, no
         tension.
         """
-        scale = max(np.max(np.abs(self.energy[:1]), initial=0.0), np.max(self.kinetic_energy, initial=0.0))
+        scale = max(
+            np.max(np.abs(self.energy[:1]), initial=0.0), np.max(self.kinetic_energy, initial=0.0)
+        )
         return (self.energy - self.energy[:1]) / (scale or 1.0)
 
     @property

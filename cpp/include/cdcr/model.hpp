@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "cdcr/formulation.hpp"
 #include "cdcr/robot.hpp"
 #include "cdcr/shape_table.hpp"
 #include "cdcr/types.hpp"
@@ -18,9 +19,10 @@ inline constexpr double max_bending = 3.0 * 3.14159265358979323846;
 /// changes, so any number of threads may read one model, each with a Data of its own.
 class Model {
  public:
-  explicit Model(Robot robot);
+  explicit Model(Robot robot, Formulation formulation = Formulation::exact);
 
   [[nodiscard]] const Robot& robot() const noexcept { return robot_; }
+  [[nodiscard]] Formulation formulation() const noexcept { return formulation_; }
   [[nodiscard]] Index num_sections() const noexcept { return stiffness_.size(); }
   [[nodiscard]] Index num_coordinates() const noexcept { return 2 * num_sections(); }
   [[nodiscard]] Index num_cables() const noexcept { return actuation_.cols(); }
@@ -43,6 +45,7 @@ class Model {
 
  private:
   Robot robot_;
+  Formulation formulation_;
   std::vector<detail::ShapeTable> tables_;
   VectorXd stiffness_, damping_, straight_lengths_;
   MatrixXd actuation_;

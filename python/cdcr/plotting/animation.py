@@ -6,10 +6,9 @@ import math
 from collections.abc import Callable, Iterator
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from numpy.typing import NDArray
 
 from cdcr._export import new_file
@@ -24,9 +23,9 @@ if TYPE_CHECKING:
 
 __all__ = ["animate"]
 
-SIZE = (10.0, 5.6)  # of the picture [in]
+SIZE = (11.0, 5.6)  # of the picture [in]
 DPI = 100  # with SIZE, even numbers of pixels: films want that
-ROBOT_ROOM = np.array([4.8, 5.4])  # of the robot's part, left [in]
+ROBOT_ROOM = np.array([5.6, 5.4])  # of the robot's part, left [in]
 NUM_FITTED = 50  # shapes that must fit into the picture, besides all tips
 
 
@@ -85,17 +84,17 @@ class _Film:
 
     def __init__(self, run: Trajectory) -> None:
         figure = StyledFigure(figsize=SIZE, dpi=DPI)
-        self._canvas = FigureCanvasAgg(figure)
+        self._canvas = cast(Any, figure.canvas)
         robot_axes = space.add_axes(figure)
         chosen = np.linspace(0, len(run) - 1, min(len(run), NUM_FITTED)).astype(int)
         show_robot(robot_axes, run.model, run.q[chosen], run.tip)
-        scale, size = space.fit(robot_axes, ROBOT_ROOM)
-        space.place(robot_axes, scale, size)
+        scale, _ = space.fit(robot_axes, ROBOT_ROOM)
+        space.place(robot_axes, scale, ROBOT_ROOM)
         self._robot = RobotArtists(robot_axes, run.model, run.q[0])
         self._largest = np.max(run.tension, initial=0.0)
 
         names = [panels.plot_theta] + ([panels.plot_tension] if run.model.num_cables else [])
-        grid = figure.add_gridspec(len(names), 1, left=0.57, right=0.98, bottom=0.1, top=0.93)
+        grid = figure.add_gridspec(len(names), 1, left=0.575, right=0.985, bottom=0.1, top=0.93)
         charts = [figure.add_subplot(grid[k]) for k in range(len(names))]
         for plot, axes in zip(names, charts, strict=True):
             plot(axes, run)

@@ -76,7 +76,7 @@ def _circle(radius: float, R: Array, p: Array) -> Array:
     """Return points (48, 3) of the circle about p in the x-y plane of a frame."""
     angle = np.linspace(0.0, 2.0 * np.pi, CORNERS, endpoint=False)
     flat = radius * np.stack([np.cos(angle), np.sin(angle), np.zeros(CORNERS)], axis=1)
-    return p + flat @ R.T
+    return np.asarray(p + flat @ R.T)
 
 
 def states_at(run: Trajectory, times: Array) -> Array:

@@ -14,7 +14,7 @@ from cdcr.plotting.style import ALARM, BLACK, GREY, StyledFigure, line_colors, s
 if TYPE_CHECKING:
     from cdcr._trajectory import Trajectory
 
-__all__ = ["plot_run", "plot_tension", "plot_theta", "show_time"]
+__all__ = ["plot_phi", "plot_run", "plot_tension", "plot_theta", "show_time"]
 
 # Smallest spans shown, so that rounding noise does not fill a panel.
 MIN_ANGLE = 1.0  # [deg]
@@ -29,7 +29,7 @@ DASHES = ("-", "--", "-.", ":")  # lines often coincide: dashes let the lower on
 
 def plot_run(run: Trajectory) -> StyledFigure:
     """Draw a run over time; see Trajectory.plot."""
-    left = [plot_theta, _plot_phi, plot_tension]
+    left = [plot_theta, plot_phi, plot_tension]
     right = [_plot_tip, _plot_energy] + ([_plot_energy_error] if _is_free(run) else [])
     with style():
         figure = StyledFigure(figsize=(11.0, 6.6), layout="constrained")
@@ -68,7 +68,8 @@ def plot_theta(axes: Axes, run: Trajectory) -> None:
     _keep_span(axes, MIN_ANGLE)
 
 
-def _plot_phi(axes: Axes, run: Trajectory) -> None:
+def plot_phi(axes: Axes, run: Trajectory) -> None:
+    """Draw the orientation angles [deg] over time."""
     _plot_lines(axes, run.t, np.rad2deg(run.phi), _numbered("section", run.model.num_sections))
     axes.set_ylabel(r"orientation $\varphi$ [deg]")
     _keep_span(axes, MIN_ANGLE)

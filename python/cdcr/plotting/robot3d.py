@@ -152,7 +152,7 @@ def _finish(axes: Any) -> None:
     """Give a new picture its size, and its legend at the right."""
     scale, size = space.fit(axes, PICTURE)
     figure = axes.figure
-    figure.set_size_inches(size + [LEGEND_WIDTH, 0.0])
+    figure.set_size_inches(size[0] + LEGEND_WIDTH, size[1])
     space.place(axes, scale, size)
     if axes.get_legend_handles_labels()[0]:
         figure.legend(loc="center right", borderaxespad=0.5, handlelength=1.4)

@@ -17,9 +17,10 @@ Array = NDArray[np.float64]
 
 VIEW = {"elev": 20.0, "azim": -65.0}  # [deg]
 MAX_TICKS = 7  # along the longest side
+FORESHORTENED = 0.6  # the y axis, in this view
 SLENDEREST = 0.3  # shortest side of the box over its longest: room for the numbers
 LABEL_OFFSET, TICK_OFFSET = 26.0, 11.5  # of a cube's labels and numbers [pt]
-LABELS = (0.55, 0.55, 0.85, 0.2)  # room left, below, right, above the box for its labels [in]
+LABELS = (0.55, 0.65, 0.85, 0.2)  # room left, below, right, above the box for its labels [in]
 
 
 def add_axes(figure: Figure) -> Any:
@@ -53,9 +54,9 @@ def _number_axes(axes: Any, low: Array, high: Array) -> None:
     axes.set_box_aspect(size)
     cube = size / np.sqrt(np.mean(size**2))  # 1 for a cube
     for k, axis in enumerate((axes.xaxis, axes.yaxis, axes.zaxis)):
-        nbins = max(2, round(MAX_TICKS * size[k] / size.max()))
-        ticks = MaxNLocator(nbins).tick_values(low[k], high[k])
-        corner = low[k] + 0.2 * size[k] * (axis is axes.yaxis)  # where x and y meet, x is numbered
+        room = MAX_TICKS * size[k] / size.max() * (FORESHORTENED if k == 1 else 1.0)
+        ticks = MaxNLocator(max(2, round(room)), steps=[1, 2, 5, 10]).tick_values(low[k], high[k])
+        corner = low[k] + 0.2 * size[k] * (k == 1)  # where x and y meet, x is numbered
         axis.set_ticks(ticks[(ticks >= corner) & (ticks <= high[k])])
         # Matplotlib keeps labels off an axis by shares of the other two sides: even that out.
         away = np.sqrt(np.mean(np.delete(cube, k) ** 2))
@@ -77,11 +78,11 @@ def fit(axes: Any, room: Array) -> tuple[float, Array]:
     return scale, scale * box + labels
 
 
-def place(axes: Any, scale: float, size: Array) -> None:
-    """Put Axes3D of a size (width, height) [in] at the left of its figure, half-way up."""
+def place(axes: Any, scale: float, room: Array) -> None:
+    """Put Axes3D into the middle of a room (width, height) [in] at the left of its figure."""
     paper = axes.figure.get_size_inches()
     left, below, right, above = LABELS
-    center = np.array([size[0] + left - right, paper[1] + below - above]) / 2
+    center = np.array([room[0] + left - right, room[1] + below - above]) / 2
     # The middle of the box has the coordinates (0, 0) of the square.
     corner = center + scale * axes.viewLim.min / axes.viewLim.size
     axes.set_position((*(corner / paper), *(scale / paper)))

@@ -15,7 +15,6 @@ from PIL import Image
 __all__ = ["MAX_GIF_FPS", "film_path", "write_film"]
 
 Frame = NDArray[np.uint8]  # (height, width, 4): red, green, blue, opacity
-GIF_COLORS = 64
 MAX_GIF_FPS = 50.0  # browsers slow down anything faster
 
 
@@ -40,17 +39,18 @@ def write_film(path: Path, frames: Iterable[Frame], fps: float) -> None:
 
 
 def _write_gif(path: Path, frames: Iterator[Frame], fps: float) -> None:
-    # A colour table for each frame, made at once, so that a waiting frame takes a byte a pixel.
-    first, *rest = (_indexed(frame) for frame in frames)
+    # The colours of the first frame serve all, so that a waiting frame takes one byte a pixel.
+    no_dither = Image.Dither.NONE
+    start = Image.fromarray(next(frames)).convert("RGB")
+    first = start.quantize(256, Image.Quantize.MAXCOVERAGE, dither=no_dither)
+    rest = [
+        Image.fromarray(frame).convert("RGB").quantize(palette=first, dither=no_dither)
+        for frame in frames
+    ]
     # A GIF counts in hundredths of a second: round the frames' times, so that errors cancel.
     times = np.rint(np.arange(len(rest) + 2) * 100.0 / fps).astype(int)
     durations = (10 * np.diff(times)).tolist()  # Pillow counts in milliseconds
     first.save(path, save_all=True, append_images=rest, duration=durations, loop=0)
-
-
-def _indexed(frame: Frame) -> Image.Image:
-    image = Image.fromarray(frame).convert("RGB")
-    return image.quantize(GIF_COLORS, Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
 
 
 def _write_mp4(path: Path, frames: Iterator[Frame], fps: float) -> None:

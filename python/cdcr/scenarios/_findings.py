@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from cdcr._model import ConvergenceError
 from cdcr._trajectory import Trajectory
 
 if TYPE_CHECKING:
@@ -29,48 +30,59 @@ class Finding(NamedTuple):
 
 
 def findings(scenario: Scenario, run: Trajectory) -> tuple[Finding, ...]:
-    """Return the findings every run has, for each section and for the robot."""
-    return (*_angle_findings(run), *_energy_findings(run))
-
-
-def _angle_findings(run: Trajectory) -> Iterator[Finding]:
-    theta, phi = np.rad2deg(run.theta), np.rad2deg(run.phi)
-    rest = static_theta(run)
+    """Return the findings every run has, of each section and of the robot."""
     several = run.model.num_sections > 1
+    found: list[Finding] = []
     for i in range(run.model.num_sections):
-        key, label = (f"section_{i + 1}_", f"section {i + 1}, ") if several else ("", "")
-        if rest is not None:
-            yield Finding(
-                f"{key}theta_static_deg", f"{label}theta at static equilibrium", rest[i], "deg"
-            )
-        mean = time_mean(run.t, theta[:, i])
-        yield Finding(f"{key}theta_mean_deg", f"{label}theta, mean", mean, "deg")
-        yield Finding(f"{key}theta_min_deg", f"{label}theta, smallest", min(theta[:, i]), "deg")
-        yield Finding(f"{key}theta_max_deg", f"{label}theta, largest", max(theta[:, i]), "deg")
-        period = oscillation_period(run.t, run.theta[:, i])
-        if period is not None:
-            yield Finding(f"{key}period_s", f"{label}period of oscillation", period, "s")
-        yield Finding(f"{key}phi_min_deg", f"{label}phi, smallest", min(phi[:, i]), "deg")
-        yield Finding(f"{key}phi_max_deg", f"{label}phi, largest", max(phi[:, i]), "deg")
-
-
-def _energy_findings(run: Trajectory) -> Iterator[Finding]:
+        for one in _section_findings(run, i):
+            key, label = f"section_{i + 1}_{one.key}", f"section {i + 1}: {one.label}"
+            found.append(one._replace(key=key, label=label) if several else one)
     drift = energy_drift(run)
     if drift is not None:
-        yield Finding("energy_drift", "relative energy drift", drift, "")
+        found.append(Finding("energy_drift", "relative energy drift", drift, ""))
+    return tuple(found)
+
+
+def _section_findings(run: Trajectory, i: int) -> Iterator[Finding]:
+    theta, phi = np.rad2deg(run.theta[:, i]), np.rad2deg(run.phi[:, i])
+    rest = static_theta(run)
+    if rest is not None:
+        yield Finding("theta_static_deg", "theta at static equilibrium", float(rest[i]), "deg")
+    yield Finding("theta_mean_deg", "theta, mean", time_mean(run.t, theta), "deg")
+    yield Finding("theta_min_deg", "theta, smallest", float(np.min(theta)), "deg")
+    yield Finding("theta_max_deg", "theta, largest", float(np.max(theta)), "deg")
+    period = oscillation_period(run.t, theta) if is_steady(run) else None
+    if period is not None:
+        yield Finding("period_s", "period of oscillation", period, "s")
+    yield Finding("phi_min_deg", "phi, smallest", float(np.min(phi)), "deg")
+    yield Finding("phi_max_deg", "phi, largest", float(np.max(phi)), "deg")
 
 
 def static_theta(run: Trajectory) -> FloatArray | None:
-    """Return the bending angles (n,) [deg] of rest under the tensions of the last sample.
+    """Return the bending angles (n,) [deg] of rest under the tensions of the run.
 
-    None where they change over the run, or where no point of rest is found.
+    Negative where the run's phi points the other way. None where the tensions change over the run,
+    or where no point of rest is found.
     """
-    if not _tension_is_constant(run):
+    if not is_steady(run):
         return None
-    rest = run.model.equilibrium(run.tension[-1])
-    if rest is None:
+    try:
+        rest = run.model.equilibrium(run.tension[0])
+    except ConvergenceError:
         return None
-    return np.rad2deg(np.hypot(rest[0::2], rest[1::2]))
+    x, y, phi = rest[0::2], rest[1::2], run.phi[-1]
+    signed: FloatArray = np.copysign(np.hypot(x, y), x * np.cos(phi) + y * np.sin(phi))
+    return np.rad2deg(signed)
+
+
+def swing_times(run: Trajectory, num: int) -> FloatArray:
+    """Return `num` times [s] to show a run at: its first half swing, or else all of it."""
+    end = float(run.t[-1])
+    if is_steady(run):
+        periods = [oscillation_period(run.t, theta) for theta in run.theta.T]
+        halves = [run.t[0] + period / 2.0 for period in periods if period is not None]
+        end = min(halves, default=end)
+    return np.linspace(run.t[0], end, num)
 
 
 def energy_drift(run: Trajectory) -> float | None:
@@ -80,15 +92,16 @@ def energy_drift(run: Trajectory) -> float | None:
     T + U - (B F).q stays what it was. None where tensions change or damping takes energy away.
     """
     damped = any(section.damping > 0.0 for section in run.model.robot.sections)
-    if damped or not _tension_is_constant(run):
+    if damped or not is_steady(run):
         return None
-    force = run.model.actuation_matrix(run.q[0]) @ run.tension[0]
+    force = run.model.actuation_matrix() @ run.tension[0]
     kept = run.energy - run.q @ force
     scale = float(np.max(run.kinetic_energy)) or 1.0
     return float(np.max(np.abs(kept - kept[0]))) / scale
 
 
-def _tension_is_constant(run: Trajectory) -> bool:
+def is_steady(run: Trajectory) -> bool:
+    """Return whether the tensions are the same at all times."""
     return bool(np.all(run.tension == run.tension[0]))
 
 
@@ -110,7 +123,9 @@ def oscillation_period(t: FloatArray, y: FloatArray) -> float | None:
     lows, highs = clear[:-1][~above[:-1] & above[1:]], clear[1:][~above[:-1] & above[1:]]
     if len(lows) < 2:
         return None
-    rises = [_crossing(t[i : j + 1], y[i : j + 1] - level) for i, j in zip(lows, highs, strict=True)]
+    rises = [
+        _crossing(t[i : j + 1], y[i : j + 1] - level) for i, j in zip(lows, highs, strict=True)
+    ]
     period = (rises[-1] - rises[0]) / (len(rises) - 1)
     return period if period > 6.0 * float(np.max(np.diff(t))) else None
 

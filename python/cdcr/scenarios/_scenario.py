@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from cdcr._fields import Check
 from cdcr._model import Model
 from cdcr._robot import Robot
-from cdcr._simulate import TensionTable, simulate
+from cdcr._simulate import MethodName, TensionTable, simulate
 from cdcr._trajectory import Trajectory
 from cdcr.scenarios._findings import Finding, findings
 
@@ -43,7 +43,7 @@ class Scenario:
         Cable tensions [N], constant or over time.
     t_end : float
         End of the run [s].
-    num_samples : int
+    num_samples : int, default 1001
         Number of samples, evenly spaced, both ends included.
     formulation : str
         Of the model's equations.
@@ -66,9 +66,9 @@ class Scenario:
     qd0: tuple[float, ...]
     tension: tuple[float, ...] | TensionTable
     t_end: float
-    num_samples: int
+    num_samples: int = 1001
     formulation: str = "exact"
-    method: str = "bdf"
+    method: MethodName = "bdf"
     rtol: float | None = None
     atol: float | None = None
     step: float | None = None
@@ -76,7 +76,9 @@ class Scenario:
     tell: Callable[[Scenario, Trajectory], tuple[Finding, ...]] = findings
     draw: Callable[[Scenario, Trajectory], Figure] = _figure
 
-    def times(self, t_end: float | None = None, num_samples: int | None = None) -> NDArray[np.float64]:
+    def times(
+        self, t_end: float | None = None, num_samples: int | None = None
+    ) -> NDArray[np.float64]:
         """Return the output times (N,) [s]; another end alone leaves their spacing."""
         check, wanted = Check(), "a time > 0 s and finite"
         end = check.number("t_end", self.t_end if t_end is None else t_end, wanted)
@@ -96,7 +98,7 @@ class Scenario:
         *,
         t_end: float | None = None,
         num_samples: int | None = None,
-        method: str | None = None,
+        method: MethodName | None = None,
         rtol: float | None = None,
         atol: float | None = None,
         step: float | None = None,

@@ -23,5 +23,9 @@ constexpr double printed = 1e-10;
 constexpr double differences = 1e-9;
 /// Unbalanced moment at an equilibrium over the moments in balance.
 constexpr double at_rest = 1e-12;
+/// Energy and momentum balances along runs at rtol 1e-12.
+constexpr double balance = 1e-9;
+/// States of runs at the tightest tolerances, a few seconds long.
+constexpr double straight = 1e-10;
 
 }  // namespace cdcr::test::tolerance

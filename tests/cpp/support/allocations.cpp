@@ -1,0 +1,42 @@
+#include <cstddef>
+#include <cstdlib>  // also defines __GLIBC__, which allocations.hpp asks for
+
+#include "allocations.hpp"
+
+namespace {
+thread_local long count = 0;
+}
+
+long cdcr::test::allocations() noexcept { return count; }
+
+#if !defined(__SANITIZE_ADDRESS__) && defined(__GLIBC__)
+
+// The allocator behind the names taken over here. operator new ends in malloc.
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t number, std::size_t size);
+void* __libc_realloc(void* block, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
+
+void* malloc(std::size_t size) {
+  ++count;
+  return __libc_malloc(size);
+}
+
+void* calloc(std::size_t number, std::size_t size) {
+  ++count;
+  return __libc_calloc(number, size);
+}
+
+void* realloc(void* block, std::size_t size) {
+  ++count;
+  return __libc_realloc(block, size);
+}
+
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  ++count;
+  return __libc_memalign(alignment, size);
+}
+}
+
+#endif

@@ -1,0 +1,155 @@
+// What the headers call real-time safe: no exception can leave it, no memory is allocated in it.
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <limits>
+#include <utility>
+
+#include "cdcr/cdcr.hpp"
+#include "support/allocations.hpp"
+#include "support/cases.hpp"
+
+namespace cdcr::test {
+namespace {
+
+using Ref = const ConstVectorRef&;
+
+const Model& model_of_declval() noexcept;
+Data& data_of_declval() noexcept;
+const ConstVectorRef& in() noexcept;
+VectorRef out() noexcept;
+MatrixRef matrix() noexcept;
+Simulator& simulator() noexcept;
+
+// Unevaluated: only whether each call may throw. Copying an argument is no part of the call.
+#define IS_NOEXCEPT(call) static_assert(noexcept(call), #call " must be noexcept")
+IS_NOEXCEPT(simulator().step(in()));
+IS_NOEXCEPT(simulator().q());
+IS_NOEXCEPT(simulator().qd());
+IS_NOEXCEPT(simulator().time());
+IS_NOEXCEPT(message(Status::ok));
+IS_NOEXCEPT(name(Status::ok));
+IS_NOEXCEPT(polar(0.0, 0.0));
+IS_NOEXCEPT(bending(0.0, 0.0));
+IS_NOEXCEPT(kinetic_energy(model_of_declval(), data_of_declval(), in(), in()));
+IS_NOEXCEPT(potential_energy(model_of_declval(), data_of_declval(), in()));
+IS_NOEXCEPT(tip(model_of_declval(), in()));
+IS_NOEXCEPT(pose(model_of_declval(), in(), 0, 0.5));
+IS_NOEXCEPT(check_tension(model_of_declval(), in()));
+#undef IS_NOEXCEPT
+
+/// True when this overload is declared noexcept.
+template <class... Arguments>
+constexpr bool never_throws(void (*)(Arguments...) noexcept) {
+  return true;
+}
+template <class... Arguments>
+constexpr bool never_throws(void (*)(Arguments...)) {
+  return false;
+}
+static_assert(never_throws(&mass_matrix));
+static_assert(never_throws(&bias));
+static_assert(never_throws(&forward_dynamics));
+static_assert(never_throws(&forward_dynamics_force));
+static_assert(never_throws(&inverse_dynamics));
+static_assert(never_throws(&potential_gradient));
+static_assert(never_throws(&potential_hessian));
+static_assert(never_throws(&jacobian));
+static_assert(never_throws(&cable_lengths));
+static_assert(never_throws(&linearize));
+static_assert(never_throws(&state_jacobian));
+
+volatile double sink = 0.0;  // keeps results alive
+
+TEST_SUITE_BEGIN("real time");
+
+TEST_CASE("the counter counts") {
+  if (!allocations_counted) return;
+  CHECK(allocations_of([] {}) == 0);
+  CHECK(allocations_of([] { sink = VectorXd::Ones(7).eval()[0]; }) >= 1);
+  CHECK(allocations_of([] { delete new double(sink); }) <= 1);
+  CHECK(allocations_of([] {
+          void* volatile block = std::malloc(3);
+          std::free(block);
+        }) == 1);
+}
+
+TEST_CASE("dynamics and linearisation allocate nothing") {
+  for_each_case(3.0 * pi, [](const Model& model, Data& data, const State& state) {
+    VectorXd v(2);
+    MatrixXd M(2, 2), A(4, 4), B(4, model.num_cables());
+    const VectorXd &q = state.q, &qd = state.qd, &F = state.tension;
+    const Eigen::Vector2d force(0.1, -0.2);
+    CHECK(allocations_of([&] { mass_matrix(model, data, q, M); }) == 0);
+    CHECK(allocations_of([&] { bias(model, data, q, qd, v); }) == 0);
+    CHECK(allocations_of([&] { forward_dynamics(model, data, q, qd, F, v); }) == 0);
+    CHECK(allocations_of([&] { forward_dynamics_force(model, data, q, qd, force, v); }) == 0);
+    CHECK(allocations_of([&] { inverse_dynamics(model, data, q, qd, force, v); }) == 0);
+    CHECK(allocations_of([&] { sink = kinetic_energy(model, data, q, qd); }) == 0);
+    CHECK(allocations_of([&] { sink = potential_energy(model, data, q); }) == 0);
+    CHECK(allocations_of([&] { potential_gradient(model, data, q, v); }) == 0);
+    CHECK(allocations_of([&] { potential_hessian(model, data, q, M); }) == 0);
+    CHECK(allocations_of([&] { linearize(model, data, q, qd, F, A, B); }) == 0);
+    CHECK(allocations_of([&] { state_jacobian(model, data, q, qd, force, A); }) == 0);
+  });
+}
+
+TEST_CASE("segments of a longer vector are used in place") {
+  const Model model(amouri2020());
+  Data data(model);
+  VectorXd y(4), dydt(4), F = VectorXd::Ones(5);
+  y << 0.1, 0.2, 0.3, 0.4;
+  CHECK(allocations_of([&] {
+          forward_dynamics(model, data, y.head(2), y.tail(2), F.segment(1, 3), dydt.tail(2));
+        }) == 0);
+}
+
+TEST_CASE("kinematics allocates nothing") {
+  for_each_case(3.0 * pi, [](const Model& model, Data&, const State& state) {
+    MatrixXd J(6, 2);
+    VectorXd lengths(model.num_cables());
+    CHECK(allocations_of([&] { sink = pose(model, state.q, 0, 0.5).p[0]; }) == 0);
+    CHECK(allocations_of([&] { sink = tip(model, state.q).p[0]; }) == 0);
+    CHECK(allocations_of([&] { jacobian(model, state.q, 0, 0.7, J); }) == 0);
+    CHECK(allocations_of([&] { cable_lengths(model, state.q, lengths); }) == 0);
+    const Vector3d p(0.1, 0.2, 0.3);
+    CHECK(allocations_of([&] { sink = inverse_kinematics(model, p).distance; }) == 0);
+  });
+}
+
+TEST_CASE("a simulator's step allocates nothing, not even the first or a failing one") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for_each_case(1.0, [&](const Model& model, Data&, const State& state) {
+    Simulator sim(model, 1e-4, 2);
+    Status status = Status::ok;
+    VectorXd wrong = state.tension;
+    const VectorXd too_many = VectorXd::Ones(model.num_cables() + 1);
+    CHECK(allocations_of([&] { status = sim.step(state.tension); }) == 0);
+    CHECK(status == Status::not_started);
+    sim.reset(state.q, 0.1 * state.qd);
+    for (int i = 0; i < 3; ++i) {
+      CHECK(allocations_of([&] { status = sim.step(state.tension); }) == 0);
+    }
+    if (wrong.size() > 0) wrong[0] = nan;
+    CHECK(allocations_of([&] { status = sim.step(wrong); }) == 0);
+    CHECK(allocations_of([&] { status = sim.step(too_many); }) == 0);
+    CHECK(status == Status::invalid_tension);
+    CHECK(allocations_of([&] { sink = message(status)[0]; }) == 0);
+  });
+}
+
+TEST_CASE("tables and constants are evaluated without allocating") {
+  VectorXd F(3);
+  const Eigen::Vector2d q(0.1, 0.2);
+  const TensionInput table =
+      TensionInput::table(Eigen::Vector2d(0.0, 1.0), MatrixXd::Ones(2, 3),
+                          TensionInput::Interpolation::linear);
+  const TensionInput constant = TensionInput::constant(Eigen::Vector3d(1.0, 2.0, 3.0));
+  CHECK(allocations_of([&] { table.evaluate(0.5, table.segment(0.5), q, q, F); }) == 0);
+  CHECK(allocations_of([&] { constant.evaluate(0.5, 0, q, q, F); }) == 0);
+}
+
+TEST_SUITE_END();
+
+}  // namespace
+}  // namespace cdcr::test

@@ -1,0 +1,142 @@
+"""Films of runs: the right frames at the right speed, and no half-written file."""
+
+import shutil
+import stat
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import cdcr
+
+pytest.importorskip("matplotlib")
+from cdcr.plotting.animation import draw_frames, frame_times  # noqa: E402
+from PIL import Image  # noqa: E402
+
+
+@pytest.fixture(scope="module")
+def run() -> cdcr.Trajectory:
+    model = cdcr.Model(cdcr.robots.amouri2020())
+    t = np.linspace(0.0, 0.5, 26)
+    return cdcr.simulate(model, [0.0, 0.0], [0.0, 1.0], t=t, tension=[5.0, 0.0, 0.0])
+
+
+def test_gif_has_a_frame_for_each_moment(run: cdcr.Trajectory, tmp_path: Path) -> None:
+    told: list[tuple[int, int]] = []
+    path = run.animate(
+        tmp_path / "run.gif", fps=30.0, speed=2.0, progress=lambda done, total: told.append((done, total))
+    )
+    assert path == tmp_path / "run.gif"
+    assert told == [(k, 8) for k in range(1, 9)]  # 0.25 s of film: 7.5 frames after the first
+    with Image.open(path) as film:
+        assert film.n_frames == 8
+        assert film.size[0] > film.size[1] > 400
+        durations = []
+        for k in range(film.n_frames):
+            film.seek(k)
+            durations.append(film.info["duration"])
+    assert sum(durations) == 270  # 8/30 s in hundredths
+    assert set(durations) == {30, 40}
+
+
+def test_frames_follow_the_run(run: cdcr.Trajectory) -> None:
+    np.testing.assert_allclose(frame_times(run, 0.2), [0.0, 0.2, 0.4])
+    np.testing.assert_allclose(frame_times(run, 0.1)[-1], 0.5)
+    straight, bent, again = draw_frames(run, np.array([0.0, 0.3, 0.0]))
+    assert straight.dtype == np.uint8
+    assert straight.shape[2] == 4
+    assert straight.shape[0] % 2 == straight.shape[1] % 2 == 0
+    np.testing.assert_array_equal(straight, again)  # nothing of a frame stays in the next
+    middle = straight.shape[1] // 2
+    changed = (straight != bent).any(axis=2)
+    assert changed[:, :middle].sum() > 500  # the robot has moved
+    assert changed[:, middle:].any()  # and so has the time mark
+
+
+def test_suffix_chooses_the_format(
+    run: cdcr.Trajectory, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PATH", "")
+    assert run.animate(tmp_path / "run", fps=4.0) == tmp_path / "run.gif"
+    with pytest.raises(RuntimeError, match=r"run\.mp4 needs the program ffmpeg"):
+        run.animate(tmp_path / "run.mp4")
+    with pytest.raises(ValueError, match=r"must end in \.gif or \.mp4, got 'run\.avi'"):
+        run.animate(tmp_path / "run.avi")
+
+
+def _install_ffmpeg(folder: Path, script: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Put a program called ffmpeg first on the PATH."""
+    program = folder / "ffmpeg"
+    program.write_text(f"#!/bin/sh\n{script}\n", encoding="utf-8")
+    program.chmod(program.stat().st_mode | stat.S_IXUSR)
+    monkeypatch.setenv("PATH", str(folder), prepend=":")
+
+
+def test_ffmpeg_is_given_every_pixel(
+    run: cdcr.Trajectory, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    out = tmp_path / "out"
+    out.mkdir()
+    _install_ffmpeg(tmp_path, f'echo "$@" > {tmp_path}/args; for f; do :; done; cat > "$f"', monkeypatch)
+    path = run.animate(out / "run", fps=4.0)
+    assert path == out / "run.mp4"
+    frames = np.stack(list(draw_frames(run, np.array([0.0, 0.25, 0.5]))))
+    assert path.read_bytes() == frames.tobytes()
+    _, height, width, _ = frames.shape
+    assert f"-s {width}x{height} -r 4 " in (tmp_path / "args").read_text(encoding="utf-8")
+    assert list(out.iterdir()) == [path]
+
+
+def test_ffmpeg_failing_is_told_in_its_words(
+    run: cdcr.Trajectory, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    out = tmp_path / "out"
+    out.mkdir()
+    _install_ffmpeg(tmp_path, "echo no such encoder >&2; exit 1", monkeypatch)
+    with pytest.raises(RuntimeError, match=r"ffmpeg could not write .*mp4: no such encoder"):
+        run.animate(out / "run.mp4", fps=4.0)
+    assert list(out.iterdir()) == []
+
+
+@pytest.mark.skipif(shutil.which("ffmpeg") is None, reason="needs ffmpeg")
+def test_mp4(run: cdcr.Trajectory, tmp_path: Path) -> None:
+    path = run.animate(tmp_path / "run.mp4", fps=10.0)
+    assert path.read_bytes()[4:8] == b"ftyp"
+
+
+@pytest.mark.parametrize("suffix", [".gif", ".mp4"])
+def test_an_interrupted_film_leaves_nothing(
+    run: cdcr.Trajectory, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, suffix: str
+) -> None:
+    out = tmp_path / "out"
+    out.mkdir()
+    _install_ffmpeg(tmp_path, 'for f; do :; done; cat > "$f"', monkeypatch)
+
+    def stop(done: int, total: int) -> None:
+        if done == 2:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        run.animate(out / f"run{suffix}", fps=10.0, progress=stop)
+    assert list(out.iterdir()) == []
+
+
+def test_no_silent_overwrite(run: cdcr.Trajectory, tmp_path: Path) -> None:
+    path = tmp_path / "run.gif"
+    path.write_text("precious", encoding="utf-8")
+    with pytest.raises(FileExistsError, match=r"run\.gif exists already"):
+        run.animate(path)
+    assert path.read_text(encoding="utf-8") == "precious"
+    run.animate(path, fps=4.0, overwrite=True)
+    assert path.read_bytes().startswith(b"GIF89a")
+
+
+def test_refusals_name_the_item(run: cdcr.Trajectory, tmp_path: Path) -> None:
+    path = tmp_path / "run.gif"
+    with pytest.raises(ValueError, match=r"^fps must be > 0 and finite, got 0$"):
+        run.animate(path, fps=0)
+    with pytest.raises(ValueError, match=r"^speed must be > 0 and finite, got nan$"):
+        run.animate(path, speed=float("nan"))
+    with pytest.raises(ValueError, match=r"^fps must be at most 50 in a \.gif, got 60$"):
+        run.animate(path, fps=60)
+    assert list(tmp_path.iterdir()) == []
