@@ -6,6 +6,7 @@
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "cdcr/cvode.hpp"
+#include "cdcr/pid.hpp"
 #include "cdcr/simulate.hpp"
 
 namespace cdcr::python {
@@ -30,9 +31,11 @@ TensionInput call_python(py::function function, Index num_cables,
       num_cables, std::move(break_points));
 }
 
+/// `source` is a const TensionInput or a Controller.
+template <class Source>
 Trajectory run(const Model& model, const py::object& q0, const py::object& qd0,
-               const py::object& t, const TensionInput& input, Method method,
-               const Options& options, const py::object& progress) {
+               const py::object& t, Source& source, Method method, const Options& options,
+               const py::object& progress) {
   const VectorXd q = *read_bending(model, q0, "q0");
   const VectorXd qd = *VectorArgument(qd0, "qd0", model.num_coordinates());
   const VectorXd times = *VectorArgument(t, "t", -1);
@@ -43,7 +46,7 @@ Trajectory run(const Model& model, const py::object& q0, const py::object& qd0,
     return true;
   };
   const py::gil_scoped_release unlocked;
-  return simulate(model, q, qd, times, input, method, options, make_cvode_integrator, report);
+  return simulate(model, q, qd, times, source, method, options, make_cvode_integrator, report);
 }
 
 }  // namespace
@@ -127,8 +130,10 @@ void bind_simulate(py::module_& m) {
       .def_readonly("message", &Trajectory::message)
       .def_readonly("stats", &Trajectory::stats);
 
-  m.def("simulate", &run, "model"_a, "q0"_a, "qd0"_a, "t"_a, "input"_a, "method"_a, "options"_a,
-        "progress"_a);
+  m.def("simulate", &run<const TensionInput>, "model"_a, "q0"_a, "qd0"_a, "t"_a, "input"_a,
+        "method"_a, "options"_a, "progress"_a);
+  m.def("simulate_controlled", &run<Controller>, "model"_a, "q0"_a, "qd0"_a, "t"_a,
+        "controller"_a, "method"_a, "options"_a, "progress"_a);
 }
 
 }  // namespace cdcr::python

@@ -31,8 +31,12 @@ void bind_statics(py::module_& m, PyModel& model) {
   model.def(
       "find_tension",
       [](const Model& self, const py::object& force, double min_tension, double max_tension) {
+        if (!(min_tension >= 0.0)) {
+          throw py::value_error("min_tension must be >= 0 N (a cable cannot push), got " +
+                                std::to_string(min_tension));
+        }
         return allocate(self, *VectorArgument(force, "force", self.num_coordinates()),
-                        min_tension, max_tension);
+                        {min_tension, max_tension, {}});
       },
       "force"_a, "min_tension"_a, "max_tension"_a);
   model.def(

@@ -1,6 +1,8 @@
 #include "cdcr/allocation.hpp"
 
-#include <Eigen/QR>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -10,159 +12,212 @@
 namespace cdcr {
 namespace {
 
-enum class Place { lower, free, upper };
+// The search minimises |F|^2/2 + |B F - Q|^2/(2 epsilon): least-norm where Q can be met, nearest
+// elsewhere. Strictly convex, so an active set that lowers it at each change comes to an end.
+constexpr double epsilon = 1e-9;
+// Distance from Q, relative to the sizes at hand, that still counts as met.
+constexpr double met = 1e-10;
 
-/// Minimises |F|^2/2 + |B F - Q|^2/(2 epsilon) within the limits, by an active set that releases
-/// one cable at a time. The objective is strictly convex and falls at each change of the set, so
-/// the search ends. A tiny epsilon makes it least-norm where Q can be met and nearest elsewhere.
-class ActiveSet {
- public:
-  ActiveSet(MatrixXd B, VectorXd Q, double low, double high)
-      : B_(std::move(B)),
-        Q_(std::move(Q)),
-        low_(low),
-        high_(high),
-        F_(VectorXd::Constant(B_.cols(), low)),
-        place_(static_cast<std::size_t>(B_.cols()), Place::lower) {}
-
-  VectorXd solve() {
-    // Each cable is released and caught a few times at most; the limit only guards rounding.
-    const Index max_changes = 50 * (B_.cols() + 1);
-    for (Index change = 0; change < max_changes; ++change) {
-      if (fix_first_beyond()) continue;
-      if (!release_most_wanted()) break;
-    }
-    polish();
-    return F_;
-  }
-
-  [[nodiscard]] bool at_limit(Index j) const { return place_[j] != Place::free; }
-
- private:
-  static constexpr double epsilon = 1e-12;
-
-  [[nodiscard]] MatrixXd free_columns() const {
-    MatrixXd columns(B_.rows(), 0);
-    for (Index j = 0; j < B_.cols(); ++j) {
-      if (place_[j] != Place::free) continue;
-      columns.conservativeResize(Eigen::NoChange, columns.cols() + 1);
-      columns.rightCols<1>() = B_.col(j);
-    }
-    return columns;
-  }
-
-  [[nodiscard]] VectorXd left_for_free() const {
-    VectorXd rest = Q_;
-    for (Index j = 0; j < B_.cols(); ++j) {
-      if (place_[j] != Place::free) rest -= B_.col(j) * F_[j];
-    }
-    return rest;
-  }
-
-  /// Moves towards the minimum over the free cables; true when one reached a limit on the way.
-  bool fix_first_beyond() {
-    const MatrixXd columns = free_columns();
-    MatrixXd normal = columns * columns.transpose();
-    normal.diagonal().array() += epsilon;
-    lambda_ = normal.ldlt().solve(left_for_free());
-    double share = 1.0;
-    Index first = -1;
-    Place side = Place::free;
-    for (Index j = 0; j < B_.cols(); ++j) {
-      if (place_[j] != Place::free) continue;
-      const double wanted = B_.col(j).dot(lambda_);
-      if (wanted >= low_ && wanted <= high_) continue;
-      const double limit = wanted < low_ ? low_ : high_;
-      const double part = (limit - F_[j]) / (wanted - F_[j]);
-      if (part < share || first < 0) {
-        share = part;
-        first = j;
-        side = wanted < low_ ? Place::lower : Place::upper;
-      }
-    }
-    for (Index j = 0; j < B_.cols(); ++j) {
-      if (place_[j] == Place::free) F_[j] += share * (B_.col(j).dot(lambda_) - F_[j]);
-    }
-    if (first < 0) return false;
-    F_[first] = side == Place::lower ? low_ : high_;
-    place_[first] = side;
-    return true;
-  }
-
-  /// Releases the fixed cable that most wants to move inwards; false when none does.
-  bool release_most_wanted() {
-    Index best = -1;
-    double most = 1e-9 * (1.0 + lambda_.norm());
-    for (Index j = 0; j < B_.cols(); ++j) {
-      if (place_[j] == Place::free || low_ == high_) continue;
-      const double wanted = B_.col(j).dot(lambda_) - F_[j];
-      const double inwards = place_[j] == Place::lower ? wanted : -wanted;
-      if (inwards > most) {
-        most = inwards;
-        best = j;
-      }
-    }
-    if (best < 0) return false;
-    place_[best] = Place::free;
-    return true;
-  }
-
-  /// With the set known, meets Q to rounding: epsilon has done its work.
-  void polish() {
-    const MatrixXd columns = free_columns();
-    if (columns.cols() == 0) return;
-    const VectorXd exact =
-        columns.completeOrthogonalDecomposition().solve(left_for_free());
-    Index k = 0;
-    for (Index j = 0; j < B_.cols(); ++j) {
-      if (place_[j] == Place::free) F_[j] = std::fmin(std::fmax(exact[k++], low_), high_);
-    }
-  }
-
-  MatrixXd B_;
-  VectorXd Q_;
-  double low_, high_;
-  VectorXd F_, lambda_;
-  std::vector<Place> place_;
-};
-
-void check(const Model& model, const VectorXd& force, double low, double high) {
+void check(const Model& model, const TensionLimits& limits) {
   std::ostringstream text;
-  if (force.size() != model.num_coordinates() || !force.allFinite()) {
-    text << "force must be " << model.num_coordinates() << " finite values, got ["
-         << force.transpose() << "]";
+  if (std::isnan(limits.min_tension) || limits.min_tension == HUGE_VAL ||
+      !(limits.max_tension >= limits.min_tension)) {
+    text << "tension limits must satisfy min_tension <= max_tension, got min_tension "
+         << limits.min_tension << " N and max_tension " << limits.max_tension << " N";
     throw std::invalid_argument(text.str());
   }
-  if (!(low >= 0.0) || !std::isfinite(low) || !(high >= low)) {
-    text << "tension limits must satisfy 0 <= min_tension <= max_tension with min_tension finite, "
-         << "got min_tension " << low << " N and max_tension " << high << " N";
+  for (const Index cable : limits.cables) {
+    if (cable >= 0 && cable < model.num_cables()) continue;
+    text << "cables must be indices from 0 to " << model.num_cables() - 1 << ", got " << cable;
     throw std::invalid_argument(text.str());
   }
 }
 
 }  // namespace
 
-Allocation allocate(const Model& model, const VectorXd& force, double min_tension,
-                    double max_tension) {
-  check(model, force, min_tension, max_tension);
-  const MatrixXd& B = model.actuation_matrix();
-  Allocation result;
-  result.force = VectorXd::Zero(force.size());
-  if (B.cols() > 0) {
-    // Lengths of the order of one make epsilon mean the same for every robot.
-    const double scale = B.colwise().norm().maxCoeff();
-    ActiveSet set(B / scale, force / scale, min_tension, max_tension);
-    result.tension = set.solve();
-    actuation_force(model, result.tension, result.force);
-    for (Index j = 0; j < B.cols(); ++j) {
-      if (set.at_limit(j)) result.limiting.push_back(j);
+Allocator::Allocator(const Model& model, TensionLimits limits)
+    : low_(limits.min_tension), high_(limits.max_tension), ldlt_(model.num_coordinates()) {
+  check(model, limits);
+  const Index m = model.num_coordinates(), c = model.num_cables();
+  place_.assign(static_cast<std::size_t>(c), limits.cables.empty() ? Place::lower : Place::unused);
+  for (const Index cable : limits.cables) place_[cable] = Place::lower;
+  B_ = model.actuation_matrix();
+  for (Index j = 0; j < c; ++j) {
+    if (place_[j] == Place::unused) B_.col(j).setZero();
+  }
+  if (c > 0) scale_ = B_.colwise().norm().maxCoeff();
+  B_ /= scale_;
+  normal_ = MatrixXd::Identity(m, m);
+  ldlt_.compute(normal_);
+  Q_ = rest_ = lambda_ = force_ = VectorXd::Zero(m);
+  F_ = tension_ = VectorXd::Zero(c);
+
+  if (m == 2 && c == 3 && limits.cables.empty()) {
+    // The cross product of the rows of B spans its null space.
+    const Vector3d top = B_.row(0).transpose(), bottom = B_.row(1).transpose();
+    null_ = top.cross(bottom);
+    if (null_.minCoeff() * null_.maxCoeff() > 0.0) {
+      null_ *= (null_[0] > 0.0 ? 1.0 : -1.0) / null_.norm();
+      const Eigen::Matrix2d gram = B_ * B_.transpose();
+      pseudo_inverse_ = B_.transpose() * gram.inverse();
+      has_closed_form_ = true;
     }
   }
+}
+
+bool Allocator::at_limit(Index cable) const noexcept {
+  return place_[cable] == Place::lower || place_[cable] == Place::upper;
+}
+
+/// Q = pinv(B)-part plus a multiple of the null vector; the multiple nearest to zero is least-norm.
+bool Allocator::solve_in_closed_form() noexcept {
+  Vector3d base;
+  base.noalias() = pseudo_inverse_ * Q_;
+  double least = -HUGE_VAL, most = HUGE_VAL;
+  for (int j = 0; j < 3; ++j) {
+    least = std::fmax(least, (low_ - base[j]) / null_[j]);
+    most = std::fmin(most, (high_ - base[j]) / null_[j]);
+  }
+  if (!(least <= most)) return false;
+  const double common = std::clamp(0.0, least, most);
+  for (int j = 0; j < 3; ++j) {
+    F_[j] = std::fmin(std::fmax(base[j] + common * null_[j], low_), high_);
+    place_[j] = F_[j] == low_ ? Place::lower : F_[j] == high_ ? Place::upper : Place::free;
+  }
+  return true;
+}
+
+void Allocator::place_at_start() noexcept {
+  for (Index j = 0; j < F_.size(); ++j) {
+    if (place_[j] == Place::unused) continue;
+    F_[j] = std::fmin(std::fmax(0.0, low_), high_);
+    place_[j] = low_ >= 0.0 ? Place::lower : high_ <= 0.0 ? Place::upper : Place::free;
+  }
+}
+
+void Allocator::left_for_free() noexcept {
+  rest_ = Q_;
+  for (Index j = 0; j < F_.size(); ++j) {
+    if (place_[j] != Place::free) rest_ -= B_.col(j) * F_[j];
+  }
+}
+
+void Allocator::solve_free() noexcept {
+  normal_.setZero();
+  for (Index j = 0; j < F_.size(); ++j) {
+    if (place_[j] == Place::free) normal_.noalias() += B_.col(j) * B_.col(j).transpose();
+  }
+  normal_.diagonal().array() += epsilon;
+  ldlt_.compute(normal_);
+  left_for_free();
+  lambda_ = rest_;
+  ldlt_.solveInPlace(lambda_);
+}
+
+/// Moves towards the minimum over the free cables; true when one reached a limit on the way.
+bool Allocator::fix_first_beyond() noexcept {
+  solve_free();
+  double share = 1.0;
+  Index first = -1;
+  Place side = Place::free;
+  for (Index j = 0; j < F_.size(); ++j) {
+    if (place_[j] != Place::free) continue;
+    const double wanted = B_.col(j).dot(lambda_);
+    if (wanted >= low_ && wanted <= high_) continue;
+    const double limit = wanted < low_ ? low_ : high_;
+    const double part = (limit - F_[j]) / (wanted - F_[j]);
+    if (first < 0 || part < share) {
+      share = part;
+      first = j;
+      side = wanted < low_ ? Place::lower : Place::upper;
+    }
+  }
+  for (Index j = 0; j < F_.size(); ++j) {
+    if (place_[j] == Place::free) F_[j] += share * (B_.col(j).dot(lambda_) - F_[j]);
+  }
+  if (first < 0) return false;
+  F_[first] = side == Place::lower ? low_ : high_;
+  place_[first] = side;
+  return true;
+}
+
+/// Releases the fixed cable that most wants to move inwards; false when none does.
+bool Allocator::release_most_wanted() noexcept {
+  Index best = -1;
+  double most = 1e-9 * (1.0 + lambda_.norm());
+  for (Index j = 0; j < F_.size(); ++j) {
+    if (!at_limit(j) || low_ == high_) continue;
+    const double wanted = B_.col(j).dot(lambda_) - F_[j];
+    const double inwards = place_[j] == Place::lower ? wanted : -wanted;
+    if (inwards > most) {
+      most = inwards;
+      best = j;
+    }
+  }
+  if (best < 0) return false;
+  place_[best] = Place::free;
+  return true;
+}
+
+/// With the set known, refines the free tensions until Q is met to rounding: each pass leaves
+/// about epsilon of the error, and what cannot be met does not move the cables.
+void Allocator::polish() noexcept {
+  solve_free();
+  for (int pass = 0; pass < 3; ++pass) {
+    for (Index j = 0; j < F_.size(); ++j) {
+      if (place_[j] == Place::free) rest_ -= B_.col(j) * B_.col(j).dot(lambda_);
+    }
+    // rest_ is now the error of the force with F = B^T lambda on the free cables.
+    ldlt_.solveInPlace(rest_);
+    lambda_ += rest_;
+    left_for_free();
+  }
+  for (Index j = 0; j < F_.size(); ++j) {
+    if (place_[j] == Place::free) {
+      F_[j] = std::fmin(std::fmax(B_.col(j).dot(lambda_), low_), high_);
+    }
+  }
+}
+
+void Allocator::search() noexcept {
+  place_at_start();
+  // Each cable is released and caught a few times at most; the limit only guards rounding.
+  const Index max_changes = 50 * (F_.size() + 1);
+  for (Index change = 0; change < max_changes; ++change) {
+    if (fix_first_beyond()) continue;
+    if (!release_most_wanted()) break;
+  }
+  polish();
+}
+
+bool Allocator::solve(const ConstVectorRef& force) noexcept {
+  Q_ = force / scale_;
+  if (!has_closed_form_ || !solve_in_closed_form()) search();
+  tension_ = F_;
+  rest_ = Q_;
+  for (Index j = 0; j < F_.size(); ++j) rest_ -= B_.col(j) * F_[j];
+  force_ = scale_ * (Q_ - rest_);
+  double size = Q_.norm();
+  for (Index j = 0; j < F_.size(); ++j) size += std::abs(F_[j]) * B_.col(j).norm();
+  return rest_.norm() <= met * size;
+}
+
+Allocation allocate(const Model& model, const VectorXd& force, const TensionLimits& limits) {
+  if (force.size() != model.num_coordinates() || !force.allFinite()) {
+    std::ostringstream text;
+    text << "force must be " << model.num_coordinates() << " finite values, got ["
+         << force.transpose() << "]";
+    throw std::invalid_argument(text.str());
+  }
+  Allocator allocator(model, limits);
+  Allocation result;
+  result.feasible = allocator.solve(force);
+  result.tension = allocator.tension();
+  result.force = allocator.force();
   result.distance = (result.force - force).norm();
-  double size = force.norm();
-  if (B.cols() > 0) size += B.norm() * result.tension.norm();
-  result.feasible = result.distance <= 1e-10 * size;
-  if (result.feasible) result.limiting.clear();
+  for (Index j = 0; j < model.num_cables() && !result.feasible; ++j) {
+    if (allocator.at_limit(j)) result.limiting.push_back(j);
+  }
   return result;
 }
 

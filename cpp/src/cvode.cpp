@@ -87,8 +87,8 @@ class Cvode final : public Integrator {
   double time_ = 0.0, stop_ = 0.0;
   VectorXd state_, slope_, moved_, slope_there_;
   Status status_ = Status::not_started;
-  Status undefined_ = Status::ok;  // or why the last derivative does not exist
-  std::exception_ptr exception_;                 // thrown during a call of CVODE
+  Status obstacle_ = Status::ok;  // why a derivative wanted for the step at hand does not exist
+  std::exception_ptr exception_;  // thrown during a call of CVODE
   Stats stats_;  // without the failures that CVODE has counted since the last restart
 };
 
@@ -114,8 +114,7 @@ Cvode::Cvode(Plant& plant, Method method, const Options& options)
   require(CVodeSetUserData(cvode, this), "CVodeSetUserData");
   require(CVodeInit(cvode, derivative, time_, trial_.get()), "CVodeInit");
   require(CVodeSStolerances(cvode, options.rtol, options.atol), "CVodeSStolerances");
-  require(CVodeSetLinearSolver(cvode, linear_solver_.get(), matrix_.get()),
-          "CVodeSetLinearSolver");
+  require(CVodeSetLinearSolver(cvode, linear_solver_.get(), matrix_.get()), "CVodeSetLinearSolver");
   require(CVodeSetJacFn(cvode, jacobian), "CVodeSetJacFn");
   require(CVodeSetMaxStep(cvode, options.max_step), "CVodeSetMaxStep");
   require(CVodeSetMaxHnilWarns(cvode, -1), "CVodeSetMaxHnilWarns");
@@ -136,8 +135,9 @@ int Cvode::derivative(double t, N_Vector y, N_Vector dydt, void* self) noexcept 
   Cvode& me = *static_cast<Cvode*>(self);
   return me.guarded([&] {
     Eigen::Map<VectorXd> slope(NV_DATA_S(dydt), NV_LENGTH_S(dydt));
-    me.undefined_ = me.evaluate(t, NV_DATA_S(y), slope);
-    return me.undefined_ == Status::ok;
+    const Status status = me.evaluate(t, NV_DATA_S(y), slope);
+    if (status != Status::ok) me.obstacle_ = status;
+    return status == Status::ok;
   });
 }
 
@@ -230,19 +230,22 @@ Status Cvode::step() {
 
 Status Cvode::advance() {
   double t = time_;
+  obstacle_ = Status::ok;
+  const auto too_small = [this] {  // with the cause, where it is known
+    return obstacle_ == Status::ok ? Status::step_too_small : obstacle_;
+  };
   switch (CVode(cvode_.get(), stop_, trial_.get(), &t, CV_ONE_STEP)) {
     case CV_SUCCESS:
     case CV_TSTOP_RETURN:
       break;
     case CV_ERR_FAILURE:
-      return Status::step_too_small;
     case CV_REPTD_RHSFUNC_ERR:
     case CV_UNREC_RHSFUNC_ERR:
-      return undefined_;
+      return too_small();
     default:
       return Status::tolerance_not_met;
   }
-  if (!(t > time_)) return Status::step_too_small;
+  if (!(t > time_)) return too_small();
   const Status status = plant_.check(NV_DATA_S(trial_.get()));
   if (status != Status::ok) return status;
   state_ = view(trial_);

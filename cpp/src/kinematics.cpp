@@ -1,6 +1,7 @@
 #include "cdcr/kinematics.hpp"
 
 #include <Eigen/Geometry>
+#include <Eigen/Geometry>
 #include <cmath>
 
 namespace cdcr {

@@ -1,6 +1,7 @@
 #include "cdcr/plant.hpp"
 
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -10,32 +11,59 @@
 
 namespace cdcr {
 
-Plant::Plant(const Model& model, const TensionInput& input)
+Plant::Plant(const Model& model, const TensionInput* input, Controller* controller,
+             Index num_cables)
     : model_(&model),
-      input_(&input),
+      input_(input),
+      controller_(controller),
       data_(model),
       tension_(VectorXd::Zero(model.num_cables())),
       force_(VectorXd::Zero(model.num_coordinates())) {
   require_inertia(model);
-  if (input.num_cables() != model.num_cables()) {
+  if (num_cables != model.num_cables()) {
     throw std::invalid_argument("tension must have one value for each of the " +
                                 std::to_string(model.num_cables()) + " cables, got " +
-                                std::to_string(input.num_cables()));
+                                std::to_string(num_cables));
   }
-  set_segment(0);
 }
 
-void Plant::set_segment(Index segment) {
-  segment_ = segment;
-  force_holds_ = false;
-  if (input_->holds(segment)) {
-    update_force(0.0, force_, force_);  // neither time nor state matters
+Plant::Plant(const Model& model, const TensionInput& input)
+    : Plant(model, &input, nullptr, input.num_cables()) {}
+
+Plant::Plant(const Model& model, Controller& controller)
+    : Plant(model, nullptr, &controller, controller.num_cables()) {
+  segment_ = -1;
+}
+
+Status Plant::start_segment(double t, const VectorXd& y) {
+  const Index m = model_->num_coordinates();
+  if (controller_ != nullptr) {
+    if (segment_ < 0) start_ = t;
+    ++segment_;
+    segment_end_ = start_ + static_cast<double>(segment_ + 1) * controller_->period();
     force_holds_ = true;
+    const Status status = controller_->update(t, y.head(m), y.tail(m), tension_);
+    actuation_force(*model_, tension_, force_);
+    return status;
   }
+  segment_ = input_->segment(t);
+  const auto& breaks = input_->break_points();
+  segment_end_ = segment_ < static_cast<Index>(breaks.size())
+                     ? breaks[segment_]
+                     : std::numeric_limits<double>::infinity();
+  force_holds_ = input_->holds(segment_);
+  if (force_holds_) update_force(t, y.head(m), y.tail(m));
+  return Status::ok;
 }
 
 void Plant::update_force(double t, const ConstVectorRef& q, const ConstVectorRef& qd) {
-  evaluate_input(t, segment_, q, qd);
+  input_->evaluate(t, segment_, q, qd, tension_);
+  if (input_->is_function() && check_tension(*model_, tension_) != Status::ok) {
+    std::ostringstream text;
+    text << "the tension function must give finite values >= 0 N (a cable cannot push), got ["
+         << tension_.transpose() << "] at t = " << t << " s";
+    throw std::invalid_argument(text.str());
+  }
   actuation_force(*model_, tension_, force_);
 }
 
@@ -56,21 +84,10 @@ void Plant::jacobian(double t, const double* y, double* J) {
   state_jacobian(*model_, data_, q, qd, force_, A);
 }
 
-void Plant::tension(double t, Index segment, const VectorXd& y, VectorRef tension) {
+void Plant::tension(double t, const VectorXd& y, VectorRef tension) {
   const Index m = model_->num_coordinates();
-  evaluate_input(t, segment, y.head(m), y.tail(m));
+  if (!force_holds_) update_force(t, y.head(m), y.tail(m));
   tension = tension_;
-}
-
-void Plant::evaluate_input(double t, Index segment, const ConstVectorRef& q,
-                           const ConstVectorRef& qd) {
-  input_->evaluate(t, segment, q, qd, tension_);
-  if (input_->is_function() && check_tension(*model_, tension_) != Status::ok) {
-    std::ostringstream text;
-    text << "the tension function must give finite values >= 0 N (a cable cannot push), got ["
-         << tension_.transpose() << "] at t = " << t << " s";
-    throw std::invalid_argument(text.str());
-  }
 }
 
 Status Plant::check(const double* y) const noexcept {

@@ -47,15 +47,15 @@ class Recorder {
     const Index m = out_.q.cols();
     out_.q.row(next_) = y.head(m).transpose();
     out_.qd.row(next_) = y.tail(m).transpose();
-    const double t = out_.t[next_];
-    plant_.tension(t, plant_.input().segment(t), y, tension_);  // at a jump: the value after it
+    plant_.tension(out_.t[next_], y, tension_);
     out_.tension.row(next_) = tension_.transpose();
     ++next_;
   }
 
-  /// Records all output times up to the end of the integrator's last step.
-  void record_step(Integrator& integrator) {
-    while (!done() && next_time() <= integrator.time()) {
+  /// Records all output times up to the end of the integrator's last step, but for `stop`: at a
+  /// jump the tensions after it count, so that row waits for the next stretch to start.
+  void record_step(Integrator& integrator, double stop) {
+    while (!done() && next_time() <= integrator.time() && next_time() < stop) {
       if (next_time() == integrator.time()) {
         record(integrator.state());
       } else {
@@ -92,22 +92,14 @@ Status run_segment(Integrator& integrator, Recorder& recorder, double stop,
     }
     const Status status = integrator.step();
     if (status != Status::ok) return status;
-    recorder.record_step(integrator);
+    recorder.record_step(integrator, stop);
   }
   return Status::ok;
 }
 
-}  // namespace
-
-Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
-                    const VectorXd& times, const TensionInput& input, Method method,
-                    const Options& options, IntegratorFactory factory, const Progress& progress) {
-  check_vector(q0, model.num_coordinates(), "q0");
-  check_vector(qd0, model.num_coordinates(), "qd0");
-  check_times(times);
-  Plant plant(model, input);
-  const auto integrator = factory(plant, method, options);
-
+/// The run itself, shared by inputs and controllers.
+Trajectory run(Plant& plant, const VectorXd& q0, const VectorXd& qd0, const VectorXd& times,
+               Integrator& integrator, const Options& options, const Progress& progress) {
   VectorXd y(plant.num_states());
   y << q0, qd0;
   if (plant.check(y.data()) != Status::ok) {
@@ -115,33 +107,58 @@ Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
     text << "q0 must bend each section by at most 3 pi rad, got [" << q0.transpose() << "]";
     throw std::invalid_argument(text.str());
   }
-
   Trajectory out;
   Recorder recorder(plant, times, out);
-  recorder.record(y);
   const double end = times[times.size() - 1];
   double t = times[0];
-  while (t < end && out.status == Status::ok) {
-    const Index segment = input.segment(t);
-    const auto& breaks = input.break_points();
-    const bool has_break = segment < static_cast<Index>(breaks.size());
-    const double stop = has_break ? std::min(end, breaks[segment]) : end;
-    plant.set_segment(segment);
-    out.status = integrator->restart(t, y, stop);
+  while (true) {
+    out.status = plant.start_segment(t, y);
+    if (out.status != Status::ok) break;
+    if (!recorder.done() && recorder.next_time() == t) recorder.record(y);
+    if (t >= end) break;
+    const double stop = std::min(end, plant.segment_end());
+    out.status = integrator.restart(t, y, stop);
     if (out.status == Status::ok) {
-      out.status = run_segment(*integrator, recorder, stop, options, progress);
+      out.status = run_segment(integrator, recorder, stop, options, progress);
     }
-    t = integrator->time();
-    y = integrator->state();
+    t = integrator.time();
+    y = integrator.state();
+    if (out.status != Status::ok) break;
   }
   recorder.finish();
-  out.stats = integrator->stats();
+  out.stats = integrator.stats();
   if (out.status != Status::ok) {
     std::ostringstream text;
     text << "Stopped at t = " << t << " s (" << name(out.status) << "). " << message(out.status);
     out.message = text.str();
   }
   return out;
+}
+
+void check_arguments(const Model& model, const VectorXd& q0, const VectorXd& qd0,
+                     const VectorXd& times) {
+  check_vector(q0, model.num_coordinates(), "q0");
+  check_vector(qd0, model.num_coordinates(), "qd0");
+  check_times(times);
+}
+
+}  // namespace
+
+Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
+                    const VectorXd& times, const TensionInput& input, Method method,
+                    const Options& options, IntegratorFactory factory, const Progress& progress) {
+  check_arguments(model, q0, qd0, times);
+  Plant plant(model, input);
+  return run(plant, q0, qd0, times, *factory(plant, method, options), options, progress);
+}
+
+Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
+                    const VectorXd& times, Controller& controller, Method method,
+                    const Options& options, IntegratorFactory factory, const Progress& progress) {
+  check_arguments(model, q0, qd0, times);
+  Plant plant(model, controller);
+  controller.reset();
+  return run(plant, q0, qd0, times, *factory(plant, method, options), options, progress);
 }
 
 }  // namespace cdcr

@@ -13,8 +13,9 @@ except ImportError as error:  # pragma: no cover
     ) from error
 
 from cdcr import robots, scenarios
+from cdcr._control import Pid
 from cdcr._coordinates import bending, polar
-from cdcr._core import Equilibrium, Simulator, Stats, Status, max_bending
+from cdcr._core import Controller, Equilibrium, Simulator, Stats, Status, max_bending
 from cdcr._model import ConvergenceError, InfeasibleError, InverseKinematics, Model
 from cdcr._robot import Robot, Section
 from cdcr._simulate import TensionTable, simulate
@@ -23,11 +24,13 @@ from cdcr._trajectory import Trajectory
 __version__: str = _core.__version__
 
 __all__ = [
+    "Controller",
     "ConvergenceError",
     "Equilibrium",
     "InfeasibleError",
     "InverseKinematics",
     "Model",
+    "Pid",
     "Robot",
     "Section",
     "Simulator",

@@ -13,7 +13,6 @@ from rich.console import Console
 
 import cdcr
 from cdcr import _cli_run, _cli_tables
-from cdcr._robot import Robot
 
 if TYPE_CHECKING:
     from cdcr._simulate import MethodName
@@ -34,20 +33,18 @@ def _told_plainly() -> Iterator[None]:
     try:
         yield
     except KeyboardInterrupt:
-        typer.echo("cdcr: interrupted", err=True)
+        typer.echo("cdcr: interrupted, no file was written", err=True)
         raise typer.Exit(130) from None
     except _cli_run.RunFailed as failure:
         typer.echo(f"cdcr: {failure}", err=True)
         raise typer.Exit(1) from None
-    except (ValueError, ImportError, OSError) as error:
-        typer.echo(f"cdcr: {_sentence(error)}", err=True)
+    except (_cli_run.Mistake, ImportError) as error:
+        typer.echo(f"cdcr: {error}", err=True)
         raise typer.Exit(2) from None
-
-
-def _sentence(error: Exception) -> str:
-    if isinstance(error, OSError) and error.strerror:
-        return f"{error.filename}: {error.strerror}"
-    return str(error)
+    except OSError as error:  # the system's own have a file and a reason, ours are sentences
+        sentence = f"{error.filename}: {error.strerror}" if error.strerror else str(error)
+        typer.echo(f"cdcr: {sentence}", err=True)
+        raise typer.Exit(2) from None
 
 
 def _version(wanted: bool) -> None:
@@ -81,9 +78,7 @@ def info_command(
 ) -> None:
     """Show what a robot is made of: masses, stiffness, cables and its natural frequency."""
     with _told_plainly():
-        file = robot.endswith(".toml") or Path(robot).is_file()
-        described = Robot.load(robot) if file else cdcr.robots.get(robot)
-        _cli_tables.print_robot(Console(), robot, described)
+        _cli_tables.print_robot(Console(), robot, _cli_run.find_robot(robot))
 
 
 @app.command("run", short_help="Run a scenario; write picture and data; print a summary.")
@@ -112,6 +107,10 @@ def run_command(
         float | None,
         typer.Option(metavar="NUMBER", help="Absolute tolerance of one step [rad], [rad/s]."),
     ] = None,
+    max_steps: Annotated[
+        int | None,
+        typer.Option(metavar="NUMBER", help="Internal steps after which the run is given up."),
+    ] = None,
     overwrite: Annotated[
         bool, typer.Option("--overwrite", help="Replace files of an earlier run.")
     ] = False,
@@ -134,6 +133,7 @@ def run_command(
             t_end=t_end,
             rtol=rtol,
             atol=atol,
+            max_steps=max_steps,
         )
         if as_json:
             typer.echo(json.dumps(report.as_dict(), indent=2, allow_nan=False))

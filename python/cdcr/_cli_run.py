@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from contextlib import ExitStack
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from types import TracebackType
@@ -12,9 +13,10 @@ from typing import Any
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
-from cdcr import scenarios
+from cdcr import robots, scenarios
 from cdcr._export import new_file
 from cdcr._extras import require
+from cdcr._robot import Robot
 from cdcr._scenario_file import load_scenario
 from cdcr._simulate import MethodName
 from cdcr._trajectory import Trajectory
@@ -29,6 +31,19 @@ BAR_DELAY = 1.0  # shorter runs show no progress bar [s]
 
 class RunFailed(Exception):
     """The integration ended before its time."""
+
+
+class Mistake(Exception):
+    """Something the user can mend in the command or in a file."""
+
+
+@contextmanager
+def mistakes() -> Iterator[None]:
+    """Take a ValueError for a mistake of the user: only where user's values are looked at."""
+    try:
+        yield
+    except ValueError as error:
+        raise Mistake(str(error)) from error
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -74,6 +89,7 @@ def run(
     t_end: float | None,
     rtol: float | None,
     atol: float | None,
+    max_steps: int | None,
 ) -> Report:
     """Run a scenario by name or file and write its files; a failed run writes none."""
     scenario = find_scenario(name)
@@ -83,9 +99,15 @@ def run(
         require(module, extra)
     with DelayedBar(console, scenario.name, scenario.t_end if t_end is None else t_end) as bar:
         start = time.perf_counter()
-        trajectory = scenario.simulate(
-            t_end=t_end, method=method, rtol=rtol, atol=atol, progress=bar
-        )
+        with mistakes():
+            trajectory = scenario.simulate(
+                t_end=t_end,
+                method=method,
+                rtol=rtol,
+                atol=atol,
+                max_steps=max_steps,
+                progress=bar,
+            )
         wall_time = time.perf_counter() - start
     if trajectory.success:
         write(scenario, trajectory, targets, overwrite=overwrite)
@@ -101,9 +123,18 @@ def run(
 
 def find_scenario(name: str) -> Scenario:
     """Return a scenario of the package by name, or a user's one by its file."""
-    if name.endswith(".toml") or Path(name).is_file():
-        return load_scenario(name)
-    return scenarios.get(name)
+    with mistakes():
+        return load_scenario(name) if _is_file(name) else scenarios.get(name)
+
+
+def find_robot(name: str) -> Robot:
+    """Return a robot of the package by name, or a user's one by its file."""
+    with mistakes():
+        return Robot.load(name) if _is_file(name) else robots.get(name)
+
+
+def _is_file(name: str) -> bool:
+    return name.endswith(".toml") or Path(name).is_file()
 
 
 def refuse_existing(out: Path, targets: tuple[Path, ...], *, overwrite: bool) -> None:
@@ -138,7 +169,7 @@ def write(
 
 
 class DelayedBar:
-    """A progress bar on a run that lasts longer than BAR_DELAY."""
+    """A progress bar on a terminal, for a run that lasts longer than BAR_DELAY."""
 
     def __init__(self, console: Console, name: str, t_end: float) -> None:
         self._bar = Progress(
@@ -151,14 +182,17 @@ class DelayedBar:
         )
         self._task = self._bar.add_task(name, total=t_end)
         self._shown_from = time.monotonic() + BAR_DELAY
+        self._is_shown = False
 
     def __enter__(self) -> DelayedBar:
         return self
 
     def __call__(self, t: float) -> None:
         """Show the time reached [s]."""
-        if not self._bar.live.is_started and time.monotonic() >= self._shown_from:
+        is_late = time.monotonic() >= self._shown_from
+        if is_late and not self._is_shown and self._bar.console.is_terminal:
             self._bar.start()
+            self._is_shown = True
         self._bar.update(self._task, completed=t)
 
     def __exit__(
@@ -167,4 +201,5 @@ class DelayedBar:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        self._bar.stop()
+        if self._is_shown:
+            self._bar.stop()

@@ -212,6 +212,47 @@ def simulate(
     progress: Callable[[float], object] | None,
 ) -> Trajectory: ...
 
+def simulate_controlled(
+    model: Model,
+    q0: ArrayLike,
+    qd0: ArrayLike,
+    t: ArrayLike,
+    controller: Controller,
+    method: Method,
+    options: Options,
+    progress: Callable[[float], object] | None,
+) -> Trajectory: ...
+
+class Controller:
+    """Turns the measured state into tensions, each period."""
+
+    @property
+    def period(self) -> float: ...
+    def reset(self) -> None: ...
+
+class Pid(Controller):
+    def __init__(
+        self,
+        model: Model,
+        *,
+        kp: float,
+        ki: float = 0.0,
+        kd: float = 0.0,
+        period: float = 0.001,
+        feed_forward: bool = True,
+        anti_windup: bool = True,
+        min_tension: float = 0.0,
+        max_tension: float = ...,
+        cables: Sequence[int] = ...,
+    ) -> None: ...
+    @property
+    def reference(self) -> FloatArray: ...
+    @reference.setter
+    def reference(self, q: ArrayLike) -> None: ...
+    @property
+    def integral(self) -> FloatArray: ...
+    def update(self, t: float, q: ArrayLike, qd: ArrayLike) -> FloatArray: ...
+
 class Simulator:
     """The robot inside a control loop: one period at a time, tensions held over the period."""
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 import reprlib
 from collections.abc import Collection, Iterable, Mapping, Set
+from contextlib import suppress
 from difflib import get_close_matches
 from numbers import Integral, Real
 from typing import Any
 
-_INT_LIMIT = 2**31  # of the C++ int that keeps a count
+_C_INT = 2**31 - 1  # largest count that the core can be told
 
 
 def shown(value: object) -> str:
@@ -37,21 +38,26 @@ class Check:
         """Keep the sentence '`item` must be `wanted`, got `value`'."""
         self.sentences.append(f"{item} must be {wanted}, got {shown(value)}")
 
-    def number(self, item: str, value: object, wanted: str) -> float:
-        """Return any real number, NumPy scalars included, as a float; a bool is no number."""
+    def number(self, item: str, value: object, wanted: str, above: float | None = None) -> float:
+        """Return any real number, NumPy scalars included, as a float; a bool is no number.
+
+        Where it must be `above` a limit, it must be finite too.
+        """
         if isinstance(value, Real) and not isinstance(value, bool):
-            try:
-                return float(value)
-            except OverflowError:
-                pass
+            with suppress(OverflowError):
+                number = float(value)
+                if above is None or above < number < math.inf:
+                    return number
         self.refuse(item, wanted, value)
         return math.nan
 
-    def whole(self, item: str, value: object, wanted: str) -> int:
-        """Return any whole number, NumPy scalars included, as an int."""
+    def whole(
+        self, item: str, value: object, wanted: str, low: int = -_C_INT, high: int = _C_INT
+    ) -> int:
+        """Return any whole number from `low` to `high`, NumPy scalars included, as an int."""
         if isinstance(value, Integral) and not isinstance(value, bool):
             count = int(value)
-            if abs(count) < _INT_LIMIT:
+            if low <= count <= high:
                 return count
         self.refuse(item, wanted, value)
         return 0

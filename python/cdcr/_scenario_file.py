@@ -43,7 +43,7 @@ _ANGLES = ("theta", "theta_deg", "phi", "phi_deg")
 _RIVALS = (("theta", "theta_deg"), ("phi", "phi_deg"), *(("q", angle) for angle in _ANGLES))
 # Keys that a file has in common with Scenario.
 _COMMON = ("title", "description", "source", "formulation", "t_end", "num_samples", "method")
-_OPTIONS = ("rtol", "atol", "step", "max_step")
+_OPTIONS = ("rtol", "atol", "step", "max_step", "max_steps")
 
 
 def load_scenario(path: str | PathLike[str]) -> Scenario:
@@ -64,7 +64,7 @@ def load_scenario(path: str | PathLike[str]) -> Scenario:
     robot = _robot(table["robot"], file)
     with _said_by(str(file)):
         model = Model(robot, formulation=table.get("formulation", "exact"))
-    q0, qd0 = _initial(table.get("initial", {}), len(robot.sections), file)
+    q0, qd0 = initial_state(table.get("initial", {}), len(robot.sections), file)
     given: dict[str, Any] = {"title": file.stem, "description": "", "source": str(file)}
     given |= {name: table[name] for name in (*_COMMON, *_OPTIONS) if name in table}
     return Scenario(
@@ -95,10 +95,10 @@ def _said_by(where: str) -> Iterator[None]:
         raise ValueError(f"{where}: {error}") from None
 
 
-def _initial(
+def initial_state(
     table: Mapping[str, Any], num_sections: int, file: Path
 ) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Return q0 and qd0."""
+    """Return q0 and qd0 from an [initial] table."""
     from cdcr._scenario_schema import InitialTable
 
     found = complaints(InitialTable, table, "initial")

@@ -6,6 +6,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from cdcr.scenarios._scenario import MAX_SAMPLES
+
 _Finite = Annotated[float, Field(allow_inf_nan=False)]
 _Tension = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
 _STRICT = ConfigDict(extra="forbid", strict=True)
@@ -39,7 +41,7 @@ class ScenarioTable(BaseModel):
         "or a table with t and rows, or a table with file"
     )
     t_end: float = Field(gt=0.0, allow_inf_nan=False, description="a number > 0 [s]")
-    num_samples: int = _optional("a whole number 2 to 100000000", ge=2, le=100_000_000)
+    num_samples: int = _optional(f"a whole number 2 to {MAX_SAMPLES}", ge=2, le=MAX_SAMPLES)
     method: Literal["bdf", "adams", "dopri5", "rk4"] = _optional(
         '"bdf", "adams", "dopri5" or "rk4"'
     )
@@ -47,6 +49,7 @@ class ScenarioTable(BaseModel):
     atol: float = _positive("a number > 0 [rad], [rad/s]")
     step: float = _positive("a number > 0 [s]")
     max_step: float = _positive("a number > 0 [s]")
+    max_steps: int = _optional("a whole number > 0", gt=0, lt=2**63)
 
 
 class InitialTable(BaseModel):

@@ -103,6 +103,7 @@ def simulate(
     *,
     t: ArrayLike,
     tension: Tension = None,
+    controller: _core.Controller | None = None,
     method: MethodName = "bdf",
     rtol: float | None = None,
     atol: float | None = None,
@@ -127,6 +128,9 @@ def simulate(
         None (no tension), (num_cables,) constant tensions [N], a `TensionTable` or a pair
         ``(times, tensions)`` read as one, or a callable ``f(t)`` or ``f(t, q, qd)`` returning
         tensions. A callable is the slow path: Python is called at every evaluation.
+    controller : Controller, optional
+        In place of `tension`, such as a `Pid`: reset, then asked at the first time and each period
+        after, its tensions held in between.
     method : {"bdf", "adams", "dopri5", "rk4"}, optional
         bdf and adams: CVODE. dopri5: Dormand-Prince 5(4), the quickest where nothing is stiff.
         rk4: fixed step.
@@ -166,9 +170,15 @@ def simulate(
     options = _options(
         {"rtol": rtol, "atol": atol, "step": step, "max_step": max_step, "max_steps": max_steps}
     )
-    raw = _core.simulate(
-        model, q0, qd0, t, tension_input(model, tension, break_points), chosen, options, progress
-    )
+    if controller is not None:
+        if tension is not None or len(break_points) > 0:
+            raise ValueError("give either tension or controller, not both")
+        raw = _core.simulate_controlled(
+            model, q0, qd0, t, controller, chosen, options, progress
+        )
+    else:
+        source = tension_input(model, tension, break_points)
+        raw = _core.simulate(model, q0, qd0, t, source, chosen, options, progress)
     run = Trajectory(
         model=model,
         t=raw.t,

@@ -142,7 +142,7 @@ class Trajectory:
         scale = max(
             np.max(np.abs(self.energy[:1]), initial=0.0), np.max(self.kinetic_energy, initial=0.0)
         )
-        return (self.energy - self.energy[:1]) / (scale or 1.0)
+        return _read_only((self.energy - self.energy[:1]) / (scale or 1.0))
 
     @property
     def energy_drift(self) -> float:

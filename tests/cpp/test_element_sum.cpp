@@ -12,7 +12,7 @@
 namespace cdcr::test {
 namespace {
 
-TEST_SUITE_BEGIN("element sum");
+TEST_SUITE_BEGIN("element_sum");
 
 TEST_CASE("mass matrix") {
   for_each_case(2.0 * pi, [](const Model& model, Data& data, const State& state) {

@@ -32,7 +32,7 @@ void check_consistent(const Model& model, const Vector3d& p, const InverseKinema
   CHECK(answer.q.norm() <= full_circle * (1.0 + tolerance::rounding));
 }
 
-TEST_SUITE_BEGIN("inverse kinematics");
+TEST_SUITE_BEGIN("inverse_kinematics");
 
 TEST_CASE("round trip through reachable points") {
   Random random;

@@ -41,7 +41,7 @@ void check_column(const Model& model, Data& data, const State& state, const Vect
   CHECK(residual(column.tail(2), difference(shifted, step), scale) <= tolerance::differences);
 }
 
-TEST_SUITE_BEGIN("linearisation");
+TEST_SUITE_BEGIN("linearization");
 
 TEST_CASE("A and B are the derivatives of forward dynamics") {
   // Near 2 pi a payload alone has almost no inertia across the bend, so its derivatives explode.

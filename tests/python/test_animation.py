@@ -6,12 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 
 import cdcr
-
-pytest.importorskip("matplotlib")
-from cdcr.plotting.animation import draw_frames, frame_times  # noqa: E402
-from PIL import Image  # noqa: E402
+from cdcr.plotting.animation import draw_frames, frame_times
 
 
 @pytest.fixture(scope="module")
@@ -24,7 +22,10 @@ def run() -> cdcr.Trajectory:
 def test_gif_has_a_frame_for_each_moment(run: cdcr.Trajectory, tmp_path: Path) -> None:
     told: list[tuple[int, int]] = []
     path = run.animate(
-        tmp_path / "run.gif", fps=30.0, speed=2.0, progress=lambda done, total: told.append((done, total))
+        tmp_path / "run.gif",
+        fps=30.0,
+        speed=2.0,
+        progress=lambda done, total: told.append((done, total)),
     )
     assert path == tmp_path / "run.gif"
     assert told == [(k, 8) for k in range(1, 9)]  # 0.25 s of film: 7.5 frames after the first
@@ -77,7 +78,9 @@ def test_ffmpeg_is_given_every_pixel(
 ) -> None:
     out = tmp_path / "out"
     out.mkdir()
-    _install_ffmpeg(tmp_path, f'echo "$@" > {tmp_path}/args; for f; do :; done; cat > "$f"', monkeypatch)
+    _install_ffmpeg(
+        tmp_path, f'echo "$@" > {tmp_path}/args; for f; do :; done; cat > "$f"', monkeypatch
+    )
     path = run.animate(out / "run", fps=4.0)
     assert path == out / "run.mp4"
     frames = np.stack(list(draw_frames(run, np.array([0.0, 0.25, 0.5]))))

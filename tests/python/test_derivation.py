@@ -89,53 +89,40 @@ def rate(f: Callable[[Matrix], Any], q: Matrix, qd: Matrix) -> Any:
 
 
 def gradient(f: Callable[[Matrix], Any], q: Matrix) -> Matrix:
-    """Derivative of a scalar f, or Jacobian of a vector f, its columns by component of q."""
+    """Derivative of a scalar f, or Jacobian of a vector f with two components."""
     columns = [rate(f, q, e) for e in (numbers(1, 0), numbers(0, 1))]
     if not hasattr(columns[0], "rows"):
         return mp.matrix(columns)
-    return mp.matrix([[column[i] for column in columns] for i in range(columns[0].rows)])
+    return mp.matrix([[column[i] for column in columns] for i in (0, 1)])
 
 
 def elements() -> list[tuple[Real, Real, Real]]:
     """Fraction, mass and transverse inertia of Gauss's rod slices, the disks and the payload."""
-    s = SECTION
-
-    def slice_of(x: Real, mass: Real, diameter: float) -> tuple[Real, Real, Real]:
-        return x, mass, mass * mp.mpf(diameter) ** 2 / 16
-
-    nodes, weights = mp.gauss_quadrature(40, "legendre")
-    rod = mp.mpf(s.backbone_mass)
-    return [
-        *(
-            slice_of((1 + z) / 2, rod * weight / 2, s.backbone_diameter)
-            for z, weight in zip(nodes, weights, strict=True)
-        ),
-        *(
-            slice_of(mp.mpf(k) / s.num_disks, mp.mpf(s.disk_mass), s.disk_diameter)
-            for k in range(1, s.num_disks + 1)
-        ),
-        slice_of(mp.mpf(1), mp.mpf(ROBOT.payload), 0.0),
-    ]
+    s, parts = SECTION, [(mp.mpf(1), mp.mpf(ROBOT.payload), 0.0)]
+    for z, weight in zip(*mp.gauss_quadrature(40, "legendre"), strict=True):
+        parts.append(((1 + z) / 2, mp.mpf(s.backbone_mass) * weight / 2, s.backbone_diameter))
+    for k in range(1, s.num_disks + 1):
+        parts.append((mp.mpf(k) / s.num_disks, mp.mpf(s.disk_mass), s.disk_diameter))
+    return [(x, mass, mass * mp.mpf(diameter) ** 2 / 16) for x, mass, diameter in parts]
 
 
 ELEMENTS = elements()
 
 
-def angular_velocity(q: Matrix, qd: Matrix, x: Real) -> Matrix:
+def velocities(q: Matrix, qd: Matrix, x: Real) -> tuple[Matrix, Matrix]:
+    """Linear and angular velocity, the latter from the skew matrix (dR/dt) R^T."""
     spin = rate(lambda p: paper_rotation(p, x), q, qd) * paper_rotation(q, x).T
-    return numbers(spin[2, 1], spin[0, 2], spin[1, 0])
+    angular = numbers(spin[2, 1], spin[0, 2], spin[1, 0])
+    return rate(lambda p: paper_position(p, x), q, qd), angular
 
 
 def kinetic_energy(q: Matrix, qd: Matrix) -> Real:
     """T of the elements, a thin disk's axial inertia being twice its transverse inertia."""
     total = mp.mpf(0)
-    for x, mass, transverse in ELEMENTS:
-        v = rate(lambda p, x=x: paper_position(p, x), q, qd)
-        omega = angular_velocity(q, qd, x)
+    for x, mass, I_t in ELEMENTS:
+        v, omega = velocities(q, qd, x)
         spin = dot(omega, paper_rotation(q, x)[:, 2])
-        total += mass * dot(v, v) + transverse * (dot(omega, omega) - spin**2) + (
-            2 * transverse * spin**2
-        )
+        total += mass * dot(v, v) + I_t * (dot(omega, omega) - spin**2) + 2 * I_t * spin**2
     return total / 2
 
 
@@ -256,8 +243,8 @@ def test_4_linear_and_5_angular_velocity(q: Matrix, qd: Matrix, x: Real) -> None
     u, G = x * z_cross(q), (1 - S(y)) / y2
     left = mp.eye(3) + A(y) * hat(u) + G * hat(u) ** 2
     angular = x * left * mp.matrix([[0, -1], [1, 0], [0, 0]])
-    assert error(linear, gradient(lambda p: paper_position(p, x), q)) < SAME
-    assert error(angular * qd, angular_velocity(q, qd, x)) < SAME
+    assert error(linear * qd, velocities(q, qd, x)[0]) < SAME
+    assert error(angular * qd, velocities(q, qd, x)[1]) < SAME
     jacobian = mp.matrix(MODEL.jacobian(floats(q), 0, float(x)).tolist())
     assert error(jacobian[:3, :], linear) < DOUBLE
     assert error(jacobian[3:, :], angular) < DOUBLE
@@ -269,12 +256,9 @@ def test_6_cables_keep_their_place_in_the_disks(q: Matrix, qd: Matrix, x: Real) 
     """A cable's slope |d(r + R hole)/dx| is the same at every x, hence its length over one."""
     model_lengths = MODEL.cable_lengths(floats(q))
     for gamma, model_length in zip(SECTION.cable_angles, model_lengths, strict=True):
-        e = numbers(mp.cos(gamma), mp.sin(gamma), 0)
-        hole = mp.mpf(SECTION.cable_radius) * e
-        ends = [
-            paper_position(q, x + h) + paper_rotation(q, x + h) * hole for h in (STEP, -STEP)
-        ]
-        length = LENGTH - mp.mpf(SECTION.cable_radius) * dot(e[:2], q)
+        hole = mp.mpf(SECTION.cable_radius) * numbers(mp.cos(gamma), mp.sin(gamma), 0)
+        ends = [paper_position(q, x + h) + paper_rotation(q, x + h) * hole for h in (STEP, -STEP)]
+        length = LENGTH - dot(hole[:2], q)
         assert error([mp.norm(ends[0] - ends[1]) / (2 * STEP)], [length]) < SAME
         assert error([model_length], [length]) < DOUBLE
 

@@ -10,11 +10,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import cdcr
 from cdcr import _export
-
-xr = pytest.importorskip("xarray")
 
 UNITS = {
     "time": "s",
@@ -43,7 +42,9 @@ def run() -> cdcr.Trajectory:
         [0.1, -0.2],
         [0.3, 1.0],
         t=np.linspace(0.0, 2.0, 41),
-        tension=cdcr.TensionTable([0.0, 1.0, 2.0], [[1.0, 0.0, 0.1], [3.0, 1.0, 0.1], [0, 0, 0]]),
+        tension=cdcr.TensionTable(
+            [0.0, 1.0, 2.0], [[1.0, 0.0, 0.1], [3.0, 1.0, 0.1], [0.0, 0.0, 0.0]]
+        ),
     )
 
 

@@ -1,18 +1,18 @@
 """Pictures of runs and robots: what they show is the data, with names and units."""
 
 import dataclasses
+import subprocess
 import sys
 from typing import Any
 
+import matplotlib as mpl
 import numpy as np
 import pytest
+from mpl_toolkits.mplot3d import proj3d  # type: ignore[import-untyped]
 
 import cdcr
-
-mpl = pytest.importorskip("matplotlib")
-from cdcr.plotting import plot_robot  # noqa: E402
-from cdcr.plotting.geometry import robot_shape, states_at  # noqa: E402
-from mpl_toolkits.mplot3d import proj3d  # type: ignore[import-untyped]  # noqa: E402
+from cdcr.plotting import plot_robot
+from cdcr.plotting.geometry import robot_shape, states_at
 
 # Sums of a few products of numbers below 1 [m].
 ROUNDING = 1e-14
@@ -78,7 +78,7 @@ def test_free_run_shows_its_energy_error(free_run: cdcr.Trajectory) -> None:
 
 
 def test_rounding_noise_does_not_fill_a_panel(free_run: cdcr.Trajectory) -> None:
-    noisy = dataclasses.replace(free_run, q=free_run.q + [0.0, 1e-17])
+    noisy = dataclasses.replace(free_run, q=free_run.q + np.array([0.0, 1e-17]))
     phi = noisy.plot().axes[1]
     low, high = phi.get_ylim()
     assert high - low >= 1.0
@@ -99,12 +99,15 @@ def test_legends_lie_outside_the_data(run: cdcr.Trajectory) -> None:
 
 
 def test_nothing_is_cut_off(run: cdcr.Trajectory) -> None:
-    for figure in (run.plot(), run.plot_robot().figure):
+    for figure in (run.plot(), run.plot_robot().figure, plot_robot(run.model, [0.0, 0.0]).figure):
         figure.draw_without_rendering()
-        tight = figure.get_tightbbox()  # [in]
-        width, height = figure.get_size_inches()
-        assert 0.0 <= tight.x0 < tight.x1 <= width
-        assert 0.0 <= tight.y0 < tight.y1 <= height
+        parts = [axis for axes in figure.axes for axis in axes._axis_map.values()]
+        boxes = [part.get_tightbbox() for part in [*parts, *figure.legends]]
+        shown = [box for box in boxes if box is not None]
+        assert len(shown) >= 3
+        for box in shown:
+            assert figure.bbox.x0 <= box.x0 < box.x1 <= figure.bbox.x1
+            assert figure.bbox.y0 <= box.y0 < box.y1 <= figure.bbox.y1
 
 
 def test_failed_run_says_so_in_its_picture(run: cdcr.Trajectory) -> None:
@@ -119,7 +122,18 @@ def test_caller_settings_are_left_alone(run: cdcr.Trajectory) -> None:
     run.plot()
     run.plot_robot()
     assert dict(mpl.rcParams) == before
-    assert "matplotlib.pyplot" not in sys.modules
+
+
+def test_no_window_system_is_needed() -> None:
+    code = """
+import sys, cdcr
+model = cdcr.Model(cdcr.robots.amouri2020())
+run = cdcr.simulate(model, [0.1, 0.0], [0.0, 0.0], t=[0.0, 0.1])
+run.plot(), run.plot_robot()
+assert "matplotlib.figure" in sys.modules
+assert "matplotlib.pyplot" not in sys.modules
+"""
+    subprocess.run([sys.executable, "-c", code], check=True)
 
 
 def test_saved_text_stays_text(run: cdcr.Trajectory, tmp_path: Any) -> None:
@@ -189,7 +203,11 @@ def test_robot_artists_are_the_shape(model: cdcr.Model) -> None:
     np.testing.assert_array_equal(np.array(backbone.get_data_3d()).T, shape.backbone)
     for line, cable in zip(cables, shape.cables, strict=True):
         np.testing.assert_array_equal(np.array(line.get_data_3d()).T, cable)
-    assert [line.get_label() for line in cables] == ["cable 1: 5 N", "cable 2: 0 N", "cable 3: 2.5 N"]
+    assert [line.get_label() for line in cables] == [
+        "cable 1: 5 N",
+        "cable 2: 0 N",
+        "cable 3: 2.5 N",
+    ]
     assert cables[0].get_linewidth() > cables[2].get_linewidth() > cables[1].get_linewidth()
     assert len({line.get_color() for line in cables}) == 3
 

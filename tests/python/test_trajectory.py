@@ -1,7 +1,6 @@
 """The result of a run: its arrays, what is derived from them, how it introduces itself."""
 
 import dataclasses
-import pickle
 
 import numpy as np
 import pytest
@@ -73,8 +72,12 @@ def test_tip_and_energies_are_the_models(free_run: cdcr.Trajectory) -> None:
     for i in (0, 133, 400):
         q, qd = free_run.q[i], free_run.qd[i]
         np.testing.assert_allclose(free_run.tip[i], model.tip(q)[1], rtol=ROUNDING, atol=ROUNDING)
-        assert free_run.kinetic_energy[i] == pytest.approx(model.kinetic_energy(q, qd), rel=ROUNDING)
-        assert free_run.potential_energy[i] == pytest.approx(model.potential_energy(q), rel=ROUNDING)
+        assert free_run.kinetic_energy[i] == pytest.approx(
+            model.kinetic_energy(q, qd), rel=ROUNDING
+        )
+        assert free_run.potential_energy[i] == pytest.approx(
+            model.potential_energy(q), rel=ROUNDING
+        )
     np.testing.assert_array_equal(
         free_run.energy, free_run.kinetic_energy + free_run.potential_energy
     )
@@ -122,11 +125,3 @@ def test_arrays_that_do_not_fit_are_refused(free_run: cdcr.Trajectory) -> None:
         dataclasses.replace(free_run, qd=free_run.qd[:-1])
     with pytest.raises(ValueError, match=r"^tension must have shape \(401, 3\), got \(401, 2\)$"):
         dataclasses.replace(free_run, tension=free_run.tension[:, :2])
-
-
-def test_pickling(free_run: cdcr.Trajectory) -> None:
-    twin = pickle.loads(pickle.dumps(free_run))
-    np.testing.assert_array_equal(twin.q, free_run.q)
-    assert twin.model.robot == free_run.model.robot
-    assert twin.status is free_run.status
-    assert twin.stats.steps == free_run.stats.steps

@@ -2,12 +2,15 @@
 
 // Everything of target cdcr::cdcr. cdcr/cvode.hpp belongs to cdcr::cvode.
 #include "cdcr/allocation.hpp"
+#include "cdcr/controller.hpp"
 #include "cdcr/coordinates.hpp"
 #include "cdcr/dynamics.hpp"
+#include "cdcr/formulation.hpp"
 #include "cdcr/integrator.hpp"
 #include "cdcr/kinematics.hpp"
 #include "cdcr/linearization.hpp"
 #include "cdcr/model.hpp"
+#include "cdcr/pid.hpp"
 #include "cdcr/robot.hpp"
 #include "cdcr/simulate.hpp"
 #include "cdcr/simulator.hpp"

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cdcr/controller.hpp"
 #include "cdcr/model.hpp"
 #include "cdcr/status.hpp"
 #include "cdcr/tension_input.hpp"
@@ -13,36 +14,42 @@ class Plant {
  public:
   /// Throws std::invalid_argument when the robot has no inertia or the input's cables differ.
   Plant(const Model& model, const TensionInput& input);
+  /// Under a controller, sampled at its own period with zero-order hold.
+  Plant(const Model& model, Controller& controller);
 
   [[nodiscard]] const Model& model() const noexcept { return *model_; }
-  [[nodiscard]] const TensionInput& input() const noexcept { return *input_; }
   [[nodiscard]] Index num_states() const noexcept { return 2 * model_->num_coordinates(); }
 
-  /// The segment of the input that derivative and jacobian see. Tensions that hold over the
-  /// whole segment are turned into a force here, once.
-  void set_segment(Index segment);
+  /// Begins the stretch of smooth motion that starts at t in state y: asks the controller, or
+  /// moves to the input's segment. Tensions that hold over the stretch become a force here, once.
+  Status start_segment(double t, const VectorXd& y);
+  /// Where that stretch ends [s]; infinite when nothing more is to come.
+  [[nodiscard]] double segment_end() const noexcept { return segment_end_; }
 
   /// y' at (t, y); y and dydt of num_states. Throws only when the input is a function: what it
   /// throws, or std::invalid_argument when it gives a negative or non-finite tension.
   void derivative(double t, const double* y, double* dydt);
   /// df/dy (num_states, num_states), column-major. Feedback in the input is left out.
   void jacobian(double t, const double* y, double* J);
-  /// Tensions (num_cables) [N] at (t, y) as that segment gives them.
-  void tension(double t, Index segment, const VectorXd& y, VectorRef tension);
+  /// Tensions (num_cables) [N] at (t, y) within the stretch.
+  void tension(double t, const VectorXd& y, VectorRef tension);
 
   /// check_state of y.
   [[nodiscard]] Status check(const double* y) const noexcept;
 
  private:
-  void evaluate_input(double t, Index segment, const ConstVectorRef& q, const ConstVectorRef& qd);
-  /// Brings force_ up to date.
+  Plant(const Model& model, const TensionInput* input, Controller* controller, Index num_cables);
+  /// Brings tension_ and force_ up to date.
   void update_force(double t, const ConstVectorRef& q, const ConstVectorRef& qd);
 
   const Model* model_;
-  const TensionInput* input_;
+  const TensionInput* input_;  // one of the two
+  Controller* controller_;
   Data data_;
   VectorXd tension_, force_;
-  Index segment_ = 0;
+  Index segment_ = 0;  // of the input, or periods of the controller made
+  double start_ = 0.0;  // of the controller's first period
+  double segment_end_ = 0.0;
   bool force_holds_ = false;  // over the whole segment
 };
 

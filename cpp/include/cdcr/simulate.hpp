@@ -32,4 +32,11 @@ using Progress = std::function<bool(double t)>;
                                   IntegratorFactory factory = make_integrator,
                                   const Progress& progress = {});
 
+/// The same under a controller, which is reset, then asked at times[0] and each period after.
+[[nodiscard]] Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
+                                  const VectorXd& times, Controller& controller,
+                                  Method method = Method::dopri5, const Options& options = {},
+                                  IntegratorFactory factory = make_integrator,
+                                  const Progress& progress = {});
+
 }  // namespace cdcr

@@ -94,7 +94,7 @@ class _Film:
         self._largest = np.max(run.tension, initial=0.0)
 
         names = [panels.plot_theta] + ([panels.plot_tension] if run.model.num_cables else [])
-        grid = figure.add_gridspec(len(names), 1, left=0.575, right=0.985, bottom=0.1, top=0.93)
+        grid = figure.add_gridspec(len(names), 1, left=0.575, right=0.975, bottom=0.1, top=0.93)
         charts = [figure.add_subplot(grid[k]) for k in range(len(names))]
         for plot, axes in zip(names, charts, strict=True):
             plot(axes, run)
@@ -122,6 +122,6 @@ class _Film:
             mark.set_xdata([time, time])
         self._clock.set_text(f"t = {time:.2f} s")
         self._canvas.restore_region(self._still)
-        for artist in self._moving:
+        for artist in sorted(self._moving, key=lambda artist: artist.get_zorder()):
             artist.draw(self._canvas.get_renderer())
         return np.array(self._canvas.buffer_rgba())

@@ -24,7 +24,6 @@ Array = NDArray[np.float64]
 SLACK_WIDTH, TAUT_WIDTH = 0.8, 2.2  # of the line of a cable [pt]
 FAINTEST = 0.25  # opacity of the earliest of several shapes
 PICTURE = np.array([7.0, 6.5])  # largest picture of a robot, legend apart [in]
-LEGEND_WIDTH = 1.3  # [in]
 
 
 class RobotArtists:
@@ -36,7 +35,6 @@ class RobotArtists:
         """Draw the robot at q (2n,) [rad] into Axes3D, above what lies in lower layers."""
         self._model = model
         shape = robot_shape(model, q)
-        # Matplotlib sorts whole artists only by depth, so the order is fixed: cables in front.
         self.disks = Poly3DCollection(
             shape.disks,
             facecolor=to_rgba(DISK, 0.6 * alpha),
@@ -44,13 +42,23 @@ class RobotArtists:
             linewidth=0.7,
             zorder=layer,
         )
-        axes.add_collection3d(self.disks, autolim=False)
+        axes.add_collection3d(self.disks)
         (self.backbone,) = axes.plot(
-            *shape.backbone.T, color=BLACK, linewidth=2.4, alpha=alpha, zorder=layer + 0.1
+            *shape.backbone.T, color=BLACK, linewidth=2.4, alpha=alpha, zorder=layer + 0.2
         )
+        # Matplotlib sorts by depth only what does not interlace. Here the base settles the order.
+        front = [cable[0] @ space.towards_viewer(axes) > 0.0 for cable in shape.cables]
         self.cables = [
-            axes.plot(*cable.T, color=color, linewidth=1.2, alpha=alpha, zorder=layer + 0.2)[0]
-            for cable, color in zip(shape.cables, line_colors(model.num_cables), strict=True)
+            axes.plot(
+                *cable.T,
+                color=color,
+                linewidth=1.2,
+                alpha=alpha,
+                zorder=layer + (0.3 if is_front else 0.1),
+            )[0]
+            for cable, color, is_front in zip(
+                shape.cables, line_colors(model.num_cables), front, strict=True
+            )
         ]
 
     def update(self, q: Array) -> None:
@@ -111,7 +119,7 @@ def plot_robot(
         else:
             values = _checked("tension", tension, model.num_cables)
             robot.show_tension(values, np.max(values, initial=0.0))
-            robot.name_cables([f": {value:g} N" for value in values])
+            robot.name_cables([f": {value:.3g} N" for value in values])
         if ax is None:
             _finish(axes)
     return axes
@@ -145,17 +153,19 @@ def show_robot(axes: Any, model: Model, states: Iterable[Array], *more: Array) -
     shapes = [robot_shape(model, q).points for q in states]
     space.show_points(axes, np.concatenate([plate, *shapes, *more]))
     base = Poly3DCollection([plate], facecolor=GREY, edgecolor=BLACK, linewidth=0.8, zorder=1)
-    axes.add_collection3d(base, autolim=False)
+    axes.add_collection3d(base)
 
 
 def _finish(axes: Any) -> None:
     """Give a new picture its size, and its legend at the right."""
-    scale, size = space.fit(axes, PICTURE)
     figure = axes.figure
-    figure.set_size_inches(size[0] + LEGEND_WIDTH, size[1])
-    space.place(axes, scale, size)
+    scale, size = space.fit(axes, PICTURE)
+    width = size[0]
     if axes.get_legend_handles_labels()[0]:
-        figure.legend(loc="center right", borderaxespad=0.5, handlelength=1.4)
+        legend = figure.legend(loc="center right", borderaxespad=0.5, handlelength=1.4)
+        width += legend.get_window_extent().width / figure.dpi
+    figure.set_size_inches(width, size[1])
+    space.place(axes, scale, size)
 
 
 def _checked(name: str, value: ArrayLike, size: int) -> Array:

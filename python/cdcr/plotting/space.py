@@ -11,11 +11,11 @@ from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d import proj3d  # type: ignore[import-untyped]
 from numpy.typing import NDArray
 
-__all__ = ["add_axes", "fit", "place", "show_points"]
+__all__ = ["add_axes", "fit", "place", "show_points", "towards_viewer"]
 
 Array = NDArray[np.float64]
 
-VIEW = {"elev": 20.0, "azim": -65.0}  # [deg]
+VIEW = {"elev": 20.0, "azim": -78.0}  # [deg]; no cable of three, the first along X, hides another
 MAX_TICKS = 7  # along the longest side
 FORESHORTENED = 0.6  # the y axis, in this view
 SLENDEREST = 0.3  # shortest side of the box over its longest: room for the numbers
@@ -62,6 +62,12 @@ def _number_axes(axes: Any, low: Array, high: Array) -> None:
         away = np.sqrt(np.mean(np.delete(cube, k) ** 2))
         axis.labelpad = LABEL_OFFSET / away - 21.0
         axis.set_tick_params(pad=TICK_OFFSET / away - 8.0)
+
+
+def towards_viewer(axes: Any) -> Array:
+    """Return the direction (3,) in which Axes3D is looked at from."""
+    elev, azim = np.deg2rad([axes.elev, axes.azim])
+    return np.array([np.cos(elev) * np.cos(azim), np.cos(elev) * np.sin(azim), np.sin(elev)])
 
 
 def fit(axes: Any, room: Array) -> tuple[float, Array]:

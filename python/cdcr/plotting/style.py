@@ -32,6 +32,8 @@ STYLE: dict[str, Any] = {
     "axes.formatter.useoffset": False,
     "axes.formatter.limits": (-4, 5),
     "axes.formatter.use_mathtext": True,
+    "figure.constrained_layout.h_pad": 0.06,
+    "figure.constrained_layout.w_pad": 0.1,
     "figure.dpi": 100,
     "font.size": 10,
     "grid.color": LIGHT_GREY,

@@ -39,18 +39,26 @@ def write_film(path: Path, frames: Iterable[Frame], fps: float) -> None:
 
 
 def _write_gif(path: Path, frames: Iterator[Frame], fps: float) -> None:
+    first = next(frames)
     # The colours of the first frame serve all, so that a waiting frame takes one byte a pixel.
-    no_dither = Image.Dither.NONE
-    start = Image.fromarray(next(frames)).convert("RGB")
-    first = start.quantize(256, Image.Quantize.MAXCOVERAGE, dither=no_dither)
-    rest = [
-        Image.fromarray(frame).convert("RGB").quantize(palette=first, dither=no_dither)
-        for frame in frames
+    colors = _rgb(first).quantize(256, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+    images = [
+        _rgb(frame).quantize(palette=colors, dither=Image.Dither.NONE)
+        for frame in chain([first], frames)
     ]
+    # Pillow looks colours up coarsely. The background, on which it shows, gets its own back.
+    table = np.reshape(colors.getpalette() or [], (-1, 3))
+    table[np.asarray(images[0])[0, 0]] = first[0, 0, :3]
+    for image in images:
+        image.putpalette(table.astype(np.uint8).tobytes())
     # A GIF counts in hundredths of a second: round the frames' times, so that errors cancel.
-    times = np.rint(np.arange(len(rest) + 2) * 100.0 / fps).astype(int)
+    times = np.rint(np.arange(len(images) + 1) * 100.0 / fps).astype(int)
     durations = (10 * np.diff(times)).tolist()  # Pillow counts in milliseconds
-    first.save(path, save_all=True, append_images=rest, duration=durations, loop=0)
+    images[0].save(path, save_all=True, append_images=images[1:], duration=durations, loop=0)
+
+
+def _rgb(frame: Frame) -> Image.Image:
+    return Image.fromarray(frame).convert("RGB")
 
 
 def _write_mp4(path: Path, frames: Iterator[Frame], fps: float) -> None:

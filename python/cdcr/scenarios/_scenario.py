@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -19,6 +18,9 @@ from cdcr.scenarios._findings import Finding, findings
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+
+MAX_SAMPLES = 10_000_000  # a gigabyte of trajectory
 
 
 def _figure(scenario: Scenario, run: Trajectory) -> Figure:
@@ -49,8 +51,8 @@ class Scenario:
         Of the model's equations.
     method : str
         Integration method: "bdf", "adams", "dopri5" or "rk4".
-    rtol, atol, step, max_step : float, optional
-        Tolerances of the adaptive methods, step of rk4 [s] and largest step [s].
+    rtol, atol, step, max_step, max_steps : optional
+        Tolerances of the adaptive methods, step of rk4 [s], largest step [s] and number of steps.
     tell : callable
         From scenario and run to the findings of `summary`.
     draw : callable
@@ -73,6 +75,7 @@ class Scenario:
     atol: float | None = None
     step: float | None = None
     max_step: float | None = None
+    max_steps: int | None = None
     tell: Callable[[Scenario, Trajectory], tuple[Finding, ...]] = findings
     draw: Callable[[Scenario, Trajectory], Figure] = _figure
 
@@ -80,16 +83,14 @@ class Scenario:
         self, t_end: float | None = None, num_samples: int | None = None
     ) -> NDArray[np.float64]:
         """Return the output times (N,) [s]; another end alone leaves their spacing."""
-        check, wanted = Check(), "a time > 0 s and finite"
-        end = check.number("t_end", self.t_end if t_end is None else t_end, wanted)
-        if not (0.0 < end < math.inf) and not check.sentences:
-            check.refuse("t_end", wanted, t_end)
+        check = Check()
+        given, wanted = self.t_end if t_end is None else t_end, "a number > 0 s and finite"
+        end = check.number("t_end", given, wanted, above=0.0)
         check.done()
         if num_samples is None:
             num_samples = 1 + max(1, round((self.num_samples - 1) * end / self.t_end))
-        num = check.whole("num_samples", num_samples, "a whole number >= 2")
-        if num < 2 and not check.sentences:
-            check.refuse("num_samples", "a whole number >= 2", num_samples)
+        wanted = f"a whole number 2 to {MAX_SAMPLES}"
+        num = check.whole("num_samples", num_samples, wanted, low=2, high=MAX_SAMPLES)
         check.done()
         return np.linspace(0.0, end, num)
 
@@ -114,10 +115,10 @@ class Scenario:
             Another end of the run [s]; without `num_samples`, samples keep their spacing.
         num_samples : int, optional
             Another number of samples.
-        method, rtol, atol, step, max_step : optional
+        method, rtol, atol, step, max_step, max_steps : optional
             In place of the scenario's own; see `cdcr.simulate`.
-        max_steps, progress : optional
-            See `cdcr.simulate`.
+        progress : callable, optional
+            Told the time reached, every few hundred steps.
 
         Returns
         -------
@@ -134,7 +135,7 @@ class Scenario:
             atol=self.atol if atol is None else atol,
             step=self.step if step is None else step,
             max_step=self.max_step if max_step is None else max_step,
-            max_steps=max_steps,
+            max_steps=self.max_steps if max_steps is None else max_steps,
             progress=progress,
         )
 

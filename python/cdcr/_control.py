@@ -1,0 +1,43 @@
+"""Controllers: C++ objects that a run asks for tensions once each period."""
+
+from __future__ import annotations
+
+from cdcr import _core
+
+
+class Pid(_core.Pid):
+    """PID loop on the bending vectors; its output is a generalised force, allocated to tensions.
+
+    Q = dU/dq(ref) + kp (ref - q) + ki int (ref - q) dt - kd qd, evaluated every `period` and held
+    in between. The gains are the same for every component, so no direction is preferred.
+
+    Parameters
+    ----------
+    model : Model
+        The robot controlled.
+    kp, ki, kd : float
+        Gains [N m/rad], [N m/(rad s)], [N m s/rad], each >= 0.
+    period : float, optional
+        Sampling period [s].
+    feed_forward : bool, optional
+        Add the force that holds the reference still (elastic and weight).
+    anti_windup : bool, optional
+        Stop integrating what the tension limits cannot give.
+    min_tension, max_tension : float, optional
+        Limits of every tension [N]. A negative `min_tension` describes an ideal actuator that can
+        push, which no cable does.
+    cables : sequence of int, optional
+        Indices of the cables that may be used; all by default.
+
+    Attributes
+    ----------
+    reference : (2n,) array
+        Bending vectors to reach and hold [rad]; straight until set.
+    integral : (2n,) array
+        Accumulated error [rad s].
+
+    Raises
+    ------
+    ValueError
+        For a gain, period, limit or reference out of its range.
+    """

@@ -1,0 +1,109 @@
+"""The package as installed: one version, typed, light to import, and told truly by its README."""
+
+import re
+import subprocess
+import sys
+from enum import Enum
+from importlib import metadata
+from pathlib import Path
+
+import pytest
+
+import cdcr
+from cdcr import _core
+
+ROOT = Path(__file__).parents[2]
+# What a plain import must not load: extras, and pydantic, which only reading a file needs.
+HEAVY = ["h5netcdf", "matplotlib", "PIL", "pandas", "pydantic", "rich", "scipy", "typer", "xarray"]
+
+
+def installed_files() -> list[str]:
+    files = metadata.files("cdcr")
+    assert files is not None
+    return [file.as_posix() for file in files if file.suffix != ".pyc"]
+
+
+def cpp_enumerators(header: str, enum: str) -> list[str]:
+    text = (ROOT / "cpp" / "include" / "cdcr" / header).read_text()
+    text = re.sub(r"//.*", "", text)
+    body = re.search(rf"enum class {enum} {{(.*?)}}", text, re.DOTALL)
+    assert body is not None, f"no enum {enum} in {header}"
+    return re.findall(r"\w+", body.group(1))
+
+
+def test_version_comes_from_cmake() -> None:
+    project = re.search(
+        r"project\(cdcr VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text()
+    )
+    assert project is not None
+    assert metadata.version("cdcr") == project.group(1)
+    assert cdcr.__version__ == project.group(1)
+
+
+def test_changelog_opens_with_this_version() -> None:
+    versions = re.findall(r"^## \[(.+?)\]", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE)
+    assert versions[0] in {cdcr.__version__, "Unreleased"}
+    assert cdcr.__version__ in versions
+
+
+@pytest.mark.parametrize("file", ["cdcr/py.typed", "cdcr/_core.pyi", "cdcr/__init__.py"])
+def test_installed_with_its_types(file: str) -> None:
+    assert file in installed_files()
+
+
+def test_installs_the_package_and_nothing_else() -> None:
+    belongs = re.compile(
+        r"cdcr/([\w/]+\.(py|pyi|toml)|py\.typed|_core\.[\w.-]+\.so)"
+        r"|cdcr-[\d.]+\.dist-info/.*"
+        r"|(\.\./)+bin/cdcr"
+    )
+    assert [file for file in installed_files() if not belongs.fullmatch(file)] == []
+
+
+def test_every_python_file_is_installed() -> None:
+    source = ROOT / "python"
+    files = {
+        path.relative_to(source).as_posix() for path in source.rglob("*") if path.suffix == ".py"
+    }
+    assert files - set(installed_files()) == set()
+
+
+def test_import_is_light() -> None:
+    code = f"import sys, cdcr; print(sorted(set({HEAVY!r}) & set(sys.modules)))"
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert run.stdout.strip() == "[]"
+
+
+@pytest.mark.parametrize(
+    ("header", "enum"),
+    [
+        ("status.hpp", _core.Status),
+        ("integrator.hpp", _core.Method),
+        ("formulation.hpp", _core.Formulation),
+    ],
+)
+def test_enumerators_are_those_of_cpp(header: str, enum: type[Enum]) -> None:
+    assert [member.name for member in enum] == cpp_enumerators(header, enum.__name__)
+
+
+def test_readme_names_the_python_that_is_needed() -> None:
+    needed = metadata.metadata("cdcr")["Requires-Python"].removeprefix(">=")
+    readme = (ROOT / "README.md").read_text()
+    assert set(re.findall(r"Python (3\.\d+) or newer", readme)) == {needed}
+
+
+def test_readme_names_the_extras_there_are() -> None:
+    extras = set(metadata.metadata("cdcr").get_all("Provides-Extra") or [])
+    readme = (ROOT / "README.md").read_text()
+    named = {
+        extra.strip() for group in re.findall(r"cdcr\[(.+?)\]", readme) for extra in group.split(",")
+    }
+    assert extras == {"plot", "data", "cli", "all"}
+    assert named <= extras
+
+
+def test_readme_names_the_system_packages() -> None:
+    needed = re.findall(r"apt-get install ([\w-]+)", (ROOT / "cmake/dependencies.cmake").read_text())
+    readme = (ROOT / "README.md").read_text()
+    assert len(needed) >= 2
+    assert [package for package in needed if package not in readme] == []

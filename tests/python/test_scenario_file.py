@@ -1,0 +1,385 @@
+"""Scenario files: what people may write, and the sentence for everything they may not."""
+
+import dataclasses
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import cdcr
+from cdcr import _core
+from cdcr._scenario_file import initial_state, load_scenario
+from cdcr._scenario_schema import ScenarioTable
+from cdcr.scenarios import Scenario
+
+FILE = """\
+robot = "amouri2020"
+t_end = 0.5
+tension = [5, 0, 0]
+"""
+SECTION = "length = 0.8\nbackbone_mass = 0.03\nbackbone_diameter = 0.005\nyoungs_modulus = 9.5e9\n"
+ROWS = """
+[tension]
+t = [0, 1]
+rows = [[0, 0, 0], [1, 2, 3]]
+"""
+
+
+def load(folder: Path, text: str) -> Scenario:
+    path = folder / "pull.toml"
+    path.write_text(text, encoding="utf-8")
+    return load_scenario(path)
+
+
+def refusal(folder: Path, text: str, where: str = "pull.toml") -> list[str]:
+    """The sentences, without the place each must begin with."""
+    with pytest.raises(ValueError, match=r"pull\.toml|tension\.csv") as caught:
+        load(folder, text)
+    lines = str(caught.value).split("\n")
+    start = f"{folder / where}: "
+    assert all(line.startswith(start) for line in lines), lines
+    return [line.removeprefix(start) for line in lines]
+
+
+def without(key: str) -> str:
+    return re.sub(rf"^{key} = .*\n", "", FILE, flags=re.MULTILINE)
+
+
+def test_the_smallest_file(tmp_path: Path) -> None:
+    scenario = load(tmp_path, 'robot = "amouri2020"\nt_end = 2\n')
+    assert scenario.name == scenario.title == "pull"
+    assert scenario.source == str(tmp_path / "pull.toml")
+    assert scenario.robot == cdcr.robots.amouri2020()
+    assert (scenario.q0, scenario.qd0) == ((0.0, 0.0), (0.0, 0.0))
+    assert scenario.tension == (0.0, 0.0, 0.0)
+    assert (scenario.t_end, scenario.num_samples, scenario.method) == (2.0, 1001, "bdf")
+    assert (scenario.rtol, scenario.atol, scenario.step, scenario.max_step) == (None,) * 4
+
+
+def test_everything_a_file_may_say_is_kept(tmp_path: Path) -> None:
+    text = """\
+title = "A pull"
+description = "Cable 2 pulls."
+source = "imagined"
+robot = "amouri2020"
+formulation = "exact"
+t_end = 0.5
+num_samples = 11
+method = "dopri5"
+rtol = 1e-6
+atol = 1e-8
+step = 0.01
+max_step = 0.1
+max_steps = 5000
+tension = [0, 1.5, 0]
+[initial]
+q = [0.1, -0.2]
+qd = [1, 2]
+"""
+    scenario = load(tmp_path, text)
+    kept = {item.name: getattr(scenario, item.name) for item in dataclasses.fields(scenario)}
+    assert kept["title"] == "A pull"
+    assert kept["description"] == "Cable 2 pulls."
+    assert kept["source"] == "imagined"
+    assert kept["formulation"] == "exact"
+    assert (kept["t_end"], kept["num_samples"], kept["method"]) == (0.5, 11, "dopri5")
+    assert [kept[name] for name in ("rtol", "atol", "step", "max_step")] == [1e-6, 1e-8, 0.01, 0.1]
+    assert kept["max_steps"] == 5000
+    assert kept["tension"] == (0.0, 1.5, 0.0)
+    assert (kept["q0"], kept["qd0"]) == ((0.1, -0.2), (1.0, 2.0))
+
+
+def test_a_file_runs_as_the_same_call_in_python(tmp_path: Path) -> None:
+    scenario = load(tmp_path, FILE + "method = 'dopri5'\nnum_samples = 6\n")
+    plain = cdcr.simulate(
+        cdcr.Model(cdcr.robots.amouri2020()),
+        [0.0, 0.0],
+        [0.0, 0.0],
+        t=np.linspace(0.0, 0.5, 6),
+        tension=[5.0, 0.0, 0.0],
+        method="dopri5",
+    )
+    np.testing.assert_array_equal(scenario.simulate().q, plain.q)
+
+
+def test_robot_from_a_file_beside_the_scenario(tmp_path: Path) -> None:
+    robot = cdcr.robots.amouri2020(damping=1e-3)
+    (tmp_path / "robots").mkdir()
+    robot.save(tmp_path / "robots" / "soft.toml")
+    scenario = load(tmp_path, FILE.replace("amouri2020", "robots/soft.toml"))
+    assert scenario.robot == robot
+
+
+def test_robot_in_the_file(tmp_path: Path) -> None:
+    text = f"t_end = 1\n[robot]\npayload = 0.1\n[[robot.sections]]\n{SECTION}"
+    scenario = load(tmp_path, text)
+    assert scenario.robot == cdcr.Robot(
+        sections=[
+            cdcr.Section(
+                length=0.8, backbone_mass=0.03, backbone_diameter=0.005, youngs_modulus=9.5e9
+            )
+        ],
+        payload=0.1,
+    )
+    assert scenario.tension == ()
+
+
+@pytest.mark.parametrize(
+    ("initial", "q0"),
+    [
+        ("theta = [0.5]", (0.5, 0.0)),
+        ("theta_deg = [90]", (math.pi / 2, 0.0)),
+        ("theta = [2.0]\nphi = [0.5]", (2.0 * math.cos(0.5), 2.0 * math.sin(0.5))),
+        ("theta_deg = [45]\nphi_deg = [90]", (0.0, math.pi / 4)),
+        ("theta = [-0.5]\nphi_deg = [0]", (-0.5, 0.0)),
+        ("phi = [1.0]", (0.0, 0.0)),
+        ("q = [0.3, 0.4]", (0.3, 0.4)),
+    ],
+)
+def test_initial_state(tmp_path: Path, initial: str, q0: tuple[float, float]) -> None:
+    scenario = load(tmp_path, f"{FILE}[initial]\n{initial}\n")
+    assert scenario.q0 == pytest.approx(q0, abs=1e-15)
+    assert scenario.qd0 == (0.0, 0.0)
+
+
+@pytest.mark.parametrize("interpolation", ["linear", "previous"])
+def test_tensions_over_time_in_the_file(tmp_path: Path, interpolation: str) -> None:
+    text = without("tension") + ROWS + f'interpolation = "{interpolation}"\n'
+    run = load(tmp_path, text).simulate(t_end=1.0, num_samples=5)
+    fraction = run.t if interpolation == "linear" else np.floor(run.t)
+    np.testing.assert_allclose(run.tension, np.outer(fraction, [1.0, 2.0, 3.0]), rtol=1e-15)
+
+
+def test_tensions_over_time_in_a_csv_file(tmp_path: Path) -> None:
+    (tmp_path / "tension.csv").write_text("t, cable 1,cable 2,cable 3\n0,0,0,0\n\n1,1.0,2e0, 3\n")
+    from_csv = load(tmp_path, without("tension") + "[tension]\nfile = 'tension.csv'\n")
+    in_place = load(tmp_path, without("tension") + ROWS)
+    np.testing.assert_array_equal(from_csv.simulate().q, in_place.simulate().q)
+
+
+def test_methods_are_those_of_the_core() -> None:
+    description = ScenarioTable.model_fields["method"].description or ""
+    assert set(re.findall(r'"(\w+)"', description)) == set(_core.Method.__members__)
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        (
+            FILE + "t_ned = 1\n",
+            "t_ned is not a known key. Did you mean 't_end'? "
+            f"Known keys: {', '.join(ScenarioTable.model_fields)}",
+        ),
+        (without("t_end"), "t_end is missing; it must be a number > 0 [s]"),
+        (
+            without("robot"),
+            "robot is missing; it must be the name of a robot, "
+            "the name of a robot file (.toml) or a table with sections",
+        ),
+        (
+            without("robot") + "robot = 3\n",
+            "robot must be the name of a robot, the name of a robot file (.toml) "
+            "or a table with sections, got 3 (integer)",
+        ),
+        (
+            FILE.replace("0.5", "0"),
+            "t_end must be a number > 0 [s], got 0 (integer)",
+        ),
+        (
+            FILE.replace("0.5", "inf"),
+            "t_end must be a number > 0 [s], got inf (float)",
+        ),
+        (
+            FILE + "num_samples = 1\n",
+            "num_samples must be a whole number 2 to 10000000, got 1 (integer)",
+        ),
+        (
+            FILE + "method = 'euler'\n",
+            'method must be "bdf", "adams", "dopri5" or "rk4", got \'euler\' (string)',
+        ),
+        (FILE + "rtol = -1\n", "rtol must be a number > 0 [1], got -1 (integer)"),
+        (
+            FILE.replace("[5, 0, 0]", "5"),
+            "tension must be an array with a number >= 0 [N] for each cable, "
+            "or a table with t and rows, or a table with file, got 5 (integer)",
+        ),
+        (
+            FILE.replace("[5, 0, 0]", "[5, -1, 0]"),
+            "tension must be an array with a number >= 0 [N] for each cable, "
+            "or a table with t and rows, or a table with file, got -1 (integer) at tension[1]",
+        ),
+        (
+            FILE.replace("[5, 0, 0]", "[5]"),
+            "tension must have 3 numbers, one for each cable, got [5] (array)",
+        ),
+        (
+            FILE + "[initial]\ntheta = 1\n",
+            "initial.theta must be an array with a number [rad] for each section, got 1 (integer)",
+        ),
+        (
+            FILE + "[initial]\ntheta = [1, 2]\n",
+            "initial.theta must have 1 number for a robot with 1 section, got [1, 2] (array)",
+        ),
+        (
+            FILE + "[initial]\nqd = [1]\n",
+            "initial.qd must have 2 numbers for a robot with 1 section, got [1] (array)",
+        ),
+        (
+            FILE + "[initial]\ntheta_dge = [1]\n",
+            "initial.theta_dge is not a known key. Did you mean 'theta_deg'? "
+            "Known keys: q, theta, theta_deg, phi, phi_deg, qd",
+        ),
+        (
+            FILE + "[initial]\ntheta = [1]\ntheta_deg = [1]\n",
+            "initial must have theta or theta_deg, not both",
+        ),
+        (
+            FILE + "[initial]\nphi = [1]\nphi_deg = [1]\n",
+            "initial must have phi or phi_deg, not both",
+        ),
+        (
+            FILE + "[initial]\nq = [1, 2]\nphi_deg = [1]\n",
+            "initial must have q or phi_deg, not both",
+        ),
+        (
+            without("tension") + "[tension]\nt = [0]\n",
+            "tension.rows is missing; it must be an array with one row for each time: "
+            "a number >= 0 [N] for each cable",
+        ),
+        (
+            without("tension") + ROWS.replace("[1, 2, 3]", "[1, 2, -3]"),
+            "tension.rows must be an array with one row for each time: a number >= 0 [N] "
+            "for each cable, got -3 (integer) at tension.rows[1][2]",
+        ),
+        (
+            without("tension") + ROWS + "interpolation = 'cubic'\n",
+            'tension.interpolation must be "linear" or "previous", got \'cubic\' (string)',
+        ),
+    ],
+)
+def test_what_is_wrong_in_a_file(tmp_path: Path, text: str, sentence: str) -> None:
+    assert refusal(tmp_path, text) == [sentence]
+
+
+@pytest.mark.parametrize(
+    ("text", "where", "sentence"),
+    [
+        (
+            FILE.replace("amouri2020", "amouri"),
+            "pull.toml, robot",
+            "there is no robot 'amouri'. Did you mean 'amouri2020'? Known: amouri2020",
+        ),
+        (
+            f"t_end = 1\n[[robot.sections]]\n{SECTION.replace('0.8', '-0.8')}",
+            "pull.toml, [robot]",
+            "sections[0].length must be > 0 m and finite, got -0.8",
+        ),
+        (
+            without("tension") + ROWS.replace("[1, 2, 3]", "[1, 2]"),
+            "pull.toml, [tension]",
+            "rows[1] must have 3 numbers, one for each cable, got 2",
+        ),
+        (
+            without("tension") + ROWS.replace("[0, 1]", "[0, 1, 2]"),
+            "pull.toml, [tension]",
+            "rows must be as many as t, 3, got 2",
+        ),
+    ],
+)
+def test_what_is_wrong_in_a_part_of_a_file(
+    tmp_path: Path, text: str, where: str, sentence: str
+) -> None:
+    assert refusal(tmp_path, text, where) == [sentence]
+
+
+def test_times_must_increase(tmp_path: Path) -> None:
+    (sentence,) = refusal(
+        tmp_path, without("tension") + ROWS.replace("[0, 1]", "[1, 1]"), "pull.toml, [tension]"
+    )
+    assert "increas" in sentence
+
+
+def test_a_formulation_must_be_known(tmp_path: Path) -> None:
+    (sentence,) = refusal(tmp_path, FILE + "formulation = 'wrong'\n")
+    assert sentence.startswith("formulation must be one of ")
+    assert "'exact'" in sentence
+    assert sentence.endswith("got 'wrong'")
+
+
+@pytest.mark.parametrize(
+    ("csv", "where", "sentence"),
+    [
+        (
+            "t,cable 1\n0,1\n",
+            "tension.csv, line 1",
+            "the columns must be t, cable 1, cable 2, cable 3, got t, cable 1",
+        ),
+        (
+            "",
+            "tension.csv, line 1",
+            "the columns must be t, cable 1, cable 2, cable 3, got nothing",
+        ),
+        ("t,cable 1,cable 2,cable 3\n0,1\n", "tension.csv, line 2", "must have 4 columns, got 2"),
+        (
+            "t,cable 1,cable 2,cable 3\n0,1,2,3\n\n1,2,x,4\n",
+            "tension.csv, line 4",
+            "cable 2 must be a number >= 0 [N], got 'x'",
+        ),
+        (
+            "t,cable 1,cable 2,cable 3\n0,1,-2,3\n",
+            "tension.csv, line 2",
+            "cable 2 must be a number >= 0 [N], got '-2'",
+        ),
+        (
+            "t,cable 1,cable 2,cable 3\nnan,1,2,3\n",
+            "tension.csv, line 2",
+            "t must be a time [s], got 'nan'",
+        ),
+    ],
+)
+def test_what_is_wrong_in_a_tension_file(
+    tmp_path: Path, csv: str, where: str, sentence: str
+) -> None:
+    (tmp_path / "tension.csv").write_text(csv)
+    text = without("tension") + "[tension]\nfile = 'tension.csv'\n"
+    assert refusal(tmp_path, text, where) == [sentence]
+
+
+@pytest.mark.parametrize(
+    ("content", "sentence"),
+    [
+        (b"t,cable 1,cable 2,cable 3\n", "has no rows of numbers under its header"),
+        (b"t,cable 1,cable 2,cable 3\n0,\xff,0,0\n", "is not a CSV file: "),
+    ],
+)
+def test_a_tension_file_without_numbers(tmp_path: Path, content: bytes, sentence: str) -> None:
+    (tmp_path / "tension.csv").write_bytes(content)
+    with pytest.raises(ValueError, match=re.escape(f"{tmp_path / 'tension.csv'} {sentence}")):
+        load(tmp_path, without("tension") + "[tension]\nfile = 'tension.csv'\n")
+
+
+@pytest.mark.parametrize(
+    ("text", "what", "name"),
+    [
+        (FILE.replace("amouri2020", "no.toml"), "robot file", "no.toml"),
+        (without("tension") + "[tension]\nfile = 'no.csv'\n", "tension file", "no.csv"),
+    ],
+)
+def test_missing_files_are_named(tmp_path: Path, text: str, what: str, name: str) -> None:
+    sentence = f"^there is no {what} {re.escape(str(tmp_path / name))}$"
+    with pytest.raises(FileNotFoundError, match=sentence):
+        load(tmp_path, text)
+
+
+def test_a_missing_scenario_file(tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError, match=r"^there is no scenario file .*pull\.toml$"):
+        load_scenario(tmp_path / "pull.toml")
+
+
+def test_two_sections_want_two_angles(tmp_path: Path) -> None:
+    table = {"theta_deg": [90.0, 180.0], "phi_deg": [0.0, 90.0]}
+    q0, qd0 = initial_state(table, 2, tmp_path)
+    assert q0 == pytest.approx((math.pi / 2, 0.0, 0.0, math.pi), abs=1e-15)
+    assert qd0 == (0.0,) * 4
