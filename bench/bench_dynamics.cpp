@@ -22,16 +22,20 @@ void measure(const Harness& harness, const std::string& suffix, bool gravity) {
     forward_dynamics(model, data, state(i).q, state(i).qd, tension, out);
     keep(out);
   });
-  harness.run({"forward_dynamics, chained" + suffix}, [&] { out.setZero(); }, [&](long i) {
-    q[0] = state(i).q[0] + 1e-300 * out[0];  // changes no digit, but has to wait for out
-    q[1] = state(i).q[1] + 1e-300 * out[1];
-    forward_dynamics(model, data, q, state(i).qd, tension, out);
-    keep(out);
-  });
-  harness.run({"inverse_dynamics" + suffix}, [&] { qdd << 3.0, -2.0; }, [&](long i) {
-    inverse_dynamics(model, data, state(i).q, state(i).qd, qdd, out);
-    keep(out);
-  });
+  harness.run(
+      {"forward_dynamics, chained" + suffix}, [&] { out.setZero(); },
+      [&](long i) {
+        q[0] = state(i).q[0] + 1e-300 * out[0];  // changes no digit, but has to wait for out
+        q[1] = state(i).q[1] + 1e-300 * out[1];
+        forward_dynamics(model, data, q, state(i).qd, tension, out);
+        keep(out);
+      });
+  harness.run(
+      {"inverse_dynamics" + suffix}, [&] { qdd << 3.0, -2.0; },
+      [&](long i) {
+        inverse_dynamics(model, data, state(i).q, state(i).qd, qdd, out);
+        keep(out);
+      });
   harness.run({"linearize" + suffix}, nothing, [&](long i) {
     linearize(model, data, state(i).q, state(i).qd, tension, A, B);
     keep(A);

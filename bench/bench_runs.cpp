@@ -14,7 +14,8 @@ namespace {
 /// One free oscillation by one method.
 class Oscillation {
  public:
-  explicit Oscillation(Index num_times = 1001) : times_(VectorXd::LinSpaced(num_times, 0.0, 10.0)) {}
+  explicit Oscillation(Index num_times = 1001)
+      : times_(VectorXd::LinSpaced(num_times, 0.0, 10.0)) {}
 
   [[nodiscard]] Trajectory run(Method method, const Options& options) const {
     const bool by_cvode = method == Method::bdf || method == Method::adams;
@@ -52,15 +53,17 @@ class Runs {
     std::ostringstream extra;
     extra << std::setprecision(3) << R"(, "error": )" << (run.q - truth_.q).cwiseAbs().maxCoeff()
           << R"(, "steps": )" << run.stats.steps << R"(, "evaluations": )" << run.stats.evaluations;
-    harness_.run({row, "ms", 1, blocks}, [] {},
-                 [&](long /*i*/) { keep(exact_.run(method, options)); }, extra.str());
+    harness_.run(
+        {row, "ms", 1, blocks}, [] {}, [&](long /*i*/) { keep(exact_.run(method, options)); },
+        extra.str());
   }
 
   void ends_only() const {
     const Oscillation two_times(2);
     const Options options = tolerance(1e-8);
-    harness_.run({"free oscillation, dopri5 rtol 1e-8, last state only", "ms", 1, 300}, [] {},
-                 [&](long /*i*/) { keep(two_times.run(Method::dopri5, options)); });
+    harness_.run(
+        {"free oscillation, dopri5 rtol 1e-8, last state only", "ms", 1, 300}, [] {},
+        [&](long /*i*/) { keep(two_times.run(Method::dopri5, options)); });
   }
 
  private:
@@ -89,8 +92,8 @@ int main(int argc, char** argv) {
     runs.measure(std::string(name) + " by default", method, Options(), 100);
     for (const char* rtol : {"1e-6", "1e-7", "1e-8", "1e-9", "1e-10", "1e-11", "1e-12"}) {
       const bool headline = std::string(rtol) == "1e-8";
-      runs.measure(std::string(name) + " rtol " + rtol, method,
-                   bench::tolerance(std::atof(rtol)), headline ? 300 : 50);
+      runs.measure(std::string(name) + " rtol " + rtol, method, bench::tolerance(std::atof(rtol)),
+                   headline ? 300 : 50);
     }
   }
   for (const char* step : {"4e-3", "2e-3", "1e-3", "5e-4", "2.5e-4"}) {

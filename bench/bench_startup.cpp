@@ -7,8 +7,9 @@ int main(int argc, char** argv) {
   const bench::Harness harness(argc, argv);
   const Robot robot = bench::robot(true);
   const Model model(robot);
-  harness.run({"Model(robot)", "us", 1, 500}, [] {},
-              [&](long /*i*/) { bench::keep(Model(robot)); });
-  harness.run({"Simulator(model)", "us", 1, 500}, [] {},
-              [&](long /*i*/) { bench::keep(Simulator(model)); });
+  harness.run(
+      {"Model(robot)", "us", 1, 500}, [] {}, [&](long /*i*/) { bench::keep(Model(robot)); });
+  harness.run(
+      {"Simulator(model)", "us", 1, 500}, [] {},
+      [&](long /*i*/) { bench::keep(Simulator(model)); });
 }

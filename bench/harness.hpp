@@ -4,10 +4,12 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cdcr/version.hpp"
@@ -18,6 +20,13 @@ namespace cdcr::bench {
 template <class T>
 void keep(const T& value) {
   asm volatile("" : : "r"(&value) : "memory");
+}
+
+/// Processor time of this thread [s]: unlike the clock's, it leaves out when others had the core.
+inline double processor_time() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 /// What one row measures and how. A sample is the time of one block divided by its calls.
@@ -65,28 +74,40 @@ class Harness {
     }
     const long blocks = std::max(10L, std::lround(share_ * static_cast<double>(plan.blocks)));
     const double scale = plan.unit == "ns" ? 1e9 : plan.unit == "us" ? 1e6 : 1e3;
-    std::vector<double> samples;
+    const double per_call = scale / static_cast<double>(plan.calls);
+    const bool real_time = plan.deadline > 0.0;  // reading the processor's clock would disturb it
+    std::vector<double> samples, own;
     for (long block = -blocks / 10 - 1; block < blocks; ++block) {  // below zero: warm-up
       restart();
+      const double before = real_time ? 0.0 : processor_time();
       const auto start = std::chrono::steady_clock::now();
       for (long i = 0; i < plan.calls; ++i) call(i);
       const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-      if (block >= 0) samples.push_back(scale * taken.count() / static_cast<double>(plan.calls));
+      if (block < 0) continue;
+      samples.push_back(per_call * taken.count());
+      if (!real_time) own.push_back(per_call * (processor_time() - before));
     }
-    print(plan, samples, extra);
+    print(plan, samples, own, extra);
   }
 
  private:
-  static void print(const Plan& plan, std::vector<double> samples, const std::string& extra) {
+  static double quantile(const std::vector<double>& sorted, double share) {
+    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+  }
+
+  static void print(const Plan& plan, std::vector<double> samples, std::vector<double> own,
+                    const std::string& extra) {
     std::sort(samples.begin(), samples.end());
-    const auto quantile = [&samples](double share) {
-      return samples[static_cast<std::size_t>(share * static_cast<double>(samples.size() - 1))];
-    };
-    std::cout << R"({"name": ")" << plan.name << R"(", "unit": ")" << plan.unit << std::setprecision(5)
-              << R"(", "p50": )" << quantile(0.5) << R"(, "p95": )" << quantile(0.95)
-              << R"(, "p99": )" << quantile(0.99) << R"(, "p99.9": )" << quantile(0.999)
-              << R"(, "min": )" << quantile(0.0) << R"(, "max": )" << quantile(1.0)
-              << R"(, "count": )" << samples.size() << R"(, "calls_per_block": )" << plan.calls;
+    std::sort(own.begin(), own.end());
+    std::cout << R"({"name": ")" << plan.name << R"(", "unit": ")" << plan.unit << '"';
+    std::cout << std::setprecision(5);
+    for (const auto& [name, share] :
+         {std::pair("min", 0.0), std::pair("p50", 0.5), std::pair("p95", 0.95),
+          std::pair("p99", 0.99), std::pair("p99.9", 0.999), std::pair("max", 1.0)}) {
+      std::cout << R"(, ")" << name << R"(": )" << quantile(samples, share);
+    }
+    if (!own.empty()) std::cout << R"(, "own": )" << quantile(own, 0.5);
+    std::cout << R"(, "count": )" << samples.size() << R"(, "calls_per_block": )" << plan.calls;
     if (plan.deadline > 0.0) {
       const auto met = std::upper_bound(samples.begin(), samples.end(), plan.deadline);
       std::cout << R"(, "deadline": )" << plan.deadline << R"(, "missed": )" << samples.end() - met;

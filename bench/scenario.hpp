@@ -19,7 +19,9 @@ inline Robot robot(bool gravity) {
 }
 
 /// The start of every run here: bent by pi/4 towards phi = 0, at rest.
-inline State bent() { return {bending(0.78539816339744831, 0.0), VectorXd::Zero(2)}; }
+inline State bent() {
+  return {bending(0.78539816339744831, 0.0), VectorXd::Zero(2)};
+}
 
 /// States of a spatial swing of 10 s, each another point of it. Their number divides 1024.
 inline std::vector<State> swing(const Model& model) {

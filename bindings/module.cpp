@@ -7,6 +7,7 @@ PYBIND11_MODULE(_core, m) {
   m.doc() = "Compiled core of cdcr. Use the package cdcr; names here may change.";
   m.attr("__version__") = cdcr::version;
   m.attr("max_bending") = cdcr::max_bending;
+  m.attr("taylor_range") = cdcr::taylor_range;
   cdcr::python::bind_status(m);
   cdcr::python::bind_robot(m);
   cdcr::python::bind_coordinates(m);

@@ -202,7 +202,7 @@ double Cvode::norm(const VectorXd& v) const noexcept {
 ///
 /// y'' is the difference of the slopes over a small Euler step h0 (after Hairer, Norsett, Wanner,
 /// "Solving Ordinary Differential Equations I", section II.4), which also bounds h where y'' is
-/// zero, as it is at rest. CVODE's own estimate would depend on the first output time.
+/// zero, as it is at rest. CVODE's own estimate would depend on the stop time.
 double Cvode::first_step() {
   const double d0 = norm(state_), d1 = norm(slope_);
   const double wanted = d0 < 1e-5 || d1 < 1e-5 ? 1e-6 : 0.01 * d0 / d1;

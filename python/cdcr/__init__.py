@@ -15,7 +15,7 @@ except ImportError as error:  # pragma: no cover
 from cdcr import robots, scenarios
 from cdcr._control import Pid
 from cdcr._coordinates import bending, polar
-from cdcr._core import Controller, Equilibrium, Simulator, Stats, Status, max_bending
+from cdcr._core import Controller, Equilibrium, Simulator, Stats, Status, max_bending, taylor_range
 from cdcr._model import ConvergenceError, InfeasibleError, InverseKinematics, Model
 from cdcr._robot import Robot, Section
 from cdcr._simulate import TensionTable, simulate
@@ -45,6 +45,7 @@ __all__ = [
     "robots",
     "scenarios",
     "simulate",
+    "taylor_range",
 ]
 
 

@@ -11,6 +11,7 @@ FloatArray = NDArray[np.float64]
 
 __version__: str
 max_bending: float
+taylor_range: float
 
 class Status(enum.Enum):
     """How a computation ended; anything but ok is a failure."""

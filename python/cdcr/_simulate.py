@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
@@ -90,6 +91,20 @@ def tension_input(
         linear = tension.interpolation == "linear"
         return _core.TensionInput.table(model, tension.t, tension.tension, linear)
     return _core.TensionInput.constant(model, tension)
+
+
+def warn_beyond_taylor_range(model: Model, q: FloatArray) -> None:
+    """Warn once when a motion leaves the range that the paper gives its Taylor factors."""
+    if not model.formulation.endswith("taylor") or q.size == 0:
+        return
+    largest = float(np.hypot(q[:, 0::2], q[:, 1::2]).max())
+    if largest > _core.taylor_range:
+        warnings.warn(
+            f"formulation {model.formulation!r} holds for |theta| up to 3 pi/5 = "
+            f"{_core.taylor_range:.4f} rad; this motion reaches {largest:.4f} rad",
+            UserWarning,
+            stacklevel=3,
+        )
 
 
 def _options(given: dict[str, Any]) -> _core.Options:
@@ -189,6 +204,7 @@ def simulate(
         message=raw.message,
         stats=raw.stats,
     )
+    warn_beyond_taylor_range(model, run.q)
     if throw and not run.success:
         raise RuntimeError(run.message)
     return run

@@ -73,6 +73,8 @@ class Trajectory:
             if array.shape != shape:
                 raise ValueError(f"{name} must have shape {shape}, got {array.shape}")
             object.__setattr__(self, name, _read_only(array))
+        if num_samples == 0:
+            raise ValueError(f"a run must have at least one sample, got none. {self.message}")
 
     def __len__(self) -> int:
         """Return the number of samples."""
@@ -80,11 +82,12 @@ class Trajectory:
 
     def __repr__(self) -> str:
         """Say what a person wants to know first."""
-        parts = [_count(len(self), "sample")]
-        if len(self):
-            parts.append(f"t = {self.t[0]:g} to {self.t[-1]:g} s")
-        parts.append(_count(self.model.num_sections, "section"))
-        parts.append(_count(self.model.num_cables, "cable"))
+        parts = [
+            _count(len(self), "sample"),
+            f"t = {self.t[0]:g} to {self.t[-1]:g} s",
+            _count(self.model.num_sections, "section"),
+            _count(self.model.num_cables, "cable"),
+        ]
         parts += [self.method] if self.method else []
         end = f": {self.message}" if self.message else ""
         return f"<Trajectory: {', '.join(parts)}, status {self.status.name}{end}>"
@@ -139,15 +142,13 @@ class Trajectory:
         with E[0] = 0. An error only where nothing feeds or drains the robot: no damping, no
         tension.
         """
-        scale = max(
-            np.max(np.abs(self.energy[:1]), initial=0.0), np.max(self.kinetic_energy, initial=0.0)
-        )
-        return _read_only((self.energy - self.energy[:1]) / (scale or 1.0))
+        scale = max(abs(self.energy[0]), np.max(self.kinetic_energy))
+        return _read_only((self.energy - self.energy[0]) / (scale or 1.0))
 
     @property
     def energy_drift(self) -> float:
         """Largest magnitude of ``energy_error`` [1]."""
-        return float(np.max(np.abs(self.energy_error), initial=0.0))
+        return float(np.max(np.abs(self.energy_error)))
 
     def to_xarray(self) -> xarray.Dataset:
         """Return the run as a Dataset with named dimensions, units and a description of the run.

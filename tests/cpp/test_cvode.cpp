@@ -132,29 +132,51 @@ TEST_CASE("interpolates within the last step only, and its ends are the states")
   }
 }
 
-TEST_CASE("starts at rest in the straight configuration") {
+TEST_CASE("the stop time changes nothing long before it, not even the first step") {
   const Model model(amouri2020());
-  const VectorXd times = even_times(0.0, 1.0, 101);
-  const VectorXd rest = state(0.0, 0.0);
+  const TensionInput input = pull(5.0);
+  Plant plant(model, input);
   for (const Method method : cvode_methods) {
     CAPTURE(label(method));
-    SUBCASE("no tension: stays, in a few steps") {
-      const Trajectory still = run(model, pull(0.0), rest, times, method);
-      REQUIRE(still.status == Status::ok);
-      CHECK(still.q.isZero(0.0));
-      CHECK(still.stats.steps < 30);
+    const auto near = make_cvode_integrator(plant, method, {});
+    const auto far = make_cvode_integrator(plant, method, {});
+    REQUIRE(near->restart(0.0, state(0.0, 0.0), 0.5) == Status::ok);
+    REQUIRE(far->restart(0.0, state(0.0, 0.0), 1000.0) == Status::ok);
+    while (near->time() < 0.4) {
+      REQUIRE(near->step() == Status::ok);
+      REQUIRE(far->step() == Status::ok);
+      CHECK(near->time() == far->time());
+      CHECK(near->state() == far->state());
     }
-    SUBCASE("cables 1 and 2 pulled") {
-      const Trajectory moving = run(model, pull(3.0, 4.0), rest, times, method);
-      CHECK(distance(moving, reference(model, pull(3.0, 4.0), rest, times)) <=
-            tolerance::cvode_default);
-    }
-    SUBCASE("tension that grows from zero, so that the first derivative is zero too") {
-      const TensionInput ramp = TensionInput::table(
-          Eigen::Vector2d(0.0, 1.0), Eigen::Matrix<double, 2, 3>{{0.0, 0.0, 0.0}, {5.0, 0.0, 2.0}},
-          TensionInput::Interpolation::linear);
-      const Trajectory moving = run(model, ramp, rest, times, method);
-      CHECK(distance(moving, reference(model, ramp, rest, times)) <= tolerance::cvode_default);
+  }
+}
+
+TEST_CASE("rests where nothing pulls, in a few steps") {
+  const Model model(amouri2020());
+  for (const Method method : cvode_methods) {
+    CAPTURE(label(method));
+    const Trajectory still =
+        run(model, pull(0.0), state(0.0, 0.0), even_times(0.0, 10.0, 101), method);
+    REQUIRE(still.status == Status::ok);
+    CHECK(still.q.isZero(0.0));
+    CHECK(still.qd.isZero(0.0));
+    CHECK(still.stats.steps < 30);
+  }
+}
+
+TEST_CASE("sets out from rest in the straight configuration") {
+  const Model model(amouri2020());
+  const VectorXd times = even_times(0.0, 1.0, 101), rest = state(0.0, 0.0);
+  // Tension that grows from zero leaves even the acceleration zero at the start.
+  const TensionInput growing = TensionInput::table(
+      Eigen::Vector2d(0.0, 1.0), Eigen::Matrix<double, 2, 3>{{0.0, 0.0, 0.0}, {5.0, 0.0, 2.0}},
+      TensionInput::Interpolation::linear);
+  for (const TensionInput& input : {pull(3.0, 4.0), growing}) {
+    const Trajectory truth = reference(model, input, rest, times);
+    for (const Method method : cvode_methods) {
+      CAPTURE(label(method));
+      CHECK(distance(run(model, input, rest, times, method, tight), truth) <=
+            tolerance::cvode_tight);
     }
   }
 }
@@ -169,7 +191,7 @@ TEST_CASE("a jump of the tension function between break points is passed") {
   const Trajectory truth = reference(model, table, rest, times);
   for (const Method method : cvode_methods) {
     CAPTURE(label(method));
-    CHECK(distance(run(model, jump, rest, times, method, tight), truth) <= tolerance::cvode_tight);
+    CHECK(distance(run(model, jump, rest, times, method, tight), truth) <= tolerance::cvode_jump);
   }
 }
 

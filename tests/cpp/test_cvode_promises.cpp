@@ -23,7 +23,10 @@ class CapturedErrors {
     std::fflush(stderr);
     REQUIRE(dup2(fileno(file_), STDERR_FILENO) >= 0);
   }
-  ~CapturedErrors() { restore(); }
+  ~CapturedErrors() {
+    restore();
+    std::fclose(file_);
+  }
   CapturedErrors(const CapturedErrors&) = delete;
   CapturedErrors& operator=(const CapturedErrors&) = delete;
 

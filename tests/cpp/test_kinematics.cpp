@@ -28,8 +28,8 @@ Frame printed_frame(Real length, Real x, Real theta, Real phi) {
 }
 
 void check_frame(const Pose& pose, const Frame& expected, double length) {
-  CHECK(residual(pose.p, expected.r, length) <= tolerance::frame);
-  CHECK(residual(pose.R, expected.R) <= tolerance::frame);
+  CHECK(residual(pose.p, expected.r, length) <= tolerance::rounding);
+  CHECK(residual(pose.R, expected.R) <= tolerance::rounding);
 }
 
 TEST_SUITE_BEGIN("kinematics");
@@ -74,8 +74,8 @@ TEST_CASE("rotations are orthonormal and right-handed") {
   Random random;
   for_each_case(3.0 * pi, [&](const Model& model, Data&, const State& state) {
     const Matrix3d R = pose(model, state.q, 0, random.uniform(0.0, 1.0)).R;
-    CHECK(residual(R.transpose() * R, Matrix3d::Identity()) <= tolerance::frame);
-    CHECK(residual(R.determinant(), 1.0) <= tolerance::frame);
+    CHECK(residual(R.transpose() * R, Matrix3d::Identity()) <= tolerance::rounding);
+    CHECK(residual(R.determinant(), 1.0) <= tolerance::rounding);
   });
 }
 
@@ -95,8 +95,8 @@ TEST_CASE("the Jacobian is the derivative of the frame") {
       const Real33 rate =
           derivative<Real33>([&](Real step) -> Real33 { return moved(step).R; }) * R.transpose();
       const Real3 omega(rate(2, 1), rate(0, 2), rate(1, 0));
-      CHECK(residual(J.col(k).head<3>(), v, length) <= tolerance::frame);
-      CHECK(residual(J.col(k).tail<3>(), omega, 1.0) <= tolerance::frame);
+      CHECK(residual(J.col(k).head<3>(), v, length) <= tolerance::rounding);
+      CHECK(residual(J.col(k).tail<3>(), omega, 1.0) <= tolerance::rounding);
     }
   });
 }

@@ -3,7 +3,6 @@
 
 #include <cstdlib>
 #include <limits>
-#include <utility>
 
 #include "cdcr/cdcr.hpp"
 #include "support/allocations.hpp"
@@ -12,15 +11,42 @@
 namespace cdcr::test {
 namespace {
 
-using Ref = const ConstVectorRef&;
+/// Whether a function or member function is declared noexcept, read from its pointer's type.
+template <class Pointer>
+constexpr bool is_noexcept = false;
+template <class Result, class... Arguments>
+constexpr bool is_noexcept<Result (*)(Arguments...) noexcept> = true;
+template <class Result, class Class, class... Arguments>
+constexpr bool is_noexcept<Result (Class::*)(Arguments...) noexcept> = true;
+template <class Result, class Class, class... Arguments>
+constexpr bool is_noexcept<Result (Class::*)(Arguments...) const noexcept> = true;
 
-template <auto function>
-struct Signature;
-/// A function pointer's type tells whether it is noexcept.
-template <class Result, class... Arguments, Result (*function)(Arguments...)>
-struct Signature<function> : std::false_type {};
-template <class Result, class... Arguments, Result (*function)(Arguments...) noexcept>
-struct Signature<function> : std::true_type {};
+static_assert(is_noexcept<decltype(&mass_matrix)>);
+static_assert(is_noexcept<decltype(&bias)>);
+static_assert(is_noexcept<decltype(&actuation_force)>);
+static_assert(is_noexcept<decltype(&forward_dynamics)>);
+static_assert(is_noexcept<decltype(&forward_dynamics_force)>);
+static_assert(is_noexcept<decltype(&inverse_dynamics)>);
+static_assert(is_noexcept<decltype(&kinetic_energy)>);
+static_assert(is_noexcept<decltype(&potential_energy)>);
+static_assert(is_noexcept<decltype(&potential_gradient)>);
+static_assert(is_noexcept<decltype(&potential_hessian)>);
+static_assert(is_noexcept<decltype(&linearize)>);
+static_assert(is_noexcept<decltype(&state_jacobian)>);
+static_assert(is_noexcept<decltype(&pose)>);
+static_assert(is_noexcept<decltype(&tip)>);
+static_assert(is_noexcept<decltype(&jacobian)>);
+static_assert(is_noexcept<decltype(&cable_lengths)>);
+static_assert(is_noexcept<decltype(&inverse_kinematics)>);
+static_assert(is_noexcept<decltype(&polar)>);
+static_assert(is_noexcept<decltype(&bending)>);
+static_assert(is_noexcept<decltype(&check_tension)>);
+static_assert(is_noexcept<decltype(&message)>);
+static_assert(is_noexcept<decltype(&Simulator::step)>);
+static_assert(is_noexcept<decltype(&Simulator::q)>);
+static_assert(is_noexcept<decltype(&Simulator::qd)>);
+static_assert(is_noexcept<decltype(&Simulator::time)>);
+
 volatile double sink = 0.0;  // keeps results alive
 
 TEST_SUITE_BEGIN("realtime");
@@ -44,6 +70,7 @@ TEST_CASE("dynamics and linearisation allocate nothing") {
     const Eigen::Vector2d force(0.1, -0.2);
     CHECK(allocations_of([&] { mass_matrix(model, data, q, M); }) == 0);
     CHECK(allocations_of([&] { bias(model, data, q, qd, v); }) == 0);
+    CHECK(allocations_of([&] { actuation_force(model, F, v); }) == 0);
     CHECK(allocations_of([&] { forward_dynamics(model, data, q, qd, F, v); }) == 0);
     CHECK(allocations_of([&] { forward_dynamics_force(model, data, q, qd, force, v); }) == 0);
     CHECK(allocations_of([&] { inverse_dynamics(model, data, q, qd, force, v); }) == 0);

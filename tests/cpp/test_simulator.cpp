@@ -3,6 +3,9 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <string>
+#include <utility>
 
 #include "cdcr/simulate.hpp"
 #include "cdcr/simulator.hpp"
@@ -155,7 +158,7 @@ TEST_CASE("coasting over the limit is a bending limit, not a NaN") {
   sim.reset(Eigen::Vector2d(max_bending - 1e-3, 0.0), Eigen::Vector2d(50.0, 0.0));
   Status status = Status::ok;
   for (int i = 0; i < 10 && status == Status::ok; ++i) status = sim.step(VectorXd::Zero(3));
-  INFO("status: ", name(status));
+  INFO("status: ", std::string(name(status)));
   CHECK(status == Status::bending_limit);
   CHECK(sim.q().norm() <= max_bending);
 }

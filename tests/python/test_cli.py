@@ -1,8 +1,5 @@
-"""The command line: what it prints where, its exit codes, and its care with files."""
+"""The command line: what it prints where, its exit codes, and one sentence for every mistake."""
 
-import csv
-import io
-import json
 import os
 import re
 import subprocess
@@ -19,22 +16,18 @@ pytest.importorskip("typer")
 pytest.importorskip("matplotlib")
 pytest.importorskip("h5netcdf")
 
-from rich.console import Console
 from typer.testing import CliRunner, Result
 
-from cdcr import _cli_run
 from cdcr._cli_app import app
 from cdcr._cli_tables import straight_modes
 
-FILES = ["step-tension.png", "step-tension.csv", "step-tension.nc"]
+RUN_OPTIONS = ["--out", "--method", "--t-end", "--rtol", "--atol", "--overwrite", "--json"]
 SECTION: dict[str, Any] = {
     "length": 0.8,
     "backbone_mass": 0.03,
     "backbone_diameter": 0.005,
     "youngs_modulus": 9.5e9,
 }
-# 500 N bends the robot beyond the largest angle within a fraction of a second.
-TOO_STRONG = 'robot = "amouri2020"\nt_end = 1\ntension = [500, 0, 0]\n'
 
 
 def cdcr_(*args: object) -> Result:
@@ -60,12 +53,6 @@ def refused(result: Result) -> str:
     return line.removeprefix("cdcr: ")
 
 
-@pytest.fixture(scope="module")
-def first(tmp_path_factory: Any) -> tuple[Path, Result]:
-    out = tmp_path_factory.mktemp("demo") / "new" / "out"
-    return out, cdcr_("run", "step-tension", "--out", out)
-
-
 def test_version() -> None:
     result = cdcr_("--version")
     assert (result.exit_code, result.stdout) == (0, f"cdcr {cdcr.__version__}\n")
@@ -79,17 +66,7 @@ def test_version() -> None:
         (["info"], ["ROBOT|FILE.toml", "stiffness"]),
         (
             ["run"],
-            [
-                "NAME|FILE.toml",
-                "--out",
-                "--method",
-                "--t-end",
-                "--rtol",
-                "--atol",
-                "--overwrite",
-                "--json",
-                "Exit",
-            ],
+            ["NAME|FILE.toml", *RUN_OPTIONS, "--max-steps", "Exit codes"],
         ),
     ],
 )
@@ -148,102 +125,6 @@ def test_modes_that_do_not_vibrate() -> None:
     assert "inertia" in sentence
 
 
-def test_run_writes_three_files_and_says_so(first: tuple[Path, Result]) -> None:
-    out, result = first
-    assert result.exit_code == 0, result.output
-    assert result.stderr == ""
-    assert everything_in(out) == sorted(FILES)
-    for name in FILES:
-        assert f"wrote {out / name}" in result.stdout
-    assert (out / FILES[0]).read_bytes().startswith(b"\x89PNG")
-    with (out / FILES[1]).open(newline="") as file:
-        rows = list(csv.reader(file))
-    assert rows[0][0] == "t [s]"
-    assert len(rows) == 1002
-    import xarray
-
-    with xarray.open_dataset(out / FILES[2], engine="h5netcdf") as data:
-        np.testing.assert_array_equal(data.time, np.linspace(0.0, 10.0, 1001))
-
-
-def test_run_prints_its_findings(first: tuple[Path, Result]) -> None:
-    _, result = first
-    scenario = cdcr.scenarios.get("step-tension")
-    for finding in scenario.summary(scenario.simulate()):
-        assert finding.label in result.stdout
-    words = result.stdout.split()
-    for word in ("14.9778", "29.9555", "0.6892", "deg", "steps", "bdf,", "ms"):
-        assert word in words
-
-
-def test_existing_files_are_listed_before_the_run_and_kept(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    (tmp_path / "step-tension.csv").write_text("mine")
-    monkeypatch.setattr(cdcr.scenarios.Scenario, "simulate", None)  # a run would fail
-    one = refused(cdcr_("run", "step-tension", "--out", tmp_path))
-    assert one == (
-        f"{tmp_path / 'step-tension.csv'} exists already; "
-        "give --overwrite to replace, or another folder with --out"
-    )
-    (tmp_path / "step-tension.nc").write_text("mine too")
-    two = refused(cdcr_("run", "step-tension", "--out", tmp_path))
-    assert two.startswith(f"{tmp_path / 'step-tension.csv'}, {tmp_path / 'step-tension.nc'} exist ")
-    assert everything_in(tmp_path) == ["step-tension.csv", "step-tension.nc"]
-    assert (tmp_path / "step-tension.csv").read_text() == "mine"
-
-
-def test_overwrite_replaces(tmp_path: Path) -> None:
-    (tmp_path / "step-tension.csv").write_text("old")
-    args = ("run", "step-tension", "--out", tmp_path, "--t-end", 0.1, "--overwrite")
-    assert cdcr_(*args).exit_code == 0
-    assert cdcr_(*args).exit_code == 0
-    assert (tmp_path / "step-tension.csv").read_text().startswith("t [s]")
-    assert everything_in(tmp_path) == sorted(FILES)
-
-
-def test_json_is_one_object_and_nothing_else(tmp_path: Path) -> None:
-    args = [
-        "--json",
-        "--method",
-        "dopri5",
-        "--t-end",
-        "2",
-        "--rtol",
-        "1e-6",
-        "--atol",
-        "1e-8",
-        "--max-steps",
-        "5000",
-    ]
-    result = cdcr_("run", "step-tension", "--out", tmp_path, *args)
-    assert result.exit_code == 0
-    assert result.stderr == ""
-    told = json.loads(result.stdout)
-    run = cdcr.scenarios.get("step-tension").simulate(
-        method="dopri5", t_end=2.0, rtol=1e-6, atol=1e-8
-    )
-    assert told["scenario"] == "step-tension"
-    assert told["method"] == "dopri5"
-    assert (told["success"], told["status"], told["message"]) == (True, "ok", "")
-    assert (told["t_end"], told["num_samples"]) == (2.0, 201)
-    assert told["stats"]["steps"] == run.stats.steps
-    assert told["findings"]["theta_max_deg"] == float(np.rad2deg(run.theta.max()))
-    assert told["wall_time_s"] > 0.0
-    assert told["files"] == [str(tmp_path / name) for name in FILES]
-    sections = [cdcr.Section(**one) for one in told["robot"].pop("sections")]
-    assert cdcr.Robot(sections=sections, **told["robot"]) == cdcr.robots.amouri2020()
-
-
-def test_a_users_file_is_named_after_it(tmp_path: Path) -> None:
-    path = tmp_path / "two cables.toml"
-    path.write_text('robot = "amouri2020"\nt_end = 0.2\ntension = [1, 1, 0]\n')
-    out = tmp_path / "out"
-    result = cdcr_("run", path, "--out", out)
-    assert result.exit_code == 0, result.output
-    assert everything_in(out) == ["two cables.csv", "two cables.nc", "two cables.png"]
-
-
 @pytest.mark.parametrize(
     ("args", "sentence"),
     [
@@ -291,115 +172,6 @@ def test_wrong_usage_exits_with_2_on_stderr(args: list[str]) -> None:
     assert result.stdout == ""
     assert "Error: " in result.stderr
     assert "Traceback" not in result.stderr
-
-
-def test_an_output_folder_that_is_a_file(tmp_path: Path) -> None:
-    out = tmp_path / "out"
-    out.write_text("mine")
-    sentence = f"{out} is a file, not a folder to write to"
-    assert refused(cdcr_("run", "step-tension", "--out", out)) == sentence
-
-
-def test_an_error_of_the_system_names_file_and_reason(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def no_room(self: object, run: object) -> None:
-        raise OSError(28, "No space left on device", "disk")
-
-    monkeypatch.setattr(cdcr.scenarios.Scenario, "figure", no_room)
-    out = tmp_path / "out"
-    sentence = "disk: No space left on device"
-    assert refused(cdcr_("run", "step-tension", "--out", out, "--t-end", 0.1)) == sentence
-    assert everything_in(tmp_path) == []
-
-
-def test_our_own_mistakes_are_not_taken_for_the_users(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def bug(self: object, run: object) -> None:
-        raise ValueError("a bug")
-
-    monkeypatch.setattr(cdcr.scenarios.Scenario, "figure", bug)
-    result = cdcr_("run", "step-tension", "--out", tmp_path / "out", "--t-end", 0.1)
-    assert isinstance(result.exception, ValueError)
-    assert everything_in(tmp_path) == []
-
-
-@pytest.mark.parametrize("as_json", [False, True])
-def test_a_failed_run_exits_with_1_and_writes_nothing(tmp_path: Path, as_json: bool) -> None:
-    path, out = tmp_path / "strong.toml", tmp_path / "out"
-    path.write_text(TOO_STRONG)
-    result = cdcr_("run", path, "--out", out, *(["--json"] if as_json else []))
-    assert result.exit_code == 1
-    message = cdcr._core.status_message(cdcr.Status.bending_limit)
-    assert message
-    assert message.split(";")[0].split(":")[0] in result.stderr
-    assert result.stderr.endswith("No file was written.\n")
-    assert not out.exists()
-    if as_json:
-        told = json.loads(result.stdout)
-        assert (told["success"], told["status"]) == (False, "bending_limit")
-        assert told["message"]
-        assert (told["files"], told["findings"]) == ([], {})
-    else:
-        assert "steps" in result.stdout
-        assert "wrote" not in result.stdout
-
-
-def test_too_few_steps_fail_with_what_to_try(tmp_path: Path) -> None:
-    result = cdcr_("run", "step-tension", "--out", tmp_path, "--max-steps", 10)
-    assert result.exit_code == 1
-    assert "max_steps" in result.stderr
-    assert everything_in(tmp_path) == []
-
-
-def test_ctrl_c_while_integrating(tmp_path: Path) -> None:
-    """The signal itself, in a process of its own."""
-    code = """
-import os, signal
-from cdcr import _cli_run
-from cdcr._cli import main
-_cli_run.DelayedBar.__call__ = lambda self, t: os.kill(os.getpid(), signal.SIGINT)
-main(["run", "step-tension", "--out", "new/out", "--t-end", "1000"])
-"""
-    done = python(code, tmp_path)
-    assert done.returncode == 130
-    assert (done.stdout, done.stderr) == ("", "cdcr: interrupted, no file was written\n")
-    assert everything_in(tmp_path) == []
-
-
-@pytest.mark.parametrize("when", ["figure", "save"])
-def test_ctrl_c_while_writing_leaves_what_was_there(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, when: str
-) -> None:
-    def interrupted(*args: object, **kwargs: object) -> None:
-        raise KeyboardInterrupt
-
-    owner = cdcr.scenarios.Scenario if when == "figure" else cdcr.Trajectory
-    monkeypatch.setattr(owner, when, interrupted)
-    old = tmp_path / "old"
-    old.mkdir()
-    (old / "step-tension.png").write_text("old")
-    for out in (old, tmp_path / "new" / "out"):
-        result = cdcr_("run", "step-tension", "--out", out, "--t-end", 0.1, "--overwrite")
-        assert result.exit_code == 130
-        assert result.stderr == "cdcr: interrupted, no file was written\n"
-    assert everything_in(tmp_path) == ["old"]
-    assert everything_in(old) == ["step-tension.png"]
-    assert (old / "step-tension.png").read_text() == "old"
-
-
-@pytest.mark.parametrize(("delay", "shown"), [(0.0, True), (1e9, False)])
-def test_progress_is_shown_on_long_runs_only(
-    monkeypatch: pytest.MonkeyPatch, delay: float, shown: bool
-) -> None:
-    monkeypatch.setattr(_cli_run, "BAR_DELAY", delay)
-    screen = io.StringIO()
-    console = Console(file=screen, force_terminal=True, width=80)
-    with _cli_run.DelayedBar(console, "step-tension", 10.0) as bar:
-        bar(5.0)
-    assert ("step-tension" in screen.getvalue()) is shown
-    assert ("50%" in screen.getvalue()) is shown
 
 
 @pytest.mark.parametrize(

@@ -32,9 +32,7 @@ def cpp_enumerators(header: str, enum: str) -> list[str]:
 
 
 def test_version_comes_from_cmake() -> None:
-    project = re.search(
-        r"project\(cdcr VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text()
-    )
+    project = re.search(r"project\(cdcr VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())
     assert project is not None
     assert metadata.version("cdcr") == project.group(1)
     assert cdcr.__version__ == project.group(1)
@@ -96,14 +94,18 @@ def test_readme_names_the_extras_there_are() -> None:
     extras = set(metadata.metadata("cdcr").get_all("Provides-Extra") or [])
     readme = (ROOT / "README.md").read_text()
     named = {
-        extra.strip() for group in re.findall(r"cdcr\[(.+?)\]", readme) for extra in group.split(",")
+        extra.strip()
+        for group in re.findall(r"cdcr\[(.+?)\]", readme)
+        for extra in group.split(",")
     }
     assert extras == {"plot", "data", "cli", "all"}
     assert named <= extras
 
 
 def test_readme_names_the_system_packages() -> None:
-    needed = re.findall(r"apt-get install ([\w-]+)", (ROOT / "cmake/dependencies.cmake").read_text())
+    needed = re.findall(
+        r"apt-get install ([\w-]+)", (ROOT / "cmake/dependencies.cmake").read_text()
+    )
     readme = (ROOT / "README.md").read_text()
     assert len(needed) >= 2
     assert [package for package in needed if package not in readme] == []

@@ -3,6 +3,7 @@
 import dataclasses
 import subprocess
 import sys
+from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
@@ -136,7 +137,7 @@ assert "matplotlib.pyplot" not in sys.modules
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
-def test_saved_text_stays_text(run: cdcr.Trajectory, tmp_path: Any) -> None:
+def test_saved_text_stays_text(run: cdcr.Trajectory, tmp_path: Path) -> None:
     run.plot().savefig(tmp_path / "run.svg")
     assert "tip position [m]</text>" in (tmp_path / "run.svg").read_text(encoding="utf-8")
 

@@ -124,14 +124,16 @@ def test_replace_checks_again() -> None:
 
 
 def test_keywords_are_pythons_business() -> None:
+    section: Any = cdcr.Section
+    robot: Any = cdcr.Robot
     with pytest.raises(TypeError, match="lenght"):
-        cdcr.Section(**REQUIRED, lenght=1.0)
+        section(**REQUIRED, lenght=1.0)
     with pytest.raises(TypeError, match="youngs_modulus"):
-        cdcr.Section(length=0.8, backbone_mass=0.03, backbone_diameter=0.005)  # type: ignore[call-arg]
+        section(length=0.8, backbone_mass=0.03, backbone_diameter=0.005)
     with pytest.raises(TypeError, match="positional"):
-        cdcr.Section(0.8)  # type: ignore[misc]
+        section(0.8)
     with pytest.raises(TypeError, match="positional"):
-        cdcr.Robot([])  # type: ignore[misc]
+        robot([])
 
 
 @pytest.mark.parametrize("name", NUMBERS)
@@ -275,8 +277,7 @@ def test_stiffness_by_hand() -> None:
 def test_the_core_has_the_same_fields_and_stiffness() -> None:
     section = cdcr.Section(**FULL)
     assert section._to_core().stiffness == pytest.approx(section.stiffness, rel=REL)
-    with pytest.raises(TypeError):
-        _core.Section(**FULL, extra=1.0)
+    assert _core.Section(**FULL).violations() == []
 
 
 def test_masses_and_counts() -> None:

@@ -20,11 +20,6 @@ t_end = 0.5
 tension = [5, 0, 0]
 """
 SECTION = "length = 0.8\nbackbone_mass = 0.03\nbackbone_diameter = 0.005\nyoungs_modulus = 9.5e9\n"
-ROWS = """
-[tension]
-t = [0, 1]
-rows = [[0, 0, 0], [1, 2, 3]]
-"""
 
 
 def load(folder: Path, text: str) -> Scenario:
@@ -35,7 +30,7 @@ def load(folder: Path, text: str) -> Scenario:
 
 def refusal(folder: Path, text: str, where: str = "pull.toml") -> list[str]:
     """The sentences, without the place each must begin with."""
-    with pytest.raises(ValueError, match=r"pull\.toml|tension\.csv") as caught:
+    with pytest.raises(ValueError, match=r"pull\.toml") as caught:
         load(folder, text)
     lines = str(caught.value).split("\n")
     start = f"{folder / where}: "
@@ -144,21 +139,6 @@ def test_initial_state(tmp_path: Path, initial: str, q0: tuple[float, float]) ->
     assert scenario.qd0 == (0.0, 0.0)
 
 
-@pytest.mark.parametrize("interpolation", ["linear", "previous"])
-def test_tensions_over_time_in_the_file(tmp_path: Path, interpolation: str) -> None:
-    text = without("tension") + ROWS + f'interpolation = "{interpolation}"\n'
-    run = load(tmp_path, text).simulate(t_end=1.0, num_samples=5)
-    fraction = run.t if interpolation == "linear" else np.floor(run.t)
-    np.testing.assert_allclose(run.tension, np.outer(fraction, [1.0, 2.0, 3.0]), rtol=1e-15)
-
-
-def test_tensions_over_time_in_a_csv_file(tmp_path: Path) -> None:
-    (tmp_path / "tension.csv").write_text("t, cable 1,cable 2,cable 3\n0,0,0,0\n\n1,1.0,2e0, 3\n")
-    from_csv = load(tmp_path, without("tension") + "[tension]\nfile = 'tension.csv'\n")
-    in_place = load(tmp_path, without("tension") + ROWS)
-    np.testing.assert_array_equal(from_csv.simulate().q, in_place.simulate().q)
-
-
 def test_methods_are_those_of_the_core() -> None:
     description = ScenarioTable.model_fields["method"].description or ""
     assert set(re.findall(r'"(\w+)"', description)) == set(_core.Method.__members__)
@@ -243,20 +223,6 @@ def test_methods_are_those_of_the_core() -> None:
             FILE + "[initial]\nq = [1, 2]\nphi_deg = [1]\n",
             "initial must have q or phi_deg, not both",
         ),
-        (
-            without("tension") + "[tension]\nt = [0]\n",
-            "tension.rows is missing; it must be an array with one row for each time: "
-            "a number >= 0 [N] for each cable",
-        ),
-        (
-            without("tension") + ROWS.replace("[1, 2, 3]", "[1, 2, -3]"),
-            "tension.rows must be an array with one row for each time: a number >= 0 [N] "
-            "for each cable, got -3 (integer) at tension.rows[1][2]",
-        ),
-        (
-            without("tension") + ROWS + "interpolation = 'cubic'\n",
-            'tension.interpolation must be "linear" or "previous", got \'cubic\' (string)',
-        ),
     ],
 )
 def test_what_is_wrong_in_a_file(tmp_path: Path, text: str, sentence: str) -> None:
@@ -276,16 +242,6 @@ def test_what_is_wrong_in_a_file(tmp_path: Path, text: str, sentence: str) -> No
             "pull.toml, [robot]",
             "sections[0].length must be > 0 m and finite, got -0.8",
         ),
-        (
-            without("tension") + ROWS.replace("[1, 2, 3]", "[1, 2]"),
-            "pull.toml, [tension]",
-            "rows[1] must have 3 numbers, one for each cable, got 2",
-        ),
-        (
-            without("tension") + ROWS.replace("[0, 1]", "[0, 1, 2]"),
-            "pull.toml, [tension]",
-            "rows must be as many as t, 3, got 2",
-        ),
     ],
 )
 def test_what_is_wrong_in_a_part_of_a_file(
@@ -294,70 +250,11 @@ def test_what_is_wrong_in_a_part_of_a_file(
     assert refusal(tmp_path, text, where) == [sentence]
 
 
-def test_times_must_increase(tmp_path: Path) -> None:
-    (sentence,) = refusal(
-        tmp_path, without("tension") + ROWS.replace("[0, 1]", "[1, 1]"), "pull.toml, [tension]"
-    )
-    assert "increas" in sentence
-
-
 def test_a_formulation_must_be_known(tmp_path: Path) -> None:
     (sentence,) = refusal(tmp_path, FILE + "formulation = 'wrong'\n")
     assert sentence.startswith("formulation must be one of ")
     assert "'exact'" in sentence
     assert sentence.endswith("got 'wrong'")
-
-
-@pytest.mark.parametrize(
-    ("csv", "where", "sentence"),
-    [
-        (
-            "t,cable 1\n0,1\n",
-            "tension.csv, line 1",
-            "the columns must be t, cable 1, cable 2, cable 3, got t, cable 1",
-        ),
-        (
-            "",
-            "tension.csv, line 1",
-            "the columns must be t, cable 1, cable 2, cable 3, got nothing",
-        ),
-        ("t,cable 1,cable 2,cable 3\n0,1\n", "tension.csv, line 2", "must have 4 columns, got 2"),
-        (
-            "t,cable 1,cable 2,cable 3\n0,1,2,3\n\n1,2,x,4\n",
-            "tension.csv, line 4",
-            "cable 2 must be a number >= 0 [N], got 'x'",
-        ),
-        (
-            "t,cable 1,cable 2,cable 3\n0,1,-2,3\n",
-            "tension.csv, line 2",
-            "cable 2 must be a number >= 0 [N], got '-2'",
-        ),
-        (
-            "t,cable 1,cable 2,cable 3\nnan,1,2,3\n",
-            "tension.csv, line 2",
-            "t must be a time [s], got 'nan'",
-        ),
-    ],
-)
-def test_what_is_wrong_in_a_tension_file(
-    tmp_path: Path, csv: str, where: str, sentence: str
-) -> None:
-    (tmp_path / "tension.csv").write_text(csv)
-    text = without("tension") + "[tension]\nfile = 'tension.csv'\n"
-    assert refusal(tmp_path, text, where) == [sentence]
-
-
-@pytest.mark.parametrize(
-    ("content", "sentence"),
-    [
-        (b"t,cable 1,cable 2,cable 3\n", "has no rows of numbers under its header"),
-        (b"t,cable 1,cable 2,cable 3\n0,\xff,0,0\n", "is not a CSV file: "),
-    ],
-)
-def test_a_tension_file_without_numbers(tmp_path: Path, content: bytes, sentence: str) -> None:
-    (tmp_path / "tension.csv").write_bytes(content)
-    with pytest.raises(ValueError, match=re.escape(f"{tmp_path / 'tension.csv'} {sentence}")):
-        load(tmp_path, without("tension") + "[tension]\nfile = 'tension.csv'\n")
 
 
 @pytest.mark.parametrize(

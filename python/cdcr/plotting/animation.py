@@ -60,9 +60,9 @@ def animate(
 
 def frame_times(run: Trajectory, step: float) -> NDArray[np.float64]:
     """Return the times of the frames: every `step` [s] from the start, as far as the run goes."""
-    span = run.t[-1] - run.t[0]
-    count = math.floor(span / step + 1e-6) + 1  # a last frame must not be lost to rounding
-    times: NDArray[np.float64] = np.minimum(run.t[0] + step * np.arange(count), run.t[-1])
+    start, end = run.t[0], run.t[-1]
+    count = math.floor((end - start) / step + 1e-6) + 1  # rounding must not lose the last frame
+    times: NDArray[np.float64] = np.minimum(start + step * np.arange(count), end)
     return times
 
 
@@ -72,7 +72,7 @@ def draw_frames(run: Trajectory, times: NDArray[np.float64]) -> Iterator[NDArray
     What stands still is drawn once; each frame only draws what moves on a copy of it.
     """
     with style():
-        film = _Film(run)
+        film = _Film(run, times)
     states = states_at(run, times)
     samples = np.searchsorted(run.t, times, side="right") - 1  # tensions hold until the next one
     for time, q, sample in zip(times, states, samples, strict=True):
@@ -82,7 +82,7 @@ def draw_frames(run: Trajectory, times: NDArray[np.float64]) -> Iterator[NDArray
 class _Film:
     """The picture with its moving parts."""
 
-    def __init__(self, run: Trajectory) -> None:
+    def __init__(self, run: Trajectory, times: NDArray[np.float64]) -> None:
         figure = StyledFigure(figsize=SIZE, dpi=DPI)
         self._canvas = cast(Any, figure.canvas)
         robot_axes = space.add_axes(figure)
@@ -93,15 +93,17 @@ class _Film:
         self._robot = RobotArtists(robot_axes, run.model, run.q[0])
         self._largest = np.max(run.tension, initial=0.0)
 
-        names = [panels.plot_theta] + ([panels.plot_tension] if run.model.num_cables else [])
-        grid = figure.add_gridspec(len(names), 1, left=0.575, right=0.975, bottom=0.1, top=0.93)
-        charts = [figure.add_subplot(grid[k]) for k in range(len(names))]
-        for plot, axes in zip(names, charts, strict=True):
+        plots = [panels.plot_theta] + ([panels.plot_tension] if run.model.num_cables else [])
+        grid = figure.add_gridspec(len(plots), 1, left=0.575, right=0.975, bottom=0.1, top=0.93)
+        charts = [figure.add_subplot(grid[k]) for k in range(len(plots))]
+        for plot, axes in zip(plots, charts, strict=True):
             plot(axes, run)
             panels.show_time(axes, run, named=axes is charts[-1])
         figure.align_ylabels(charts)
         self._marks = [axes.axvline(run.t[0], color=BLACK, linewidth=1.0) for axes in charts]
         self._clock = figure.text(0.02, 0.95, "", fontsize=12)
+        step = np.min(np.diff(times), initial=1.0)
+        self._decimals = max(2, math.ceil(-math.log10(step)))  # slow motion needs more
 
         robot = self._robot
         self._moving: list[Any] = [robot.disks, robot.backbone, *robot.cables]
@@ -120,7 +122,7 @@ class _Film:
         self._robot.disks.do_3d_projection()
         for mark in self._marks:
             mark.set_xdata([time, time])
-        self._clock.set_text(f"t = {time:.2f} s")
+        self._clock.set_text(f"t = {time:.{self._decimals}f} s")
         self._canvas.restore_region(self._still)
         for artist in sorted(self._moving, key=lambda artist: artist.get_zorder()):
             artist.draw(self._canvas.get_renderer())

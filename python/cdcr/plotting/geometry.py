@@ -15,7 +15,7 @@ __all__ = ["RobotShape", "base_plate", "robot_shape", "states_at"]
 
 Array = NDArray[np.float64]
 
-PIECES = 24  # straight pieces of a section's backbone
+PIECES = 48  # straight pieces of a section's backbone
 CORNERS = 48  # of a disk
 
 
@@ -81,10 +81,9 @@ def _circle(radius: float, R: Array, p: Array) -> Array:
 
 def states_at(run: Trajectory, times: Array) -> Array:
     """Return q (M, 2n) at times (M,) [s]: between samples the cubic that has their q and qd."""
-    if not np.all((times >= run.t[0]) & (times <= run.t[-1])):
-        raise ValueError(
-            f"times must lie within the run, {run.t[0]:g} to {run.t[-1]:g} s, got {times}"
-        )
+    start, end = run.t[0], run.t[-1]
+    if not np.all((times >= start) & (times <= end)):
+        raise ValueError(f"times must lie within the run, {start:g} to {end:g} s, got {times}")
     if len(run) == 1:
         return np.repeat(run.q, len(times), axis=0)
     right = np.clip(np.searchsorted(run.t, times, side="right"), 1, len(run) - 1)

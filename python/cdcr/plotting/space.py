@@ -15,12 +15,13 @@ __all__ = ["add_axes", "fit", "place", "show_points", "towards_viewer"]
 
 Array = NDArray[np.float64]
 
-VIEW = {"elev": 20.0, "azim": -78.0}  # [deg]; no cable of three, the first along X, hides another
+# Of three cables, the first along X, none hides another.
+VIEW = {"elev": 24.0, "azim": -74.0}  # [deg]
 MAX_TICKS = 7  # along the longest side
 FORESHORTENED = 0.6  # the y axis, in this view
 SLENDEREST = 0.3  # shortest side of the box over its longest: room for the numbers
-LABEL_OFFSET, TICK_OFFSET = 26.0, 11.5  # of a cube's labels and numbers [pt]
-LABELS = (0.55, 0.65, 0.85, 0.2)  # room left, below, right, above the box for its labels [in]
+LABEL_OFFSET, TICK_OFFSET = 29.0, 11.5  # of a cube's labels and numbers [pt]
+LABELS = (0.55, 0.8, 0.9, 0.2)  # room left, below, right, above the box for its labels [in]
 
 
 def add_axes(figure: Figure) -> Any:
@@ -51,12 +52,12 @@ def show_points(axes: Any, points: Array) -> None:
 def _number_axes(axes: Any, low: Array, high: Array) -> None:
     """Give the box its proportions, and its axes as many numbers as have room."""
     size = high - low
-    axes.set_box_aspect(size)
+    axes.set_box_aspect(tuple(size))  # it would write into an array
     cube = size / np.sqrt(np.mean(size**2))  # 1 for a cube
     for k, axis in enumerate((axes.xaxis, axes.yaxis, axes.zaxis)):
         room = MAX_TICKS * size[k] / size.max() * (FORESHORTENED if k == 1 else 1.0)
         ticks = MaxNLocator(max(2, round(room)), steps=[1, 2, 5, 10]).tick_values(low[k], high[k])
-        corner = low[k] + 0.2 * size[k] * (k == 1)  # where x and y meet, x is numbered
+        corner = low[k] + 0.15 * size[k] * (k == 1)  # where x and y meet, x is numbered
         axis.set_ticks(ticks[(ticks >= corner) & (ticks <= high[k])])
         # Matplotlib keeps labels off an axis by shares of the other two sides: even that out.
         away = np.sqrt(np.mean(np.delete(cube, k) ** 2))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 import subprocess
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from itertools import chain
 from pathlib import Path
 
@@ -76,6 +77,8 @@ def _write_mp4(path: Path, frames: Iterator[Frame], fps: float) -> None:
             pass  # ffmpeg has given up, and says why below
         except BaseException:
             ffmpeg.kill()
+            with suppress(BrokenPipeError):  # closing sends what is left
+                ffmpeg.stdin.close()
             raise
         _, complaint = ffmpeg.communicate()
     if ffmpeg.returncode:

@@ -1,0 +1,180 @@
+"""What is wrong in a robot file is said in one sentence: file, key, value and what is allowed."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+import cdcr
+from cdcr._robot_schema import SectionTable
+
+FILE = """\
+gravity = [0, 0, -9.81]
+payload = 0.1
+
+[[sections]]
+length = 0.8
+backbone_mass = 0.03
+backbone_diameter = 0.005
+youngs_modulus = 9.5e9
+disk_mass = 0.008
+disk_diameter = 0.04
+num_disks = 10
+cable_radius = 0.019
+cable_angles = [0.0, 2.0, 4.0]
+damping = 1e-3
+"""
+
+
+def load(folder: Path, text: str) -> cdcr.Robot:
+    path = folder / "robot.toml"
+    path.write_text(text, encoding="utf-8")
+    return cdcr.Robot.load(path)
+
+
+def refusal(folder: Path, text: str) -> list[str]:
+    """The sentences, without the file's name each must begin with."""
+    with pytest.raises(ValueError, match=r"robot\.toml") as caught:
+        load(folder, text)
+    where = f"{folder / 'robot.toml'}: "
+    lines = str(caught.value).split("\n")
+    assert all(line.startswith(where) for line in lines), lines
+    return [line.removeprefix(where) for line in lines]
+
+
+def replaced(old: str, new: str) -> str:
+    assert old in FILE
+    return FILE.replace(old, new)
+
+
+def test_angles_in_both_units_are_refused(tmp_path: Path) -> None:
+    assert refusal(tmp_path, FILE + "cable_angles_deg = [0]\n") == [
+        "sections[0] must have cable_angles or cable_angles_deg, not both"
+    ]
+
+
+def test_an_unknown_key_is_named_with_the_nearest_and_all_known_ones(tmp_path: Path) -> None:
+    known = ", ".join(SectionTable.model_fields)
+    assert refusal(tmp_path, replaced("damping", "dampign")) == [
+        f"sections[0].dampign is not a known key. Did you mean 'damping'? Known keys: {known}"
+    ]
+    assert refusal(tmp_path, "colour = 1\n" + FILE) == [
+        "colour is not a known key. Known keys: gravity, payload, sections"
+    ]
+
+
+def test_a_misspelt_required_key_is_unknown_and_missing(tmp_path: Path) -> None:
+    missing, unknown = refusal(tmp_path, replaced("length", "lenght"))
+    assert missing == "sections[0].length is missing; it must be a number > 0 m and finite"
+    assert unknown.startswith("sections[0].lenght is not a known key. Did you mean 'length'?")
+
+
+@pytest.mark.parametrize("name", ["length", "backbone_mass", "backbone_diameter", "youngs_modulus"])
+def test_each_required_key_is_missed(tmp_path: Path, name: str) -> None:
+    text = re.sub(rf"^{name} = .*\n", "", FILE, flags=re.MULTILINE)
+    (sentence,) = refusal(tmp_path, text)
+    assert sentence.startswith(f"sections[0].{name} is missing; it must be a number >")
+
+
+def test_sections_are_missed(tmp_path: Path) -> None:
+    wanted = "one [[sections]] table for each section"
+    assert refusal(tmp_path, "payload = 1.0\n") == [f"sections is missing; it must be {wanted}"]
+    assert refusal(tmp_path, "sections = 1\n") == [f"sections must be {wanted}, got 1 (integer)"]
+    assert refusal(tmp_path, "sections = [1]\n") == [
+        f"sections must be {wanted}, got 1 (integer) at sections[0]"
+    ]
+    assert refusal(tmp_path, "sections = []\n") == ["the number of sections must be 1 to 32, got 0"]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "sentence"),
+    [
+        (
+            "length = 0.8",
+            "length = '0.8'",
+            "sections[0].length must be a number > 0 m and finite, got '0.8' (string)",
+        ),
+        (
+            "length = 0.8",
+            "length = true",
+            "sections[0].length must be a number > 0 m and finite, got true (boolean)",
+        ),
+        (
+            "damping = 1e-3",
+            "damping = [1e-3]",
+            "sections[0].damping must be a number >= 0 N m s/rad and finite, got [0.001] (array)",
+        ),
+        (
+            "num_disks = 10",
+            "num_disks = 10.0",
+            "sections[0].num_disks must be a whole number 0 to 64, got 10.0 (float)",
+        ),
+        (
+            "num_disks = 10",
+            "num_disks = 5000000000",
+            "sections[0].num_disks must be a whole number 0 to 64, got 5000000000 (integer)",
+        ),
+        (
+            "cable_angles = [0.0, 2.0, 4.0]",
+            "cable_angles = 2.0",
+            "sections[0].cable_angles must be an array of 0 to 16 numbers [rad], got 2.0 (float)",
+        ),
+        (
+            "cable_angles = [0.0, 2.0, 4.0]",
+            "cable_angles = [0.0, '2']",
+            "sections[0].cable_angles must be an array of 0 to 16 numbers [rad], "
+            "got '2' (string) at sections[0].cable_angles[1]",
+        ),
+        (
+            "cable_angles = [0.0, 2.0, 4.0]",
+            "cable_angles_deg = {a = 1}",
+            "sections[0].cable_angles_deg must be an array of 0 to 16 numbers [deg], "
+            "got {'a': 1} (table)",
+        ),
+        (
+            "gravity = [0, 0, -9.81]",
+            "gravity = [0, -9.81]",
+            "gravity must be an array of 3 numbers [m/s^2], got [0, -9.81] (array)",
+        ),
+        (
+            "payload = 0.1",
+            "payload = 2020-01-01",
+            "payload must be a number >= 0 kg and finite, got datetime.date(2020, 1, 1) (date)",
+        ),
+        ("length = 0.8", "length = -1", "sections[0].length must be > 0 m and finite, got -1"),
+        ("length = 0.8", "length = inf", "sections[0].length must be > 0 m and finite, got inf"),
+        ("num_disks = 10", "num_disks = 65", "sections[0].num_disks must be 0 to 64, got 65"),
+        ("payload = 0.1", "payload = nan", "payload must be >= 0 kg and finite, got nan"),
+        (
+            "cable_angles = [0.0, 2.0, 4.0]",
+            f"cable_angles = {[0.0] * 17}",
+            "the number of sections[0].cable_angles must be 0 to 16, got 17",
+        ),
+        (
+            "cable_radius = 0.019",
+            "cable_radius = 0",
+            "sections[0].cable_radius must be > 0 m and finite, got 0",
+        ),
+    ],
+)
+def test_wrong_types_and_values(tmp_path: Path, old: str, new: str, sentence: str) -> None:
+    assert refusal(tmp_path, replaced(old, new)) == [sentence]
+
+
+def test_an_integer_beyond_every_float_is_refused(tmp_path: Path) -> None:
+    (sentence,) = refusal(tmp_path, replaced("length = 0.8", f"length = 1{'0' * 400}"))
+    assert sentence.startswith("sections[0].length must be ")
+
+
+def test_everything_wrong_is_told_at_once(tmp_path: Path) -> None:
+    second = FILE[FILE.index("[[sections]]") :].replace("damping", "dampign")
+    sentences = refusal(tmp_path, replaced("length = 0.8", "length = 'x'") + second)
+    assert [sentence.split()[0] for sentence in sentences] == [
+        "sections[0].length",
+        "sections[1].dampign",
+    ]
+    values = replaced("length = 0.8", "length = -1").replace("payload = 0.1", "payload = -1")
+    assert [sentence.split()[0] for sentence in refusal(tmp_path, values)] == [
+        "sections[0].length",
+        "payload",
+    ]
