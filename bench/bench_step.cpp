@@ -11,6 +11,7 @@ void measure(const Harness& harness, const std::string& suffix, bool gravity) {
   const auto restart = [&simulator] { simulator.reset(bent().q, bent().qd); };
   const auto step = [&](long /*i*/) { keep(simulator.step(tension)); };
 
+  restart();
   harness.run({"Simulator.step" + suffix}, restart, step);
   // One period a sample: what the clock costs is in it, and what the machine does besides.
   Plan periods{"Simulator.step, each period" + suffix, "us", 1, 200000, 1000.0};

@@ -14,13 +14,14 @@ from rows import Spread, by_name, judged, layout, number, read, verdict
 
 def summary(spreads: dict[str, Spread]) -> str:
     """All rows of one file."""
-    header = ["", "unit", "median", "range", "runs", "error [rad]", "target"]
+    header = ["", "unit", "p50", "range", "own", "runs", "error [rad]", "target"]
     lines = [
         [
             name,
             spread.row["unit"],
             number(spread.median),
             f"{number(spread.low)} to {number(spread.high)}",
+            number(spread.own),
             str(spread.runs),
             number(spread.row.get("error")),
             verdict(judged({**spread.row, "p50": spread.median})),

@@ -27,15 +27,25 @@ TIMES = np.linspace(0.0, 10.0, 1001)
 HEADLINE = "free oscillation, dopri5 rtol 1e-8"
 
 
-def timed(call: Callable[[], object], count: int, unit: float) -> list[float]:
-    """Time `count` calls after one more, in units of `unit` seconds."""
-    call()
-    samples = []
-    for _ in range(count):
-        start = time.perf_counter()
+class Timed:
+    """Times of `count` calls after one more, in units of `unit` seconds.
+
+    `samples` by the clock, `own` the median of the processor time this thread used.
+    """
+
+    def __init__(self, call: Callable[[], object], count: int, unit: float) -> None:
         call()
-        samples.append((time.perf_counter() - start) / unit)
-    return samples
+        self.samples, own = [], []
+        for _ in range(count):
+            before, start = time.thread_time(), time.perf_counter()
+            call()
+            self.samples.append((time.perf_counter() - start) / unit)
+            own.append((time.thread_time() - before) / unit)
+        self.own = statistics.median(own)
+
+    def row(self, name: str, unit: str, **extra: float) -> Row:
+        """Make the row of that name."""
+        return make_row(name, unit, self.samples, own=self.own, **extra)
 
 
 def calls(quick: bool) -> Iterator[Row]:
@@ -53,11 +63,10 @@ def calls(quick: bool) -> Iterator[Row]:
         for _ in states:
             simulator.step(TENSION)
 
-    count = 30 if quick else 300
-    per_call = len(states) * 1e-6
-    extra = {"calls_per_block": len(states)}
-    yield make_row("forward_dynamics from Python", "us", timed(dynamics, count, per_call), **extra)
-    yield make_row("Simulator.step from Python", "us", timed(steps, count, per_call), **extra)
+    count, block = 30 if quick else 300, len(states)
+    for name, call in (("forward_dynamics", dynamics), ("Simulator.step", steps)):
+        times = Timed(call, count, block * 1e-6)
+        yield times.row(f"{name} from Python", "us", calls_per_block=block)
 
 
 def oscillation(method: str, rtol: float) -> cdcr.Trajectory:
@@ -73,7 +82,8 @@ def overhead(quick: bool, executable: Path) -> Iterator[Row]:
         command = [str(executable), "--quick", "--only", HEADLINE]
         line = subprocess.run(command, check=True, capture_output=True, text=True).stdout
         in_cpp.append(json.loads(line)["p50"])
-        in_python.append(statistics.median(timed(lambda: oscillation("dopri5", 1e-8), 30, 1e-3)))
+        times = Timed(lambda: oscillation("dopri5", 1e-8), 30, 1e-3)
+        in_python.append(statistics.median(times.samples))
     yield make_row("simulate from Python, dopri5 rtol 1e-8", "ms", in_python)
     over = [python - cpp for python, cpp in zip(in_python, in_cpp, strict=True)]
     yield make_row("simulate: Python over C++", "ms", over)

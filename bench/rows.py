@@ -90,12 +90,12 @@ def layout(header: Sequence[str], lines: Sequence[Sequence[str]]) -> str:
 
 def table(rows: Iterable[Row]) -> str:
     """Rows of one run as a table."""
-    header = ["", "unit", "p50", "p95", "p99", "max", "missed", "error [rad]", "target"]
+    header = ["", "unit", "p50", "p95", "p99", "max", "own", "missed", "error [rad]", "target"]
     lines = [
         [
             row["name"],
             row["unit"],
-            *(number(row[key]) for key in ("p50", "p95", "p99", "max")),
+            *(number(row.get(key)) for key in ("p50", "p95", "p99", "max", "own")),
             f"{row['missed']} of {row['count']}" if "missed" in row else "",
             number(row.get("error")),
             verdict(row),
@@ -106,7 +106,7 @@ def table(rows: Iterable[Row]) -> str:
 
 
 class Spread:
-    """One row over several runs: median, smallest and largest of its p50."""
+    """One row over several runs: median, smallest and largest of its p50; median of its own."""
 
     def __init__(self, rows: Sequence[Row]) -> None:
         values = [row["p50"] for row in rows]
@@ -114,6 +114,7 @@ class Spread:
         self.runs = len(values)
         self.median = statistics.median(values)
         self.low, self.high = min(values), max(values)
+        self.own = statistics.median(row["own"] for row in rows) if "own" in rows[0] else None
 
     def text(self) -> str:
         """Median and range."""

@@ -58,7 +58,8 @@ class RightHandSide:
         def interpolated(value: int) -> Polynomial:
             function = np.vectorize(lambda sigma: inertia(section, sigma)[value])
             fit = Chebyshev.interpolate(function, DEGREE, domain=[0.0, LARGEST_SIGMA])
-            return fit.convert(kind=Polynomial)
+            polynomial: Polynomial = fit.convert(kind=Polynomial)
+            return polynomial
 
         a = interpolated(1)
         # b = (M11 - a)/sigma: both agree at 0, so the coefficient dropped is rounding.

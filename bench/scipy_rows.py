@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy_reference
-from python_rows import Q0, ROBOT, TIMES, oscillation, timed
+from python_rows import Q0, ROBOT, TIMES, Timed, oscillation
 from rows import Row, make_row
 
 if TYPE_CHECKING:
@@ -44,16 +44,19 @@ class Curve:
         self.rows = []
         for rtol in rtols:
             error = float(np.abs(run(rtol) - truth).max())
-            samples = timed(partial(run, rtol), count, 1e-3)
-            self.rows.append(make_row(f"{name} rtol {rtol:.0e}", "ms", samples, error=error))
+            times = Timed(partial(run, rtol), count, 1e-3)
+            self.rows.append(times.row(f"{name} rtol {rtol:.0e}", "ms", error=error))
 
     def time_at(self, error: float) -> float:
-        """Time needed for that error, between the rows on both sides of it."""
+        """Processor time needed for that error, between the rows on both sides of it.
+
+        Not the clock's: runs of a second are always interrupted on a shared machine.
+        """
         rows = sorted(self.rows, key=lambda row: row["error"])
         errors = [math.log(row["error"]) for row in rows]
         if not errors[0] <= math.log(error) <= errors[-1]:
             raise ValueError(f"no rows on both sides of an error of {error} rad: {rows}")
-        return math.exp(np.interp(math.log(error), errors, [math.log(row["p50"]) for row in rows]))
+        return math.exp(np.interp(math.log(error), errors, [math.log(row["own"]) for row in rows]))
 
 
 def check() -> Row:
@@ -67,8 +70,8 @@ def right_hand_side() -> Row:
     """Time one evaluation of the NumPy equations of motion."""
     equations = scipy_reference.RightHandSide(SECTION)
     state = np.array([*Q0, 0.1, 0.2])
-    samples = timed(lambda: [equations(0.0, state) for _ in range(1000)], 20, 1e-3)
-    return make_row("NumPy right-hand side", "us", samples, calls_per_block=1000)
+    times = Timed(lambda: [equations(0.0, state) for _ in range(1000)], 20, 1e-3)
+    return times.row("NumPy right-hand side", "us", calls_per_block=1000)
 
 
 def scipy_rows(quick: bool) -> Iterator[Row]:

@@ -86,6 +86,15 @@ void bind_simulate(py::module_& m) {
       .def_readonly("evaluations", &Stats::evaluations)
       .def_readonly("jacobians", &Stats::jacobians)
       .def_readonly("newton_failures", &Stats::newton_failures)
+      .def(py::pickle(
+          [](const Stats& s) {
+            return py::make_tuple(s.steps, s.rejected, s.evaluations, s.jacobians,
+                                  s.newton_failures);
+          },
+          [](const py::tuple& state) {
+            return Stats{state[0].cast<long>(), state[1].cast<long>(), state[2].cast<long>(),
+                         state[3].cast<long>(), state[4].cast<long>()};
+          }))
       .def("__repr__", [](const Stats& s) {
         return "Stats(steps=" + std::to_string(s.steps) +
                ", rejected=" + std::to_string(s.rejected) +

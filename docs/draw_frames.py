@@ -34,7 +34,7 @@ def project(points: FloatArray) -> FloatArray:
     right = np.array([np.cos(turn), np.sin(turn), 0.0])
     back = np.array([-np.sin(turn), np.cos(turn), 0.0])
     up = np.sin(tilt) * back + np.cos(tilt) * np.array([0.0, 0.0, 1.0])
-    return np.atleast_2d(points) @ np.column_stack([right, up])
+    return np.asarray(points @ np.column_stack([right, up]))
 
 
 def along_backbone(fractions: FloatArray, offset: FloatArray) -> FloatArray:
@@ -50,7 +50,8 @@ def rim(x: float, radius: float) -> FloatArray:
     """Circle (N, 3) of the disk at fraction x."""
     R, p = MODEL.pose(Q, 0, x)
     turn = np.linspace(0.0, 2.0 * np.pi, 73)
-    return p + radius * np.column_stack([np.cos(turn), np.sin(turn), 0.0 * turn]) @ R.T
+    circle = np.column_stack([np.cos(turn), np.sin(turn), 0.0 * turn])
+    return np.asarray(p + radius * circle @ R.T)
 
 
 def polyline(ax: Axes, points: FloatArray, **style: object) -> None:
@@ -61,13 +62,17 @@ def axes_of_frame(ax: Axes, R: FloatArray, p: FloatArray, names: str, size: floa
     for k, name in enumerate(names.split()):
         start, end = project(np.array([p, p + size * R[:, k]]))
         arrow(ax, start, end)
-        ax.text(*(end + 0.2 * (end - start)), f"${name}$", ha="center", va="center", color=INK)
+        label(ax, end + 0.2 * (end - start), f"${name}$")
+
+
+def label(ax: Axes, at: FloatArray, text: str, color: str = INK) -> None:
+    ax.text(float(at[0]), float(at[1]), text, ha="center", va="center", color=color)
 
 
 def arrow(ax: Axes, start: FloatArray, end: FloatArray, color: str = INK) -> None:
-    ax.annotate(
-        "", end, start, arrowprops={"arrowstyle": "-|>", "color": color, "lw": 1.1}, zorder=5
-    )
+    style = {"arrowstyle": "-|>", "color": color, "lw": 1.1}
+    head, tail = (float(end[0]), float(end[1])), (float(start[0]), float(start[1]))
+    ax.annotate("", head, tail, arrowprops=style, zorder=5)
 
 
 def arc(ax: Axes, centre: FloatArray, radius: float, angles: tuple[float, float]) -> None:
@@ -89,9 +94,8 @@ def draw_section(ax: Axes) -> None:
         hole = _SECTION.cable_radius * np.array([np.cos(gamma), np.sin(gamma), 0.0])
         cable = along_backbone(fractions, hole)
         polyline(ax, cable, color=CABLE, lw=1.0, zorder=2)
-        R, p = MODEL.pose(Q, 0, 0.5)
-        at = project(p + 1.45 * R @ hole)[0]
-        ax.text(*at, f"{j + 1}", color=CABLE, ha="center", va="center", fontsize=8)
+        R, p = MODEL.pose(Q, 0, 0.7)
+        label(ax, project(p + 1.45 * R @ hole), f"{j + 1}", CABLE)
     polyline(ax, backbone, color=BACKBONE, lw=2.6, zorder=3)
     axes_of_frame(ax, np.eye(3), np.zeros(3), "X Y Z", 0.5)
     R, p = MODEL.tip(Q)
@@ -99,8 +103,8 @@ def draw_section(ax: Axes) -> None:
     radii = np.linspace(0.0, PHI, 30)
     circle = 0.34 * np.column_stack([np.cos(radii), np.sin(radii), 0.0 * radii])
     polyline(ax, circle, color=INK, lw=0.8)
-    label = project(0.41 * np.array([np.cos(PHI / 2), np.sin(PHI / 2), 0.0]))[0]
-    ax.text(*label, r"$\phi$", ha="center", va="center")
+    middle = np.array([np.cos(PHI / 2), np.sin(PHI / 2), 0.0])
+    label(ax, project(0.41 * middle), r"$\phi$")
     ax.set(xlim=(-0.25, 1.1), ylim=(-0.25, 1.2))
     ax.set_title("frames of the base and the tip", fontsize=9)
 
@@ -122,7 +126,7 @@ def draw_plane(ax: Axes) -> None:
     arc(ax, centre, 0.22, (np.pi - theta, np.pi))
     arc(ax, np.zeros(2), 0.4, (np.pi / 2.0 - theta / 2.0, np.pi / 2.0))
     middle = np.pi - theta / 2.0
-    ax.text(*(centre + 0.3 * np.array([np.cos(middle), np.sin(middle)])), r"$\theta$", ha="center")
+    label(ax, centre + 0.3 * np.array([np.cos(middle), np.sin(middle)]), r"$\theta$")
     ax.text(0.12, 0.27, r"$\theta/2$", fontsize=8)
     ax.text(bow[44] - 0.03, up[44] + 0.03, r"$s = x\,\ell$", color=BACKBONE, ha="right")
     ax.text(-0.04, 0.98, "$Z$", ha="right", va="center")

@@ -206,15 +206,13 @@ double Cvode::norm(const VectorXd& v) const noexcept {
 double Cvode::first_step() {
   const double d0 = norm(state_), d1 = norm(slope_);
   const double wanted = d0 < 1e-5 || d1 < 1e-5 ? 1e-6 : 0.01 * d0 / d1;
-  const double h0 = std::min(wanted, stop_ - time_);
-  moved_ = state_ + h0 * slope_;
-  double h = h0;
-  if (evaluate(time_ + h0, moved_.data(), slope_there_) == Status::ok) {
-    moved_ = (slope_there_ - slope_) / h0;
-    h = std::min(std::sqrt(0.5 / norm(moved_)), 100.0 * h0);
-  }
   const double resolution =
       4.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(time_), std::abs(stop_));
+  const double h0 = std::min(std::max(wanted, resolution), stop_ - time_);
+  moved_ = state_ + h0 * slope_;
+  if (evaluate(time_ + h0, moved_.data(), slope_there_) != Status::ok) return h0;
+  moved_ = (slope_there_ - slope_) / h0;
+  const double h = std::min(std::sqrt(0.5 / norm(moved_)), 100.0 * h0);
   return std::max(h, resolution);
 }
 

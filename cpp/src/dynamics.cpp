@@ -114,7 +114,8 @@ void potential_gradient(const Model& model, Data& /*data*/, const ConstVectorRef
                         VectorRef gradient) noexcept {
   const double x = q[0], y = q[1];
   gradient = model.stiffness()[0] * q;
-  if (model.has_gravity()) add_weight(model, x, y, x * x + y * y, gradient[0], gradient[1]);
+  // Without gravity too, for the NaN beyond the bending limit.
+  add_weight(model, x, y, x * x + y * y, gradient[0], gradient[1]);
 }
 
 void potential_hessian(const Model& model, Data& /*data*/, const ConstVectorRef& q,

@@ -1,7 +1,6 @@
 #include "cdcr/kinematics.hpp"
 
 #include <Eigen/Geometry>
-#include <Eigen/Geometry>
 #include <cmath>
 
 namespace cdcr {

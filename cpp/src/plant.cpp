@@ -1,5 +1,6 @@
 #include "cdcr/plant.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -70,8 +71,15 @@ void Plant::update_force(double t, const ConstVectorRef& q, const ConstVectorRef
 void Plant::derivative(double t, const double* y, double* dydt) {
   const Index m = model_->num_coordinates();
   const Eigen::Map<const VectorXd> q(y, m), qd(y + m, m);
-  if (!force_holds_) update_force(t, q, qd);
   Eigen::Map<VectorXd> qdd(dydt + m, m);
+  if (!force_holds_) {
+    // A step that went astray is the integrator's business: no user's function sees such a state.
+    if (input_->is_function() && check(y) != Status::ok) {
+      std::fill(dydt, dydt + 2 * m, std::numeric_limits<double>::quiet_NaN());
+      return;
+    }
+    update_force(t, q, qd);
+  }
   for (Index i = 0; i < m; ++i) dydt[i] = y[m + i];
   forward_dynamics_force(*model_, data_, q, qd, force_, qdd);
 }

@@ -33,8 +33,10 @@ Status Rk4::step() {
       count_ + 1 >= last_ ? stop_ : start_ + static_cast<double>(count_ + 1) * step_size_;
   y_before_.swap(y_);
   stages_.step(f, t_, t_next - t_, y_before_, y_);
-  const Status status = plant_.check(y_.data());
+  Status status = plant_.check(y_.data());
   if (status != Status::ok) {
+    const auto check = [this](const double* y) { return plant_.check(y); };
+    status = stages_.why(status, check, f, t_, t_next - t_, y_before_, y_);
     y_.swap(y_before_);
     return status;
   }

@@ -20,6 +20,20 @@ struct Rk4Stages {
     next = y + h / 6.0 * (k1 + 2.0 * (k2 + k3) + k4);
   }
 
+  /// Why a step failed: bent beyond the limit at a stage, the state ends up not a number. Makes
+  /// the failed step again, so that the good ones need not look.
+  template <class Check, class F>
+  Status why(Status status, Check&& check, F&& f, double t, double h, const VectorXd& y,
+             VectorXd& next) {
+    if (status != Status::non_finite_state) return status;
+    const auto looking = [&](double at, const double* stage, double* dydt) {
+      if (check(stage) == Status::bending_limit) status = Status::bending_limit;
+      f(at, stage, dydt);
+    };
+    step(looking, t, h, y, next);
+    return status;
+  }
+
   VectorXd k1, k2, k3, k4, trial;
 };
 

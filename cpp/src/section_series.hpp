@@ -10,7 +10,7 @@ namespace cdcr::detail {
 using Series = std::vector<long double>;
 
 /// The four functions of sigma = theta^2 that hold all of one section's inertia and weight
-/// (cpp/README.md, eqs. (9) to (14)).
+/// (cpp/README.md, eqs. (9), (10), (13), (14)).
 struct SectionSeries {
   Series a;    ///< M = a I + b q q^T [kg m^2]
   Series b;    ///< [kg m^2]

@@ -21,7 +21,9 @@ Simulator::Simulator(const Model& model, double step, int substeps)
       stages_(std::make_unique<Stages>(2 * model.num_coordinates())) {
   require_inertia(model);
   if (!(step > 0.0) || !std::isfinite(step)) {
-    throw std::invalid_argument("step must be > 0 s and finite, got " + std::to_string(step));
+    std::ostringstream text;
+    text << "step must be > 0 s and finite, got " << step;
+    throw std::invalid_argument(text.str());
   }
   if (substeps < 1) {
     throw std::invalid_argument("substeps must be at least 1, got " + std::to_string(substeps));
@@ -83,7 +85,12 @@ Status Simulator::step(const ConstVectorRef& tension) noexcept {
     f(0.0, y_.data(), stages_->k1.data());
     stages_->step(f, 0.0, h, y_, trial_);
     const Status status = check_state(model_, trial_);
-    if (status != Status::ok) return status;
+    if (status != Status::ok) {
+      const auto check = [this, m](const double* y) {
+        return check_state(model_, Eigen::Map<const VectorXd>(y, 2 * m));
+      };
+      return stages_->why(status, check, f, 0.0, h, y_, trial_);
+    }
     y_.swap(trial_);
   }
   q_ = y_.head(m);

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from types import TracebackType
@@ -124,17 +124,18 @@ def run(
 def find_scenario(name: str) -> Scenario:
     """Return a scenario of the package by name, or a user's one by its file."""
     with mistakes():
-        return load_scenario(name) if _is_file(name) else scenarios.get(name)
+        is_file = _is_file(name, scenarios.names())
+        return load_scenario(name) if is_file else scenarios.get(name)
 
 
 def find_robot(name: str) -> Robot:
     """Return a robot of the package by name, or a user's one by its file."""
     with mistakes():
-        return Robot.load(name) if _is_file(name) else robots.get(name)
+        return Robot.load(name) if _is_file(name, robots.names()) else robots.get(name)
 
 
-def _is_file(name: str) -> bool:
-    return name.endswith(".toml") or Path(name).is_file()
+def _is_file(name: str, known: tuple[str, ...]) -> bool:
+    return name not in known and (name.endswith(".toml") or Path(name).is_file())
 
 
 def refuse_existing(out: Path, targets: tuple[Path, ...], *, overwrite: bool) -> None:
@@ -163,8 +164,9 @@ def write(
             for path in data:
                 run.save(path)
     except BaseException:
-        for folder in made:
-            folder.rmdir()
+        with suppress(OSError):  # somebody else may have put something there
+            for folder in made:
+                folder.rmdir()
         raise
 
 

@@ -49,7 +49,7 @@ def polar(
         raise ValueError(f"q must have shape (2,) or (..., 2n), got {vectors.shape}")
     if continuous:
         if vectors.ndim != 2:
-            raise ValueError(f"q must have shape (N, 2n) for continuous angles, got {vectors.shape}")
+            raise ValueError(f"q must have shape (N, 2n) to be continuous, got {vectors.shape}")
         return _core.polar_along(vectors)
     x, y = vectors[..., 0::2], vectors[..., 1::2]
     # + 0.0 turns a negative zero into zero, whose angle would otherwise be pi.

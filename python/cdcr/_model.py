@@ -99,9 +99,7 @@ class Model(_core.Model):
             raise TypeError(f"robot must be a cdcr.Robot, got {type(robot).__name__}")
         if formulation not in FORMULATIONS:
             raise ValueError(f"formulation must be one of {FORMULATIONS}, got {formulation!r}")
-        super().__init__(
-            robot._to_core(), _core.Formulation[formulation.replace("-", "_")]
-        )
+        super().__init__(robot._to_core(), _core.Formulation[formulation.replace("-", "_")])
         self._robot = robot
         self._formulation = formulation
 

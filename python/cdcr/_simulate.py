@@ -6,7 +6,7 @@ import inspect
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -85,12 +85,12 @@ def tension_input(
         return _core.TensionInput.function(model, function, [float(b) for b in break_points])
     if len(break_points) > 0:
         raise ValueError("break_points go with a tension function; a table has its own")
-    if isinstance(tension, tuple) and len(tension) == 2 and np.ndim(tension[1]) == 2:
-        tension = TensionTable(*tension)
     if isinstance(tension, TensionTable):
         linear = tension.interpolation == "linear"
         return _core.TensionInput.table(model, tension.t, tension.tension, linear)
-    return _core.TensionInput.constant(model, tension)
+    if isinstance(tension, tuple) and len(tension) == 2 and np.ndim(tension[1]) == 2:
+        return tension_input(model, TensionTable(tension[0], tension[1]))
+    return _core.TensionInput.constant(model, cast("ArrayLike", tension))
 
 
 def warn_beyond_taylor_range(model: Model, q: FloatArray) -> None:
@@ -188,9 +188,7 @@ def simulate(
     if controller is not None:
         if tension is not None or len(break_points) > 0:
             raise ValueError("give either tension or controller, not both")
-        raw = _core.simulate_controlled(
-            model, q0, qd0, t, controller, chosen, options, progress
-        )
+        raw = _core.simulate_controlled(model, q0, qd0, t, controller, chosen, options, progress)
     else:
         source = tension_input(model, tension, break_points)
         raw = _core.simulate(model, q0, qd0, t, source, chosen, options, progress)
@@ -203,6 +201,7 @@ def simulate(
         status=raw.status,
         message=raw.message,
         stats=raw.stats,
+        method=method,
     )
     warn_beyond_taylor_range(model, run.q)
     if throw and not run.success:

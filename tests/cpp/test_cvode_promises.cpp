@@ -141,6 +141,14 @@ TEST_CASE("each failure has its status, keeps the last good state, and prints no
     CHECK(make_cvode_integrator(strong, method, {})->restart(0.0, state(0.0, 0.0), 1.0) ==
           Status::non_finite_state);
 
+    // Slopes that are finite, though their squares are not.
+    const TensionInput violent = pull(1e300);
+    Plant wild(model, violent);
+    const auto helpless = make_cvode_integrator(wild, method, {});
+    REQUIRE(helpless->restart(0.0, state(0.1, 0.0), 1.0) == Status::ok);
+    CHECK(run(*helpless, 1.0) != Status::ok);
+    CHECK(plant.check(helpless->state().data()) == Status::ok);
+
     Options few;
     few.max_steps = 20;
     const Trajectory cut =

@@ -43,6 +43,7 @@ def test_gif_has_a_frame_for_each_moment(run: cdcr.Trajectory, tmp_path: Path) -
 def test_frames_follow_the_run(run: cdcr.Trajectory) -> None:
     np.testing.assert_allclose(frame_times(run, 0.2), [0.0, 0.2, 0.4])
     np.testing.assert_allclose(frame_times(run, 0.1)[-1], 0.5)
+    assert len(frame_times(run, 0.1 + 1e-12)) == 6  # rounding costs no frame
     straight, bent, again = draw_frames(run, np.array([0.0, 0.3, 0.0]))
     assert straight.dtype == np.uint8
     assert straight.shape[2] == 4

@@ -147,6 +147,16 @@ def test_a_users_file_is_named_after_it(tmp_path: Path) -> None:
     assert everything_in(out) == ["two cables.csv", "two cables.nc", "two cables.png"]
 
 
+@pytest.mark.usefixtures("quick")
+def test_a_known_name_wins_over_a_file_of_that_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "step-tension").write_text("not TOML")
+    assert cdcr_("run", "step-tension", "--t-end", 0.1).exit_code == 0
+    assert everything_in(tmp_path / "out") == sorted(FILES)
+
+
 def test_an_output_folder_that_is_a_file(tmp_path: Path) -> None:
     out = tmp_path / "out"
     out.write_text("mine")

@@ -34,7 +34,7 @@ def frequencies(parts: int) -> FloatArray:
         start = np.arange(parts) / parts
         behind = np.maximum(x[:, None] - start, 0.0) ** 2
         beyond = np.maximum(x[:, None] - start - 1.0 / parts, 0.0) ** 2
-        return s.length * parts / 2.0 * (behind - beyond)
+        return np.asarray(s.length * parts / 2.0 * (behind - beyond))
 
     nodes, weights = np.polynomial.legendre.leggauss(4)  # exact: the integrand has degree four
     mass = np.zeros((parts, parts))

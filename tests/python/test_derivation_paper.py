@@ -162,6 +162,16 @@ def test_turning_about_phi_is_right_in_26_and_30(t: Real) -> None:
     assert close(over_disks(lambda x: square(by_phi(tangent, t, x))), H8(t))
 
 
+def test_statics_18_and_19_at_5_newton() -> None:
+    """theta = F r l/(E I); the 15.53 degrees of the paper's Fig. 9 do not follow from Table 1."""
+    model = cdcr.Model(cdcr.robots.amouri2020())
+    theta, phi = cdcr.polar(model.equilibrium([5.0, 0.0, 0.0]))
+    expected = 5 * mp.mpf(SECTION.cable_radius) * LENGTH / (mp.mpf(SECTION.youngs_modulus) * I_B)
+    assert close(theta, expected, DOUBLE)
+    assert mp.degrees(theta) == pytest.approx(14.978, abs=5e-4)
+    assert phi == 0.0
+
+
 # --- E1 to E7 -------------------------------------------------------------------------------------
 
 

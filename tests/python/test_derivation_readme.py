@@ -1,4 +1,4 @@
-"""cpp/README.md against the sources: equation numbers, headers, names and the C++ example."""
+"""cpp/README.md and docs/origin-paper.md against the sources: numbers, names and examples."""
 
 from __future__ import annotations
 
@@ -8,21 +8,28 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-README = (ROOT / "cpp" / "README.md").read_text()
 CPP = ROOT / "cpp"
+README = (CPP / "README.md").read_text()
+ORIGIN = (ROOT / "docs" / "origin-paper.md").read_text()
 
-BLOCKS = re.findall(r"^```(\w*)\n(.*?)^```", README, re.MULTILINE | re.DOTALL)
-FORMULAS = "".join(text for language, text in BLOCKS if language == "text")
+
+def blocks(document: str, language: str) -> list[str]:
+    """The fenced blocks of a language."""
+    return re.findall(rf"^```{language}\n(.*?)^```", document, re.MULTILINE | re.DOTALL)
+
+
+FORMULAS = "".join(blocks(README, "text"))
 EQUATIONS = [int(number) for number in re.findall(r"  \((\d+)\)$", FORMULAS, re.MULTILINE)]
 
 
 def sources() -> list[Path]:
+    """What quotes our equations; files about the paper quote the paper's."""
     folders = ("cpp", "bindings", "python", "tests/cpp")
     return [
         path
         for folder in folders
         for path in sorted((ROOT / folder).rglob("*"))
-        if path.suffix in {".hpp", ".cpp", ".py", ".pyi"}
+        if path.suffix in {".hpp", ".cpp", ".py", ".pyi"} and "paper" not in str(path)
     ]
 
 
@@ -36,7 +43,7 @@ def quoted(text: str) -> list[int]:
 
 
 def test_equations_are_numbered_in_order() -> None:
-    assert EQUATIONS == list(range(1, 23))
+    assert list(range(1, 23)) == EQUATIONS
 
 
 def test_equations_quoted_by_the_sources_exist() -> None:
@@ -51,18 +58,23 @@ def test_every_public_header_is_listed(header: Path) -> None:
     assert f"`{header.name}`" in README
 
 
-def test_files_and_tests_named_exist() -> None:
-    for name in re.findall(r"`((?:\w+/)+\w+\.\w+)`", README):
+def test_files_named_exist() -> None:
+    for name in re.findall(r"[`(]((?:[\w.-]+/)+[\w-]+\.\w+)[`)]", README):
         assert (ROOT / name).exists() or (CPP / name).exists(), name
-    tests = "".join(path.read_text() for path in (ROOT / "tests" / "python").glob("test_*.py"))
-    names = re.findall(r"`(test_\w+)`", README)
-    assert names
+    for name in re.findall(r"`(\w+\.cpp)`", ORIGIN):
+        assert (CPP / "src" / name).exists(), name
+
+
+def test_tests_named_exist() -> None:
+    proofs = (ROOT / "tests" / "python" / "test_derivation_paper.py").read_text()
+    names = re.findall(r"`(test_\w+)`", ORIGIN)
+    assert len(names) == 7
     for name in names:
-        assert f"def {name}(" in tests, name
+        assert f"def {name}(" in proofs, name
 
 
-def test_the_example_is_what_the_consumer_project_compiles() -> None:
-    (example,) = [text for language, text in BLOCKS if language == "cpp"]
+def test_the_cpp_example_is_what_the_consumer_project_compiles() -> None:
+    (example,) = blocks(README, "cpp")
     program = (ROOT / "tests" / "consumer" / "core" / "main.cpp").read_text()
     lines = [line.strip() for line in program.splitlines() if line.strip()]
     wanted = [line.strip() for line in example.splitlines() if line.strip()]
@@ -70,8 +82,14 @@ def test_the_example_is_what_the_consumer_project_compiles() -> None:
     assert lines[start : start + len(wanted)] == wanted
 
 
+def test_the_python_example_prints_what_it_says(capsys: pytest.CaptureFixture[str]) -> None:
+    (example,), (output,) = blocks(ORIGIN, "python"), blocks(ORIGIN, "text")
+    exec(example, {})
+    assert capsys.readouterr().out == output
+
+
 def test_one_word_for_each_thing() -> None:
-    """The words the glossary leaves to others do not stray into the sources."""
-    strays = re.compile(r"\b(tendons?|vertebrae?)\b", re.IGNORECASE)
+    """The commonest of the words that the glossary leaves to others."""
+    strays = re.compile(r"\b(tendons?|vertebrae?|end effectors?)\b", re.IGNORECASE)
     for path in sources():
         assert not strays.search(path.read_text()), path

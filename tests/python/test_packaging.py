@@ -13,6 +13,7 @@ import cdcr
 from cdcr import _core
 
 ROOT = Path(__file__).parents[2]
+README = (ROOT / "README.md").read_text()
 # What a plain import must not load: extras, and pydantic, which only reading a file needs.
 HEAVY = ["h5netcdf", "matplotlib", "PIL", "pandas", "pydantic", "rich", "scipy", "typer", "xarray"]
 
@@ -86,26 +87,31 @@ def test_enumerators_are_those_of_cpp(header: str, enum: type[Enum]) -> None:
 
 def test_readme_names_the_python_that_is_needed() -> None:
     needed = metadata.metadata("cdcr")["Requires-Python"].removeprefix(">=")
-    readme = (ROOT / "README.md").read_text()
-    assert set(re.findall(r"Python (3\.\d+) or newer", readme)) == {needed}
+    assert set(re.findall(r"(3\.\d+) or newer", README)) == {needed}
 
 
 def test_readme_names_the_extras_there_are() -> None:
-    extras = set(metadata.metadata("cdcr").get_all("Provides-Extra") or [])
-    readme = (ROOT / "README.md").read_text()
-    named = {
-        extra.strip()
-        for group in re.findall(r"cdcr\[(.+?)\]", readme)
-        for extra in group.split(",")
-    }
-    assert extras == {"plot", "data", "cli", "all"}
-    assert named <= extras
+    extras = metadata.metadata("cdcr").get_all("Provides-Extra")
+    assert extras is not None
+    listed = re.search(r"^.*\bExtras: (.*?)\.$", README, re.MULTILINE | re.DOTALL)
+    assert listed is not None
+    assert set(re.findall(r"`(\w+)`", re.sub(r"\(.*?\)", "", listed.group(1)))) >= set(extras)
+    named = {name for group in re.findall(r"\.\[(.+?)\]", README) for name in group.split(",")}
+    assert named <= set(extras)
 
 
-def test_readme_names_the_system_packages() -> None:
-    needed = re.findall(
-        r"apt-get install ([\w-]+)", (ROOT / "cmake/dependencies.cmake").read_text()
+def test_readme_names_the_libraries_that_the_build_asks_for() -> None:
+    text = (ROOT / "cmake" / "dependencies.cmake").read_text()
+    libraries = re.findall(r"apt-get install (lib[\w-]+)", text)
+    assert len(libraries) == 2
+    assert [library for library in libraries if library not in README] == []
+
+
+def test_readme_example_prints_what_the_readme_says(tmp_path: Path) -> None:
+    example = re.search(r"```python\n(.*?)```.*?```text\n(.*?)```", README, re.DOTALL)
+    assert example is not None
+    code, output = example.groups()
+    run = subprocess.run(
+        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True
     )
-    readme = (ROOT / "README.md").read_text()
-    assert len(needed) >= 2
-    assert [package for package in needed if package not in readme] == []
+    assert run.stdout == output

@@ -125,20 +125,32 @@ def test_overrides_reach_the_integrator(scenario: Scenario, method: Any) -> None
     assert run.stats.steps == plain.stats.steps
 
 
-def test_tolerances_steps_and_limits_reach_the_integrator(scenario: Scenario) -> None:
-    def steps(**changes: Any) -> int:
-        return scenario.simulate(t_end=1.0, **changes).stats.steps
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"method": "dopri5"},
+        {"rtol": 1e-5},
+        {"atol": 1e-3},
+        {"method": "rk4", "step": 0.02},
+        {"max_step": 1e-3},
+        {"max_steps": 5},
+    ],
+    ids=lambda options: ", ".join(options),
+)
+def test_options_may_stand_in_the_scenario_or_in_the_call(
+    scenario: Scenario, options: dict[str, Any]
+) -> None:
+    run = variant(scenario, t_end=1.0, **options)
+    assert run.stats.steps == scenario.simulate(t_end=1.0, **options).stats.steps
+    assert run.stats.steps != scenario.simulate(t_end=1.0).stats.steps
 
-    assert steps(rtol=1e-4, atol=1e-6) < steps() / 2
-    assert steps(method="rk4", step=0.01) == 100
-    assert steps(max_step=1e-4) >= 10_000
-    short = scenario.simulate(max_steps=5)
-    assert short.status is cdcr.Status.step_limit
+
+def test_progress_is_told(scenario: Scenario) -> None:
     told: list[float] = []
     scenario.simulate(progress=told.append)
     assert told
     assert told == sorted(told)
-    assert variant(scenario, rtol=1e-4, atol=1e-6).stats.steps < scenario.simulate().stats.steps / 2
+    assert 0.0 < told[-1] <= 10.0
 
 
 def test_another_end_alone_keeps_the_spacing(scenario: Scenario) -> None:
@@ -179,8 +191,8 @@ def test_period_of_a_sine(period: float, phase: float) -> None:
 
 
 def test_period_ignores_ripple_about_the_mean() -> None:
-    t = np.linspace(0.0, 10.0, 10_001)
-    y = np.sin(2.0 * math.pi * t) + 0.01 * np.sin(2.0 * math.pi * 97.0 * t)
+    t = np.linspace(0.0, 10.0, 100_001)
+    y = np.sin(2.0 * math.pi * t) + 0.03 * np.sin(2.0 * math.pi * 397.0 * t)
     assert oscillation_period(t, y) == pytest.approx(1.0, rel=5e-3)
 
 

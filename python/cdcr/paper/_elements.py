@@ -16,6 +16,7 @@ good to rounding from theta = 0 on; so are the derivatives by theta given beside
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import lru_cache
 from math import factorial
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -44,7 +45,8 @@ class Sums(NamedTuple):
     spin: Any
 
 
-class Body(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class Body:
     """Elements at fractions x with their weights, and the moments sum weight x^p exactly."""
 
     x: FloatArray
@@ -82,7 +84,7 @@ def tip() -> Body:
 def sums(theta: FloatArray, body: Body, kind: str) -> tuple[Sums, Sums]:
     """Return the sums over a body, each of the shape of theta, and their derivatives by theta."""
     if kind.endswith("taylor"):
-        return _polynomials(theta, cut_sums(body, kind))
+        return _polynomials(theta, _rounded_cut_sums(body, kind))
     x, weight = body.x, body.weight
     y = theta[..., np.newaxis] * x
     sine, one_minus_cosine = np.sin(y), y**2 * bow(y)
@@ -105,10 +107,14 @@ def sums(theta: FloatArray, body: Body, kind: str) -> tuple[Sums, Sums]:
 def _polynomials(theta: FloatArray, cut: Sums) -> tuple[Sums, Sums]:
     """Return the values and the derivatives of sums cut after theta^4."""
     square = theta**2
-    rows = [[float(c) for c in coefficients] for coefficients in cut]
-    values = (c0 + (c1 + c2 * square) * square for c0, c1, c2 in rows)
-    slopes = ((2.0 * c1 + 4.0 * c2 * square) * theta for _, c1, c2 in rows)
+    values = (c0 + (c1 + c2 * square) * square for c0, c1, c2 in cut)
+    slopes = ((2.0 * c1 + 4.0 * c2 * square) * theta for _, c1, c2 in cut)
     return Sums(*values), Sums(*slopes)
+
+
+@lru_cache(maxsize=128)
+def _rounded_cut_sums(body: Body, kind: str) -> Sums:
+    return Sums(*([float(c) for c in coefficients] for coefficients in cut_sums(body, kind)))
 
 
 def cut_sums(body: Body, kind: str) -> Sums:
@@ -145,34 +151,34 @@ def _cut_printed_turning(m: Callable[[int], Fraction]) -> list[Fraction]:
 
 
 def sinc(y: FloatArray) -> FloatArray:
-    """S = sin(y)/y: how far along Z the element stands, over x."""
+    """Return S = sin(y)/y: how far along Z the element stands, over x."""
     return np.sinc(y / np.pi)
 
 
 def bow(y: FloatArray) -> FloatArray:
-    """A = (1 - cos y)/y^2: how far out it stands, over x^2 theta."""
+    """Return A = (1 - cos y)/y^2: how far out it stands, over x^2 theta."""
     half: FloatArray = sinc(y / 2.0) ** 2 / 2.0
     return half
 
 
 def lean(y: FloatArray) -> FloatArray:
-    """S - A = d(y A)/dy: its speed outwards with theta, over x^2."""
+    """Return S - A = d(y A)/dy: its speed outwards with theta, over x^2."""
     return sinc(y) - bow(y)
 
 
 def sinc_slope(y: FloatArray) -> FloatArray:
-    """S' = (cos y - S)/y: its speed along Z with theta, over x^2."""
+    """Return S' = (cos y - S)/y: its speed along Z with theta, over x^2."""
     return _odd(y, _SINC_SLOPE, lambda z: (np.cos(z) - sinc(z)) / z)
 
 
 def speed(y: FloatArray) -> FloatArray:
-    """D = (S - A)^2 + S'^2."""
+    """Return D = (S - A)^2 + S'^2."""
     total: FloatArray = lean(y) ** 2 + sinc_slope(y) ** 2
     return total
 
 
 def speed_slope(y: FloatArray) -> FloatArray:
-    """D' = 2 (A - 2 D)/y."""
+    """Return D' = 2 (A - 2 D)/y."""
     return _odd(y, _SPEED_SLOPE, lambda z: 2.0 * (bow(z) - 2.0 * speed(z)) / z)
 
 

@@ -56,8 +56,9 @@ class PolarModel:
     >>> import cdcr
     >>> from cdcr.paper import PolarModel
     >>> polar = PolarModel(cdcr.robots.amouri2020())
-    >>> thetadd, phidd = polar.forward_dynamics(0.5, 0.0, 0.0, 2.0, [5.0, 0.0, 0.0])
-    >>> print(f"{thetadd:.4f} {phidd:.4f}")
+    >>> thetadd, phidd = polar.forward_dynamics(0.5, 0.0, 0.0, 2.0, [0.0, 5.0, 0.0])
+    >>> print(f"{thetadd:.4f} {phidd:.4f} rad/s^2")
+    -50.8495 38.6775 rad/s^2
     """
 
     robot: Robot

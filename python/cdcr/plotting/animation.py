@@ -102,7 +102,7 @@ class _Film:
         figure.align_ylabels(charts)
         self._marks = [axes.axvline(run.t[0], color=BLACK, linewidth=1.0) for axes in charts]
         self._clock = figure.text(0.02, 0.95, "", fontsize=12)
-        step = np.min(np.diff(times), initial=1.0)
+        step = np.ptp(times) / max(1, len(times) - 1) or 1.0
         self._decimals = max(2, math.ceil(-math.log10(step)))  # slow motion needs more
 
         robot = self._robot

@@ -19,8 +19,7 @@ from cdcr.scenarios._findings import Finding, findings
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-
-MAX_SAMPLES = 10_000_000  # a gigabyte of trajectory
+MAX_SAMPLES = 10_000_000  # about a gigabyte of trajectory
 
 
 def _figure(scenario: Scenario, run: Trajectory) -> Figure:
