@@ -52,7 +52,7 @@ test-cpp: setup-dev
 
 types: setup-dev
 	@$(IN_VENV) mypy
-	@$(IN_VENV) python -m mypy.stubtest cdcr._core
+	@$(IN_VENV) python -m mypy.stubtest cdcr._core --allowlist tests/python/stubtest_allowlist.txt
 
 test-python: setup-dev
 	@$(IN_VENV) pytest --doctest-modules --pyargs cdcr tests/python

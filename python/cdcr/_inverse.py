@@ -84,13 +84,16 @@ class InverseRun:
     @cached_property
     def tip(self) -> FloatArray:
         """Tip positions asked for (N, 3) in the base frame [m]."""
-        return self.model.tips(self.q)
+        tips = self.model.tips(self.q)
+        tips.setflags(write=False)
+        return tips
 
     @cached_property
     def force_error(self) -> FloatArray:
         """Length of what the tensions lack of the force (N,) [N m]; rounding where feasible."""
         given = self.tension @ self.model.actuation_matrix().T
         lacking: FloatArray = np.linalg.norm(given - self.force, axis=1)
+        lacking.setflags(write=False)
         return lacking
 
     def to_table(self, interpolation: Interpolation = "linear") -> TensionTable:
@@ -173,6 +176,7 @@ def inverse_run(
     >>> t = np.linspace(0.0, 10.0, 51)
     >>> circle = cdcr.Reference.from_angles(t, np.pi / 12, lambda t: np.pi / 5 * t)
     >>> cdcr.inverse_run(model, circle)
+    <InverseRun: 51 samples, t = 0 to 10 s, 3 cables, up to 5.754 N>
     """
     _check(model, reference, infeasible)
     warn_beyond_taylor_range(model, reference.q)

@@ -22,10 +22,10 @@ void check_option(const std::function<void(Options&)>& change, const char* sente
   CHECK_THROWS_SENTENCE(validate(options), sentence);
   // And in a run.
   const Model model(amouri2020());
-  CHECK_THROWS_SENTENCE(simulate(model, VectorXd::Zero(2), VectorXd::Zero(2),
-                                 even_times(0.0, 1.0, 2), no_tension(model), Method::dopri5,
-                                 options),
-                        sentence);
+  CHECK_THROWS_SENTENCE(
+      simulate(model, VectorXd::Zero(2), VectorXd::Zero(2), even_times(0.0, 1.0, 2),
+               no_tension(model), Method::dopri5, options),
+      sentence);
 }
 
 void check_run(const VectorXd& q, const VectorXd& qd, const VectorXd& times,
@@ -36,7 +36,9 @@ void check_run(const VectorXd& q, const VectorXd& qd, const VectorXd& times,
 
 const Eigen::Vector2d zero(0.0, 0.0);
 const Eigen::Vector2d second(0.0, 1.0);
-TensionInput none() { return TensionInput::constant(VectorXd::Zero(3)); }
+TensionInput none() {
+  return TensionInput::constant(VectorXd::Zero(3));
+}
 
 TEST_SUITE_BEGIN("arguments");
 
@@ -44,8 +46,7 @@ TEST_CASE("options") {
   CHECK_NOTHROW(validate(Options()));
   check_option([](Options& o) { o.rtol = 1e-15; },
                "rtol must be at least 1e-14 and below 1, got 1e-15");
-  check_option([](Options& o) { o.rtol = 1.0; },
-               "rtol must be at least 1e-14 and below 1, got 1");
+  check_option([](Options& o) { o.rtol = 1.0; }, "rtol must be at least 1e-14 and below 1, got 1");
   check_option([](Options& o) { o.rtol = nan; },
                "rtol must be at least 1e-14 and below 1, got nan");
   check_option([](Options& o) { o.atol = 0.0; }, "atol must be > 0 and finite, got 0");
@@ -118,9 +119,8 @@ TEST_CASE("tables of tension") {
       "the times of a tension table must be finite and strictly increasing, got nan s at index 0");
   MatrixXd pushing = ones;
   pushing(1, 2) = -0.5;
-  CHECK_THROWS_SENTENCE(
-      TensionInput::table(second, pushing, Interpolation::linear),
-      "tension[1, 2] must be finite and >= 0 N (a cable cannot push), got -0.5");
+  CHECK_THROWS_SENTENCE(TensionInput::table(second, pushing, Interpolation::linear),
+                        "tension[1, 2] must be finite and >= 0 N (a cable cannot push), got -0.5");
   check_run(zero, zero, second,
             TensionInput::table(second, MatrixXd::Ones(2, 4), Interpolation::linear),
             "tension must have one value for each of the 3 cables, got 4");

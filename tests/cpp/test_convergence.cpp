@@ -38,8 +38,8 @@ TensionInput ramp() {
 }
 
 /// Largest error of q over the output times against the tightest Dormand-Prince.
-double error_of(const Model& model, const TensionInput& input, const VectorXd& times,
-                Method method, const Options& options) {
+double error_of(const Model& model, const TensionInput& input, const VectorXd& times, Method method,
+                const Options& options) {
   const Trajectory run = simulate(model, q_start, qd_start, times, input, method, options);
   const Trajectory best =
       simulate(model, q_start, qd_start, times, input, Method::dopri5, tightest());

@@ -86,8 +86,7 @@ TEST_CASE("along a circle phi counts the turns") {
         sampled(400, [&](double t) { return bending(0.4, 1.0 + 2.0 * pi * turns * t); });
     const Angles angles = along(q);
     check_same_vectors(q, angles);
-    CHECK(residual(angles.phi(399, 0) - angles.phi(0, 0), 2.0 * pi * turns) <=
-          tolerance::rounding);
+    CHECK(residual(angles.phi(399, 0) - angles.phi(0, 0), 2.0 * pi * turns) <= tolerance::rounding);
     CHECK(angles.theta.minCoeff() > 0.0);
   }
 }
@@ -98,8 +97,7 @@ TEST_CASE("a swing through straight changes the sign of theta and not phi") {
     INFO("phi = ", phi);
     // 101 samples hit the straight section, 100 step over it.
     for (const int num_samples : {101, 100}) {
-      const RowMatrixXd q =
-          sampled(num_samples, [&](double t) { return bending(0.5 - t, phi); });
+      const RowMatrixXd q = sampled(num_samples, [&](double t) { return bending(0.5 - t, phi); });
       const Angles angles = along(q);
       check_same_vectors(q, angles);
       CHECK(angles.theta(0, 0) > 0.0);
@@ -116,14 +114,13 @@ TEST_CASE("a pendulum that swings many times keeps one phi") {
   check_same_vectors(q, angles);
   for (Index i = 0; i < q.rows(); ++i) {
     CHECK(residual(angles.phi(i, 0), 2.9) <= tolerance::cancelled);
-    CHECK(residual(angles.theta(i, 0), 0.7 * std::cos(40.0 * static_cast<double>(i) / 996.0), 1.0) <=
-          tolerance::cancelled);
+    CHECK(residual(angles.theta(i, 0), 0.7 * std::cos(40.0 * static_cast<double>(i) / 996.0),
+                   1.0) <= tolerance::cancelled);
   }
 }
 
 TEST_CASE("a near miss of the straight section turns phi and keeps theta positive") {
-  const RowMatrixXd q =
-      sampled(2001, [](double t) { return Eigen::Vector2d(0.5 - t, 0.01); });
+  const RowMatrixXd q = sampled(2001, [](double t) { return Eigen::Vector2d(0.5 - t, 0.01); });
   const Angles angles = along(q);
   check_same_vectors(q, angles);
   CHECK(angles.theta.minCoeff() > 0.0);

@@ -27,8 +27,10 @@ TEST_CASE("kinetic and potential energy") {
   for_each_case(2.0 * pi, [](const Model& model, Data& data, const State& state) {
     const ElementSum sum(model.robot());
     const Real2 q = state.q.cast<Real>(), qd = state.qd.cast<Real>();
-    CHECK(residual(kinetic_energy(model, data, state.q, state.qd), sum.kinetic_energy(q, qd)) <=
-          tolerance::model);
+    // Near 2 pi a robot has little inertia in one direction: T may be small, its error is not.
+    const double speed = static_cast<double>(sum.mass_matrix(q).norm() * qd.squaredNorm());
+    CHECK(residual(kinetic_energy(model, data, state.q, state.qd), sum.kinetic_energy(q, qd),
+                   speed) <= tolerance::model);
     const Real U = sum.potential_energy(q);
     CHECK(residual(potential_energy(model, data, state.q), U,
                    std::max(std::abs(U), sum.weight_scale())) <= tolerance::model);
@@ -42,8 +44,8 @@ TEST_CASE("bias is Lagrange's") {
     bias(model, data, state.q, state.qd, h);
     const Real2 q = state.q.cast<Real>(), qd = state.qd.cast<Real>();
     const Real2 reference = sum.bias(q, qd);
-    const double scale = static_cast<double>(
-        reference.norm() + sum.weight_scale() + sum.kinetic_energy(q, qd));
+    const double scale =
+        static_cast<double>(reference.norm() + sum.weight_scale() + sum.kinetic_energy(q, qd));
     CHECK(residual(h, reference, scale) <= tolerance::model);
   });
 }

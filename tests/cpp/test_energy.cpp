@@ -55,8 +55,7 @@ void check_balance(const Model& model, const TensionInput& input, double end) {
   REQUIRE(run.status == Status::ok);
   double work = 0.0, activity = 0.0;
   for (Index i = 0; i < count * num_gauss; ++i) {
-    const auto weight =
-        static_cast<double>(gauss().weight[i % num_gauss]) * end / count;
+    const auto weight = static_cast<double>(gauss().weight[i % num_gauss]) * end / count;
     const double p = power(model, run.qd.row(i + 1).transpose(), run.tension.row(i + 1));
     work += weight * p;
     activity += weight * std::abs(p);
@@ -120,8 +119,8 @@ TEST_CASE("power balance of a feedback law") {
 
 TEST_CASE("damping alone only ever takes energy") {
   const Model model = damped_tilted();
-  const Trajectory run = simulate(model, q_start, qd_start, even_times(0.0, 20.0, 4001),
-                                  no_tension(model));
+  const Trajectory run =
+      simulate(model, q_start, qd_start, even_times(0.0, 20.0, 4001), no_tension(model));
   const VectorXd energies = total_energies(model, run);
   for (Index i = 1; i < energies.size(); ++i) {
     CHECK(energies[i] <= energies[i - 1] + 1e-12 * std::abs(energies[0]));

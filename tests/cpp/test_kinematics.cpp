@@ -88,9 +88,7 @@ TEST_CASE("the Jacobian is the derivative of the frame") {
     const Real2 q = state.q.cast<Real>();
     const Real33 R = frame_at(length, x, q).R;
     for (int k = 0; k < 2; ++k) {
-      const auto moved = [&](Real step) {
-        return frame_at(length, x, q + step * Real2::Unit(k));
-      };
+      const auto moved = [&](Real step) { return frame_at(length, x, q + step * Real2::Unit(k)); };
       const Real3 v = derivative<Real3>([&](Real step) -> Real3 { return moved(step).r; });
       const Real33 rate =
           derivative<Real33>([&](Real step) -> Real33 { return moved(step).R; }) * R.transpose();

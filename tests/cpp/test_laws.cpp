@@ -56,8 +56,8 @@ TEST_CASE("forward dynamics undoes inverse dynamics") {
     const VectorXd force = inverse_at(model, data, state, qdd);
     const VectorXd eigen = eigenvalues(mass_matrix_at(model, data, state.q));
     // M^-1 magnifies what rounding does to M qdd + h.
-    const double scale = (eigen.maxCoeff() * qdd.norm() + bias_at(model, data, state).norm()) /
-                         eigen.minCoeff();
+    const double scale =
+        (eigen.maxCoeff() * qdd.norm() + bias_at(model, data, state).norm()) / eigen.minCoeff();
     CHECK(residual(forward_at(model, data, state, force), qdd, scale) <= tolerance::rounding);
   });
 }

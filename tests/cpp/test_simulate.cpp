@@ -34,15 +34,16 @@ Trajectory run_of(const Model& model, const VectorXd& times, const TensionInput&
   return run;
 }
 
-VectorXd last_row(const RowMatrixXd& rows) { return rows.row(rows.rows() - 1).transpose(); }
+VectorXd last_row(const RowMatrixXd& rows) {
+  return rows.row(rows.rows() - 1).transpose();
+}
 
 TEST_SUITE_BEGIN("simulate");
 
 TEST_CASE("the first sample is the initial state and a single time is a run") {
   const Model model = upright();
   for (const Method method : own_methods) {
-    const Trajectory run =
-        run_of(model, VectorXd::Constant(1, 3.0), no_tension(model), method);
+    const Trajectory run = run_of(model, VectorXd::Constant(1, 3.0), no_tension(model), method);
     CHECK(run.q.row(0).transpose() == q_start);
     CHECK(run.qd.row(0).transpose() == qd_start);
     CHECK(run.stats.steps == 0);
@@ -86,10 +87,9 @@ TEST_CASE("a jump in a table is hit exactly: the run goes on as one that starts 
   const TensionInput table =
       TensionInput::table(Eigen::Vector2d(0.0, jump), rows, Interpolation::previous);
   for (const Method method : own_methods) {
-    const Trajectory whole =
-        run_of(model, Eigen::Vector3d(0.0, jump, 1.0), table, method);
-    const Trajectory before = run_of(model, Eigen::Vector2d(0.0, jump),
-                                     TensionInput::constant(rows.row(0)), method);
+    const Trajectory whole = run_of(model, Eigen::Vector3d(0.0, jump, 1.0), table, method);
+    const Trajectory before =
+        run_of(model, Eigen::Vector2d(0.0, jump), TensionInput::constant(rows.row(0)), method);
     const Trajectory after =
         simulate(model, last_row(before.q), last_row(before.qd), Eigen::Vector2d(jump, 1.0),
                  TensionInput::constant(rows.row(1)), method);
@@ -106,13 +106,12 @@ TEST_CASE("before its first time a table holds its first row, after its last its
   MatrixXd rows(2, 3);
   rows << 2.0, 0.0, 0.0, 2.0, 0.0, 0.0;
   for (const Interpolation interpolation : {Interpolation::previous, Interpolation::linear}) {
-    const TensionInput table =
-        TensionInput::table(Eigen::Vector2d(0.25, 0.5), rows, interpolation);
+    const TensionInput table = TensionInput::table(Eigen::Vector2d(0.25, 0.5), rows, interpolation);
     const Trajectory run =
         run_of(model, even_times(0.0, 1.0, 9), table, Method::dopri5, tightest());
-    const Trajectory constant = run_of(model, even_times(0.0, 1.0, 9),
-                                       TensionInput::constant(rows.row(0)), Method::dopri5,
-                                       tightest());
+    const Trajectory constant =
+        run_of(model, even_times(0.0, 1.0, 9), TensionInput::constant(rows.row(0)), Method::dopri5,
+               tightest());
     CHECK(residual(run.q, constant.q) <= tolerance::run);
     CHECK(run.tension == constant.tension);
   }
@@ -149,11 +148,10 @@ TEST_CASE("a linear table equals the function it draws") {
   };
   const VectorXd times = even_times(0.0, 1.2, 25);
   const Trajectory table =
-      run_of(model, times, TensionInput::table(breaks, rows, Interpolation::linear),
-             Method::dopri5, tightest());
-  const Trajectory function =
-      run_of(model, times, TensionInput::function(tent, 3, {0.1, 0.4, 0.9}), Method::dopri5,
+      run_of(model, times, TensionInput::table(breaks, rows, Interpolation::linear), Method::dopri5,
              tightest());
+  const Trajectory function = run_of(model, times, TensionInput::function(tent, 3, {0.1, 0.4, 0.9}),
+                                     Method::dopri5, tightest());
   CHECK(residual(function.q, table.q) <= tolerance::run);
 }
 
@@ -220,16 +218,15 @@ TEST_CASE("progress is told times that grow, and the steps do not depend on it")
 
 TEST_CASE("the statistics count") {
   const Model model = upright();
-  const Trajectory fixed = run_of(model, even_times(0.0, 1.0, 2), no_tension(model), Method::rk4,
-                                  fixed_step(0.01));
+  const Trajectory fixed =
+      run_of(model, even_times(0.0, 1.0, 2), no_tension(model), Method::rk4, fixed_step(0.01));
   CHECK(fixed.stats.steps == 100);
   CHECK(fixed.stats.rejected == 0);
   CHECK(fixed.stats.evaluations >= 400);
   const Trajectory adaptive =
       run_of(model, even_times(0.0, 1.0, 2), no_tension(model), Method::dopri5);
   CHECK(adaptive.stats.steps > 10);
-  CHECK(adaptive.stats.evaluations >=
-        6 * (adaptive.stats.steps + adaptive.stats.rejected));
+  CHECK(adaptive.stats.evaluations >= 6 * (adaptive.stats.steps + adaptive.stats.rejected));
   CHECK(adaptive.stats.jacobians == 0);
   CHECK(adaptive.stats.newton_failures == 0);
 }

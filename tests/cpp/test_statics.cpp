@@ -23,9 +23,13 @@ Robot with_gravity(double g_z, double payload = 0.0) {
   return robot;
 }
 
-VectorXd pull_first(double tension) { return Eigen::Vector3d(tension, 0.0, 0.0); }
+VectorXd pull_first(double tension) {
+  return Eigen::Vector3d(tension, 0.0, 0.0);
+}
 
-double degrees(const VectorXd& q) { return q.norm() * 180.0 / pi; }
+double degrees(const VectorXd& q) {
+  return q.norm() * 180.0 / pi;
+}
 
 /// Residual and eigenvalues are what they claim to be.
 void check_truthful(const Model& model, const VectorXd& tension, const Equilibrium& found) {

@@ -18,9 +18,15 @@ namespace {
 // not_started and invalid_tension come from the simulator (test_simulator.cpp),
 // tolerance_not_met from an implicit method (test_cvode.cpp); all others are produced here.
 const std::vector<Status> all = {
-    Status::ok,                Status::not_started,      Status::step_limit,
-    Status::step_too_small,    Status::tolerance_not_met, Status::non_finite_state,
-    Status::bending_limit,     Status::invalid_tension,  Status::not_converged,
+    Status::ok,
+    Status::not_started,
+    Status::step_limit,
+    Status::step_too_small,
+    Status::tolerance_not_met,
+    Status::non_finite_state,
+    Status::bending_limit,
+    Status::invalid_tension,
+    Status::not_converged,
     Status::interrupted,
 };
 

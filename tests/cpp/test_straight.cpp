@@ -15,7 +15,9 @@ namespace {
 
 constexpr int num_directions = 12;
 
-Eigen::Vector2d direction(int k) { return bending(1.0, 2.0 * pi * k / num_directions); }
+Eigen::Vector2d direction(int k) {
+  return bending(1.0, 2.0 * pi * k / num_directions);
+}
 
 TEST_SUITE_BEGIN("straight");
 

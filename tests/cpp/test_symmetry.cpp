@@ -36,8 +36,8 @@ TEST_CASE("turning state, force and gravity about Z turns the acceleration") {
     const Matrix2d turn = Eigen::Rotation2Dd(random.uniform(-pi, pi)).toRotationMatrix();
     const VectorXd force = model.actuation_matrix() * state.tension;
     const VectorXd expected = turn * acceleration(model, state.q, state.qd, force);
-    const VectorXd actual = acceleration(transformed(model, turn), turn * state.q,
-                                         turn * state.qd, turn * force);
+    const VectorXd actual =
+        acceleration(transformed(model, turn), turn * state.q, turn * state.qd, turn * force);
     CHECK(residual(actual, expected) <= tolerance::cancelled);
   });
 }

@@ -59,14 +59,10 @@ TEST_CASE("sound robots have no violations") {
 }
 
 TEST_CASE("fields that must be positive") {
-  check_section([](Section& s) { s.length = 0.0; },
-                "length must be > 0 m and finite, got 0");
-  check_section([](Section& s) { s.length = -1.5; },
-                "length must be > 0 m and finite, got -1.5");
-  check_section([](Section& s) { s.length = nan; },
-                "length must be > 0 m and finite, got nan");
-  check_section([](Section& s) { s.length = inf; },
-                "length must be > 0 m and finite, got inf");
+  check_section([](Section& s) { s.length = 0.0; }, "length must be > 0 m and finite, got 0");
+  check_section([](Section& s) { s.length = -1.5; }, "length must be > 0 m and finite, got -1.5");
+  check_section([](Section& s) { s.length = nan; }, "length must be > 0 m and finite, got nan");
+  check_section([](Section& s) { s.length = inf; }, "length must be > 0 m and finite, got inf");
   check_section([](Section& s) { s.backbone_diameter = 0.0; },
                 "backbone_diameter must be > 0 m and finite, got 0");
   check_section([](Section& s) { s.youngs_modulus = -9.5e9; },
@@ -100,7 +96,8 @@ TEST_CASE("counts") {
   check_section([](Section& s) { s.cable_angles.assign(17, 0.0); },
                 "the number of cable_angles must be 0 to 16, got 17",
                 "the number of sections[0].cable_angles must be 0 to 16, got 17");
-  check_robot([](Robot& r) { r.sections.clear(); }, "the number of sections must be 1 to 32, got 0");
+  check_robot([](Robot& r) { r.sections.clear(); },
+              "the number of sections must be 1 to 32, got 0");
   check_robot([](Robot& r) { r.sections.resize(33, r.sections[0]); },
               "the number of sections must be 1 to 32, got 33");
 }

@@ -87,16 +87,18 @@ def sums(theta: FloatArray, body: Body, kind: str) -> tuple[Sums, Sums]:
         return _polynomials(theta, _rounded_cut_sums(body, kind))
     x, weight = body.x, body.weight
     y = theta[..., np.newaxis] * x
-    sine, one_minus_cosine = np.sin(y), y**2 * bow(y)
-    sideways = x * y * bow(y)  # |dr/dphi|
+    S, A = sinc(y), bow(y)
+    D = (S - A) ** 2 + sinc_slope(y, S) ** 2
+    sine, one_minus_cosine = np.sin(y), y**2 * A
+    sideways = x * y * A  # |dr/dphi|
     if kind == "printed":
         turning, turning_slope = x * np.cos(y) ** 2 + sine**2, x * (1.0 - x) * np.sin(2.0 * y)
     else:
         turning, turning_slope = np.broadcast_to(x, y.shape), np.zeros(y.shape)
-    values = Sums(x**4 * speed(y), sideways**2, turning**2, sine**2, one_minus_cosine**2)
+    values = Sums(x**4 * D, sideways**2, turning**2, sine**2, one_minus_cosine**2)
     slopes = Sums(
-        x**5 * speed_slope(y),
-        2.0 * sideways * x**2 * lean(y),
+        x**5 * speed_slope(y, A, D),
+        2.0 * sideways * x**2 * (S - A),
         2.0 * turning * turning_slope,
         x * np.sin(2.0 * y),
         2.0 * one_minus_cosine * x * sine,
@@ -161,37 +163,24 @@ def bow(y: FloatArray) -> FloatArray:
     return half
 
 
-def lean(y: FloatArray) -> FloatArray:
-    """Return S - A = d(y A)/dy: its speed outwards with theta, over x^2."""
-    return sinc(y) - bow(y)
+def sinc_slope(y: FloatArray, S: FloatArray) -> FloatArray:
+    """Return S' = (cos y - S)/y."""
+    return _odd(y, _SINC_SLOPE, np.cos(y) - S)
 
 
-def sinc_slope(y: FloatArray) -> FloatArray:
-    """Return S' = (cos y - S)/y: its speed along Z with theta, over x^2."""
-    return _odd(y, _SINC_SLOPE, lambda z: (np.cos(z) - sinc(z)) / z)
-
-
-def speed(y: FloatArray) -> FloatArray:
-    """Return D = (S - A)^2 + S'^2."""
-    total: FloatArray = lean(y) ** 2 + sinc_slope(y) ** 2
-    return total
-
-
-def speed_slope(y: FloatArray) -> FloatArray:
+def speed_slope(y: FloatArray, A: FloatArray, D: FloatArray) -> FloatArray:
     """Return D' = 2 (A - 2 D)/y."""
-    return _odd(y, _SPEED_SLOPE, lambda z: 2.0 * (bow(z) - 2.0 * speed(z)) / z)
+    return _odd(y, _SPEED_SLOPE, 2.0 * (A - 2.0 * D))
 
 
-def _odd(
-    y: FloatArray, coefficients: FloatArray, formula: Callable[[FloatArray], FloatArray]
-) -> FloatArray:
-    """Return an odd function: its power series below one, where its formula loses digits."""
+def _odd(y: FloatArray, coefficients: FloatArray, numerator: FloatArray) -> FloatArray:
+    """Return numerator/y, an odd function, by its power series where digits would be lost."""
     small = np.abs(y) < 1.0
-    square = np.where(small, y, 0.0) ** 2
-    series = np.zeros(y.shape)
+    near = np.where(small, y, 0.0)
+    square, series = near**2, np.zeros(y.shape)
     for c in coefficients[::-1]:
         series = series * square + c
-    return np.where(small, y * series, formula(np.where(small, 1.0, y)))
+    return np.where(small, near * series, numerator / np.where(small, 1.0, y))
 
 
 def _slope_of(coefficient: Callable[[int], float]) -> FloatArray:

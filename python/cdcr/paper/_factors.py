@@ -168,12 +168,15 @@ def inertia_and_slopes(
         (disks(section.num_disks), section.disk_mass * (0.5 if printed else 1.0), disk_inertia),
         (tip(), robot.payload, 0.0),
     )
-    inertias = [[0.0, 0.0], [0.0, 0.0]]  # values and slopes of M11 and M22
+    zero = np.zeros(np.shape(theta))[()]
+    inertias = [[zero, zero], [zero, zero]]  # values and slopes of M11 and M22
     for body, mass, turning in parts:
+        if mass == turning == 0.0:
+            continue
         for total, s in zip(inertias, sums(theta, body, kind), strict=True):
-            total[0] += section.length**2 * mass * s.along + turning * s.turning_theta
-            total[1] += section.length**2 * mass * s.across
-            total[1] += turning * (s.turning_phi + spin * s.spin)
+            turning_phi = s.turning_phi + spin * s.spin
+            total[0] = total[0] + section.length**2 * mass * s.along + turning * s.turning_theta
+            total[1] = total[1] + section.length**2 * mass * s.across + turning * turning_phi
     (M11, M22), (dM11, dM22) = inertias
     return (M11, M22), (dM11, dM22)
 

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from cdcr._coordinates import _finite
 from cdcr._robot import Robot
-from cdcr.paper._elements import bow, disks, lean, rod, sinc, sinc_slope, tip
+from cdcr.paper._elements import bow, disks, rod, sinc, sinc_slope, tip
 from cdcr.paper._factors import check_kind, checked_angles, inertia_and_slopes, only_section
 
 FloatArray = NDArray[np.float64]
@@ -182,12 +182,15 @@ class PolarModel:
 
     def _potential_slopes(self, theta: FloatArray, phi: FloatArray) -> tuple[Any, Any]:
         """Return dU/dtheta and dU/dphi."""
+        elastic = self.robot.sections[0].stiffness * theta
+        if not any(self.robot.gravity):
+            return elastic, 0.0
         x, weight, along, across = self._weights(phi)
         y = theta[..., np.newaxis] * x
-        out = (x**2 * lean(y)) @ weight  # how fast theta moves the weight outwards
-        up = (x**2 * sinc_slope(y)) @ weight
-        elastic = self.robot.sections[0].stiffness * theta
-        return elastic - along * out - self._lift * up, -across * ((x * y * bow(y)) @ weight)
+        S, A = sinc(y), bow(y)
+        # Theta moves an element outwards at x^2 (S - A) and along Z at x^2 S'.
+        out, up = (x**2 * (S - A)) @ weight, (x**2 * sinc_slope(y, S)) @ weight
+        return elastic - along * out - self._lift * up, -across * ((x * y * A) @ weight)
 
     def _weights(self, phi: FloatArray) -> tuple[FloatArray, FloatArray, Any, Any]:
         """Return places, masses times length, and gravity outwards and sideways of the bend."""

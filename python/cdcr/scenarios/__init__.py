@@ -1,4 +1,4 @@
-"""Ready-made runs, each with its robot, its inputs, its summary and its picture.
+"""Ready-made runs and pictures: the robot, what is done to it, a summary and a figure.
 
 A new scenario is one new file here that defines ``SCENARIO``; its name is the file's, with
 dashes for underscores.
@@ -14,11 +14,30 @@ from cdcr.scenarios._scenario import Scenario
 
 __all__ = ["Scenario", "get", "names"]
 
+# The order of the origin paper's figures; any others come after.
+_ORDER = (
+    "factors-backbone",
+    "factors-backbone-rotation",
+    "factors-disks",
+    "factors-disks-rotation",
+    "kinetic-energy-terms",
+    "gravity-ratio",
+    "free-oscillation",
+    "step-tension",
+    "two-cables",
+    "block-diagram",
+    "circle-tracking",
+    "plane-tracking",
+    "pid",
+)
+
 
 def names() -> tuple[str, ...]:
-    """Return the names of all scenarios."""
+    """Return the names of all scenarios, in the order of the origin paper's figures."""
     files = (module.name for module in iter_modules(__path__) if not module.name.startswith("_"))
-    return tuple(sorted(name.replace("_", "-") for name in files))
+    found = {name.replace("_", "-") for name in files}
+    ordered = [name for name in _ORDER if name in found]
+    return (*ordered, *sorted(found.difference(ordered)))
 
 
 def get(name: str) -> Scenario:

@@ -1,14 +1,15 @@
-"""What a scenario is: a robot, a start, tensions over time, and what is told about the run."""
+"""What a scenario is: a robot, what is done to it, and what is told and drawn about it."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from cdcr._core import Controller
 from cdcr._fields import Check
 from cdcr._model import Model
 from cdcr._robot import Robot
@@ -30,20 +31,27 @@ def _figure(scenario: Scenario, run: Trajectory) -> Figure:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Scenario:
-    """A run that can be repeated: data, and how to summarise and draw it.
+    """Something to see that can be repeated: data, and how to summarise and draw it.
+
+    Most are runs. One without `t_end` is a picture of the model alone, in which nothing runs.
 
     Parameters
     ----------
     name, title, description, source : str
         What it is called, what happens in it, and where its numbers come from.
+    paper_figure : int, optional
+        Number of the figure of the origin paper that it redraws.
     robot : Robot
         The robot.
     q0, qd0 : tuple of float, 2n each
         Bending vectors [rad] and their rates [rad/s] at t = 0.
-    tension : tuple of float, num_cables, or TensionTable
-        Cable tensions [N], constant or over time.
-    t_end : float
-        End of the run [s].
+    tension : tuple of float, num_cables, or TensionTable or callable
+        Cable tensions [N], constant or over time, or a function of the model and the end of the run
+        [s] that returns them.
+    controller : callable, optional
+        From the model to a controller that pulls the cables, in place of `tension`.
+    t_end : float, optional
+        End of the run [s]; 0 where nothing runs.
     num_samples : int, default 1001
         Number of samples, evenly spaced, both ends included.
     formulation : str
@@ -53,9 +61,9 @@ class Scenario:
     rtol, atol, step, max_step, max_steps : optional
         Tolerances of the adaptive methods, step of rk4 [s], largest step [s] and number of steps.
     tell : callable
-        From scenario and run to the findings of `summary`.
+        From scenario and run, None where nothing runs, to the findings of `summary`.
     draw : callable
-        From scenario and run to the picture of `figure`.
+        From scenario and run, None where nothing runs, to the picture of `figure`.
     """
 
     name: str
@@ -63,10 +71,12 @@ class Scenario:
     description: str
     source: str
     robot: Robot
-    q0: tuple[float, ...]
-    qd0: tuple[float, ...]
-    tension: tuple[float, ...] | TensionTable
-    t_end: float
+    paper_figure: int | None = None
+    q0: tuple[float, ...] = ()
+    qd0: tuple[float, ...] = ()
+    tension: tuple[float, ...] | TensionTable | Callable[[Model, float], TensionTable] = ()
+    controller: Callable[[Model], Controller] | None = None
+    t_end: float = 0.0
     num_samples: int = 1001
     formulation: str = "exact"
     method: MethodName = "bdf"
@@ -75,13 +85,27 @@ class Scenario:
     step: float | None = None
     max_step: float | None = None
     max_steps: int | None = None
-    tell: Callable[[Scenario, Trajectory], tuple[Finding, ...]] = findings
-    draw: Callable[[Scenario, Trajectory], Figure] = _figure
+    tell: Callable[[Scenario, Any], tuple[Finding, ...]] = findings
+    draw: Callable[[Scenario, Any], Figure] = _figure
+
+    @property
+    def has_run(self) -> bool:
+        """Whether anything runs in it; else it is a picture of the model alone."""
+        return self.t_end > 0.0
+
+    @property
+    def model(self) -> Model:
+        """Its robot, ready for computing."""
+        return Model(self.robot, formulation=self.formulation)
 
     def times(
         self, t_end: float | None = None, num_samples: int | None = None
     ) -> NDArray[np.float64]:
         """Return the output times (N,) [s]; another end alone leaves their spacing."""
+        if not self.has_run:
+            raise ValueError(
+                f"nothing runs in the scenario {self.name!r}: it is a picture of the model alone"
+            )
         check = Check()
         given, wanted = self.t_end if t_end is None else t_end, "a number > 0 s and finite"
         end = check.number("t_end", given, wanted, above=0.0)
@@ -122,13 +146,22 @@ class Scenario:
         Returns
         -------
         Trajectory
+
+        Raises
+        ------
+        ValueError
+            For an option out of its range, or a scenario in which nothing runs.
         """
+        t, model = self.times(t_end, num_samples), self.model
+        controller = self.controller(model) if self.controller else None
+        tension = self.tension(model, float(t[-1])) if callable(self.tension) else self.tension
         return simulate(
-            Model(self.robot, formulation=self.formulation),
+            model,
             self.q0,
             self.qd0,
-            t=self.times(t_end, num_samples),
-            tension=self.tension,
+            t=t,
+            tension=None if controller else tension,
+            controller=controller,
             method=method or self.method,
             rtol=self.rtol if rtol is None else rtol,
             atol=self.atol if atol is None else atol,
@@ -138,10 +171,10 @@ class Scenario:
             progress=progress,
         )
 
-    def summary(self, run: Trajectory) -> tuple[Finding, ...]:
-        """Return what is worth knowing about a run of this scenario."""
+    def summary(self, run: Trajectory | None = None) -> tuple[Finding, ...]:
+        """Return what is worth knowing about this scenario and a run of it."""
         return self.tell(self, run)
 
-    def figure(self, run: Trajectory) -> Figure:
-        """Return a picture of a run of this scenario. Needs the extra ``plot``."""
+    def figure(self, run: Trajectory | None = None) -> Figure:
+        """Return a picture of this scenario and a run of it. Needs the extra ``plot``."""
         return self.draw(self, run)

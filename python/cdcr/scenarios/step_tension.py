@@ -13,6 +13,7 @@ SCENARIO = Scenario(
         "Fig. 9 it settles, at 15.53 deg, which these equations cannot give. phi stays 0."
     ),
     source="Amouri, Mahfoudi, Zaatri (2020), section 5.2 and Fig. 9, doi 10.46604/ijeti.2020.4422",
+    paper_figure=9,
     robot=amouri2020(),
     q0=(0.0, 0.0),
     qd0=(0.0, 0.0),

@@ -1,13 +1,15 @@
+#include "allocations.hpp"
+
 #include <cstddef>
 #include <cstdlib>  // also defines __GLIBC__, which allocations.hpp asks for
-
-#include "allocations.hpp"
 
 namespace {
 thread_local long count = 0;
 }
 
-long cdcr::test::allocations() noexcept { return count; }
+long cdcr::test::allocations() noexcept {
+  return count;
+}
 
 #if !defined(__SANITIZE_ADDRESS__) && defined(__GLIBC__)
 

@@ -67,34 +67,32 @@ std::vector<NamedRobot> sample_robots(Random& random) {
       {"Table 1", table_1},
       {"upright", upright(9.81)},
       {"hanging", upright(-9.81)},
-      {"tilted, damped, with payload",
-       changed(upright(9.81),
-               [](Robot& robot, Section& section) {
-                 robot.gravity = {3.0, -4.0, -8.0};
-                 robot.payload = 0.05;
-                 section.damping = 1e-3;
-               })},
+      {"tilted, damped, with payload", changed(upright(9.81),
+                                               [](Robot& robot, Section& section) {
+                                                 robot.gravity = {3.0, -4.0, -8.0};
+                                                 robot.payload = 0.05;
+                                                 section.damping = 1e-3;
+                                               })},
       {"massless backbone",
        changed(upright(9.81), [](Robot&, Section& section) { section.backbone_mass = 0.0; })},
-      {"no disks",
-       changed(upright(9.81), [](Robot&, Section& section) { section.num_disks = 0; })},
-      {"payload only",
-       changed(upright(9.81),
-               [](Robot& robot, Section& section) {
-                 section.backbone_mass = section.disk_mass = 0.0;
-                 robot.payload = 0.1;
-               })},
+      {"no disks", changed(upright(9.81), [](Robot&, Section& section) { section.num_disks = 0; })},
+      {"payload only", changed(upright(9.81),
+                               [](Robot& robot, Section& section) {
+                                 section.backbone_mass = section.disk_mass = 0.0;
+                                 robot.payload = 0.1;
+                               })},
       {"16 cables",
-       changed(table_1, [](Robot&, Section& section) { section.cable_angles = spread_angles(16); })},
+       changed(table_1,
+               [](Robot&, Section& section) { section.cable_angles = spread_angles(16); })},
       {"no cables",
        changed(table_1, [](Robot&, Section& section) { section.cable_angles.clear(); })},
-      {"64 disks", changed(upright(9.81), [](Robot&, Section& section) { section.num_disks = 64; })},
-      {"one wide disk",
-       changed(table_1,
-               [](Robot&, Section& section) {
-                 section.num_disks = 1;
-                 section.disk_diameter = 1.0;
-               })},
+      {"64 disks",
+       changed(upright(9.81), [](Robot&, Section& section) { section.num_disks = 64; })},
+      {"one wide disk", changed(table_1,
+                                [](Robot&, Section& section) {
+                                  section.num_disks = 1;
+                                  section.disk_diameter = 1.0;
+                                })},
   };
   for (int i = 0; i < test_count(); ++i) {
     robots.push_back({"random " + std::to_string(i), random_robot(random)});
@@ -114,7 +112,8 @@ std::vector<State> sample_states(const Model& model, double max_theta, Random& r
     state.qd = random.vector(model.num_coordinates(), 10.0);
     // Tensions that alone would bend the section by up to about a turn.
     const Section& section = model.robot().sections[0];
-    const double strong = section.cable_radius > 0.0 ? model.stiffness()[0] / section.cable_radius : 0.0;
+    const double strong =
+        section.cable_radius > 0.0 ? model.stiffness()[0] / section.cable_radius : 0.0;
     state.tension = random.vector(model.num_cables(), 3.0 * strong).cwiseAbs();
     states.push_back(state);
   }

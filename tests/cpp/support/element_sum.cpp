@@ -36,7 +36,9 @@ Quadrature make_gauss() {
   return rule;
 }
 
-Real sinc(Real y) { return y == 0.0L ? 1.0L : std::sin(y) / y; }
+Real sinc(Real y) {
+  return y == 0.0L ? 1.0L : std::sin(y) / y;
+}
 
 Real33 hat(const Real3& v) {
   Real33 m;
@@ -97,8 +99,8 @@ Real22 ElementSum::mass_matrix(const Real2& q) const {
       v.col(k) = derivative<Real3>([&](Real step) -> Real3 { return moved(step).r; });
       const Real33 dR = derivative<Real33>([&](Real step) -> Real33 { return moved(step).R; });
       const Real33 rate = R.transpose() * dR;  // hat(omega)
-      omega.col(k) = 0.5L * Real3(rate(2, 1) - rate(1, 2), rate(0, 2) - rate(2, 0),
-                                  rate(1, 0) - rate(0, 1));
+      omega.col(k) =
+          0.5L * Real3(rate(2, 1) - rate(1, 2), rate(0, 2) - rate(2, 0), rate(1, 0) - rate(0, 1));
     }
     const Real3 inertia(e.transverse, e.transverse, e.axial);
     M += e.mass * v.transpose() * v + omega.transpose() * inertia.asDiagonal() * omega;
@@ -119,8 +121,8 @@ Real ElementSum::potential_energy(const Real2& q) const {
 Real2 ElementSum::potential_gradient(const Real2& q) const {
   Real2 gradient;
   for (int k = 0; k < 2; ++k) {
-    gradient[k] = derivative<Real>(
-        [&](Real step) { return potential_energy(q + step * Real2::Unit(k)); });
+    gradient[k] =
+        derivative<Real>([&](Real step) { return potential_energy(q + step * Real2::Unit(k)); });
   }
   return gradient;
 }
@@ -141,14 +143,14 @@ Real2 ElementSum::bias(const Real2& q, const Real2& qd) const {
   Real2 momentum_rate = Real2::Zero();
   if (speed > 0.0L) {
     const Real2 direction = qd / speed;
-    const Real22 M_rate = derivative<Real22>(
-        [&](Real step) -> Real22 { return mass_matrix(q + step * direction); });
+    const Real22 M_rate =
+        derivative<Real22>([&](Real step) -> Real22 { return mass_matrix(q + step * direction); });
     momentum_rate = speed * (M_rate * qd);
   }
   Real2 dT;
   for (int k = 0; k < 2; ++k) {
-    dT[k] = derivative<Real>(
-        [&](Real step) { return kinetic_energy(q + step * Real2::Unit(k), qd); });
+    dT[k] =
+        derivative<Real>([&](Real step) { return kinetic_energy(q + step * Real2::Unit(k), qd); });
   }
   return momentum_rate - dT + potential_gradient(q) + damping_ * qd;
 }
@@ -174,6 +176,8 @@ Real ElementSum::total_mass() const {
   return sum;
 }
 
-Real ElementSum::weight_scale() const { return total_mass() * gravity_.norm() * length_; }
+Real ElementSum::weight_scale() const {
+  return total_mass() * gravity_.norm() * length_;
+}
 
 }  // namespace cdcr::test

@@ -39,8 +39,8 @@ double largest(const Eigen::MatrixBase<Derived>& values) {
 template <class A, class B>
 Residual residual(const Eigen::MatrixBase<A>& actual, const Eigen::MatrixBase<B>& expected,
                   double scale) {
-  const double difference = largest(actual.template cast<long double>() -
-                                    expected.template cast<long double>());
+  const double difference =
+      largest(actual.template cast<long double>() - expected.template cast<long double>());
   return {difference == 0.0 ? 0.0 : difference / scale};
 }
 

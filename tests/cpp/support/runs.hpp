@@ -27,7 +27,9 @@ inline Options tolerances(double rtol, double atol) {
 }
 
 /// As exact as Dormand-Prince gets in double precision.
-inline Options tightest() { return tolerances(1e-13, 1e-15); }
+inline Options tightest() {
+  return tolerances(1e-13, 1e-15);
+}
 
 inline Options fixed_step(double step) {
   Options options;

@@ -11,7 +11,9 @@ inline double environment(const char* variable, double otherwise) {
 }
 
 /// Random robots in each random test.
-inline int test_count() { return static_cast<int>(environment("CDCR_TEST_COUNT", 8)); }
+inline int test_count() {
+  return static_cast<int>(environment("CDCR_TEST_COUNT", 8));
+}
 
 inline std::uint64_t test_seed() {
   return static_cast<std::uint64_t>(environment("CDCR_TEST_SEED", 1));

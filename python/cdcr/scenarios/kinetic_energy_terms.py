@@ -1,0 +1,93 @@
+"""The inertias M11 and M22, whole and cut after theta^4 (Fig. 6)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cdcr._core import taylor_range
+from cdcr._robot import Robot
+from cdcr.paper import factors, inertia
+from cdcr.robots import amouri2020
+from cdcr.scenarios._factors import cut
+from cdcr.scenarios._findings import Finding
+from cdcr.scenarios._scenario import Scenario
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+FloatArray = NDArray[np.float64]
+
+CLAIM = 0.05  # error that the paper gives for both [%]
+
+
+def as_printed(theta: FloatArray, robot: Robot, kind: str = "printed") -> tuple[Any, Any]:
+    """Return M11 and M22 of eq. (21) exactly as printed, without 1/3 and 1/4 [kg m^2].
+
+    Its l I_b is an area's moment, so the sum is not one of inertias (E5); it is small.
+    """
+    section, H = robot.sections[0], factors(theta, kind)
+    weights = (
+        section.length**2 * section.backbone_mass,
+        section.length * section.second_moment_of_area,
+        section.length**2 * section.disk_mass,
+        section.disk_mass * section.disk_diameter**2 / 16.0,
+    )
+    M11 = sum(w * h for w, h in zip(weights, (H.H1, H.H3, H.H5, H.H7), strict=True))
+    M22 = sum(w * h for w, h in zip(weights, (H.H2, H.H4, H.H6, H.H8), strict=True))
+    return M11, M22
+
+
+# What the two ways to write eq. (21) are called, and the kinds that they have of factors.
+WAYS = {"derived": (inertia, "exact"), "printed": (as_printed, "printed")}
+
+
+def terms(theta: FloatArray, robot: Robot, way: str) -> tuple[FloatArray, FloatArray]:
+    """Return M11 and M22 (2, N) whole, and the same cut after theta^4 [kg m^2]."""
+    function, kind = WAYS[way]
+    return np.array(function(theta, robot, kind)), np.array(function(theta, robot, cut(kind)))
+
+
+def taylor_errors(theta: FloatArray, robot: Robot, way: str) -> FloatArray:
+    """Return the errors of M11 and M22 (2, N) cut after theta^4 [%]."""
+    whole, series = terms(theta, robot, way)
+    return 100.0 * (series - whole) / whole
+
+
+def _tell(scenario: Scenario, run: None) -> tuple[Finding, ...]:
+    end, robot = np.array([taylor_range]), scenario.robot
+    found = []
+    for way in WAYS:
+        values, errors = terms(end, robot, way)[0], taylor_errors(end, robot, way)
+        for term, value, error in zip(("M11", "M22"), values, errors, strict=True):
+            key, label = f"{term}_{way}", f"{term}, {way}"
+            found += [
+                Finding(f"{key}_end", f"{label}, at 3 pi/5", 1e3 * float(value[0]), "1e-3 kg m^2"),
+                Finding(f"{key}_error", f"{label}: error of Taylor", float(error[0]), "%"),
+            ]
+    return tuple(found)
+
+
+def _draw(scenario: Scenario, run: None) -> Figure:
+    from cdcr.scenarios._inertia_figure import inertia_figure
+
+    return inertia_figure(scenario.title, scenario.robot)
+
+
+SCENARIO = Scenario(
+    name="kinetic-energy-terms",
+    title=r"Terms of the kinetic energy: $M_{11}$ and $M_{22}$, exact and cut after $\theta^4$",
+    description=(
+        "Twice the kinetic energy is M11 thetad^2 + M22 phid^2, eq. (21) with the factors of "
+        "eq. (9) and the masses of Table 1. The paper finds Taylor polynomials good to 0.05 %: "
+        "that holds, nearly, for M11 (0.056 % at 3 pi/5), but M22 is 13.8 % too small there, or "
+        "12.6 % in eq. (21) as printed, which lacks the 1/3 and 1/4 of eq. (9)."
+    ),
+    source="Amouri, Mahfoudi, Zaatri (2020), section 4.1.4 and Fig. 6, doi 10.46604/ijeti.2020.4422",
+    paper_figure=6,
+    robot=amouri2020(),
+    tell=_tell,
+    draw=_draw,
+)
