@@ -39,6 +39,8 @@ Plant::Plant(const Model& model, Controller& controller)
 Status Plant::start_segment(double t, const VectorXd& y) {
   const Index m = model_->num_coordinates();
   if (controller_ != nullptr) {
+    // A run that ends within a period ends under the tensions held.
+    if (segment_ >= 0 && t < segment_end_) return Status::ok;
     if (segment_ < 0) start_ = t;
     ++segment_;
     segment_end_ = start_ + static_cast<double>(segment_ + 1) * controller_->period();

@@ -12,11 +12,13 @@ except ImportError as error:  # pragma: no cover
         "('pip install .' in the project's folder) and do not import it from its source folder."
     ) from error
 
-from cdcr import robots, scenarios
+from cdcr import paper, robots, scenarios
 from cdcr._control import Pid
 from cdcr._coordinates import bending, polar
 from cdcr._core import Controller, Equilibrium, Simulator, Stats, Status, max_bending, taylor_range
+from cdcr._inverse import InverseRun, inverse_run
 from cdcr._model import ConvergenceError, InfeasibleError, InverseKinematics, Model
+from cdcr._reference import Reference
 from cdcr._robot import Robot, Section
 from cdcr._simulate import TensionTable, simulate
 from cdcr._trajectory import Trajectory
@@ -29,8 +31,10 @@ __all__ = [
     "Equilibrium",
     "InfeasibleError",
     "InverseKinematics",
+    "InverseRun",
     "Model",
     "Pid",
+    "Reference",
     "Robot",
     "Section",
     "Simulator",
@@ -40,7 +44,9 @@ __all__ = [
     "Trajectory",
     "__version__",
     "bending",
+    "inverse_run",
     "max_bending",
+    "paper",
     "polar",
     "robots",
     "scenarios",

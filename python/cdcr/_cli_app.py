@@ -1,4 +1,4 @@
-"""The commands: list, info, run."""
+"""The commands: list, info, run, audit, figures."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import typer
 from rich.console import Console
 
 import cdcr
-from cdcr import _cli_run, _cli_tables
+from cdcr import _cli_audit, _cli_figures, _cli_run, _cli_tables
 
 if TYPE_CHECKING:
     from cdcr._simulate import MethodName
@@ -139,5 +139,42 @@ def run_command(
             typer.echo(json.dumps(report.as_dict(), indent=2, allow_nan=False))
         else:
             _cli_tables.print_report(Console(), report)
-        if not report.run.success:
+        if report.run is not None and not report.run.success:
             raise _cli_run.RunFailed(f"{report.run.message} No file was written.")
+
+
+@app.command("audit", short_help="Hold the origin paper's claims against its own equations.")
+def audit_command(
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print one JSON array in place of the table.")
+    ] = False,
+) -> None:
+    """Hold the claims of the origin paper against its own equations and Table 1.
+
+    One row per claim: where it stands, what the paper says, what follows from its equations, and a
+    verdict. Every number is computed by this command. Exit code 0, whatever the verdicts.
+    """
+    with _told_plainly():
+        claims = _cli_audit.compute(Console(stderr=True))
+        if as_json:
+            typer.echo(_cli_audit.as_json(claims))
+        else:
+            _cli_audit.print_audit(Console(), claims)
+
+
+@app.command("figures", short_help="Redraw all figures of the origin paper.")
+def figures_command(
+    out: Annotated[Path, typer.Option(help="Folder for the files; made where missing.")] = Path(
+        "figures"
+    ),
+    overwrite: Annotated[
+        bool, typer.Option("--overwrite", help="Replace files of an earlier call.")
+    ] = False,
+) -> None:
+    """Redraw all figures of the origin paper (.png, .svg); write index.html, which shows them.
+
+    Files appear only when all are complete.
+    """
+    with _told_plainly():
+        written = _cli_figures.figures(out, overwrite=overwrite, console=Console(stderr=True))
+    typer.echo(f"wrote {len(written) - 1} pictures and {written[-1]}")

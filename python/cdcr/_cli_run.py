@@ -48,34 +48,38 @@ def mistakes() -> Iterator[None]:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Report:
-    """A run from the command line and what came of it."""
+    """A scenario from the command line and what came of it; no run where nothing runs in it."""
 
     scenario: Scenario
     method: str
-    run: Trajectory
+    run: Trajectory | None
     wall_time: float  # of the integration alone [s]
     findings: tuple[Finding, ...]
     files: tuple[Path, ...]
 
     def as_dict(self) -> dict[str, Any]:
         """Return everything as JSON has it."""
-        run = self.run
-        return {
+        told = {
             "scenario": self.scenario.name,
             "title": self.scenario.title,
             "source": self.scenario.source,
             "robot": asdict(self.scenario.robot),
             "formulation": self.scenario.formulation,
+            "findings": {finding.key: finding.value for finding in self.findings},
+            "files": [str(path) for path in self.files],
+        }
+        run = self.run
+        if run is None:
+            return told
+        return told | {
             "method": self.method,
             "t_end": float(run.t[-1]),
             "num_samples": len(run),
             "success": run.success,
             "status": run.status.name,
             "message": run.message,
-            "findings": {finding.key: finding.value for finding in self.findings},
             "stats": {name: getattr(run.stats, name) for name in STATS},
             "wall_time_s": self.wall_time,
-            "files": [str(path) for path in self.files],
         }
 
 
@@ -93,6 +97,10 @@ def run(
 ) -> Report:
     """Run a scenario by name or file and write its files; a failed run writes none."""
     scenario = find_scenario(name)
+    if not scenario.has_run:
+        given = {"t_end": t_end, "method": method, "rtol": rtol, "atol": atol}
+        _refuse_options(scenario, given | {"max_steps": max_steps})
+        return _picture(scenario, out, overwrite=overwrite)
     targets = tuple(out / f"{scenario.name}{suffix}" for suffix in (".png", ".csv", ".nc"))
     refuse_existing(out, targets, overwrite=overwrite)
     for module, extra in NEEDED:
@@ -118,6 +126,30 @@ def run(
         wall_time=wall_time,
         findings=scenario.summary(trajectory) if trajectory.success else (),
         files=targets if trajectory.success else (),
+    )
+
+
+def _refuse_options(scenario: Scenario, given: dict[str, Any]) -> None:
+    pointless = [f"--{key.replace('_', '-')}" for key, value in given.items() if value is not None]
+    if pointless:
+        raise Mistake(
+            f"nothing runs in the scenario {scenario.name!r}, so it takes no {', '.join(pointless)}"
+        )
+
+
+def _picture(scenario: Scenario, out: Path, *, overwrite: bool) -> Report:
+    """Draw a scenario in which nothing runs."""
+    targets = (out / f"{scenario.name}.png",)
+    refuse_existing(out, targets, overwrite=overwrite)
+    require("matplotlib", "plot")
+    write(scenario, None, targets, overwrite=overwrite)
+    return Report(
+        scenario=scenario,
+        method="",
+        run=None,
+        wall_time=0.0,
+        findings=scenario.summary(),
+        files=targets,
     )
 
 
@@ -151,9 +183,9 @@ def refuse_existing(out: Path, targets: tuple[Path, ...], *, overwrite: bool) ->
 
 
 def write(
-    scenario: Scenario, run: Trajectory, targets: tuple[Path, ...], *, overwrite: bool
+    scenario: Scenario, run: Trajectory | None, targets: tuple[Path, ...], *, overwrite: bool
 ) -> None:
-    """Write picture, CSV and netCDF; they appear together when all three are complete."""
+    """Write picture, CSV and netCDF of a run; they appear together when all are complete."""
     out = targets[0].parent
     made = [folder for folder in (out, *out.parents) if not folder.exists()]
     out.mkdir(parents=True, exist_ok=True)
@@ -161,8 +193,9 @@ def write(
         with ExitStack() as stack:
             png, *data = [stack.enter_context(new_file(t, overwrite=overwrite)) for t in targets]
             scenario.figure(run).savefig(png)
-            for path in data:
-                run.save(path)
+            if run is not None:
+                for path in data:
+                    run.save(path)
     except BaseException:
         with suppress(OSError):  # somebody else may have put something there
             for folder in made:

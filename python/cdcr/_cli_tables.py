@@ -117,12 +117,14 @@ def print_report(console: Console, report: Report) -> None:
     if scenario.description:
         console.print(Text(scenario.description))
     console.print(Text(f"Source: {scenario.source}", style="dim"))
-    table = _table(f"{scenario.name}, {report.method}, {len(run)} samples", "", "value", "unit")
+    told = scenario.name if run is None else f"{scenario.name}, {report.method}, {len(run)} samples"
+    table = _table(told, "", "value", "unit")
     for finding in report.findings:
         table.add_row(Text(finding.label), _number(finding.value), finding.unit)
-    for name in STATS:
-        table.add_row(name.replace("_", " "), str(getattr(run.stats, name)), "")
-    table.add_row("wall time of the integration", f"{1e3 * report.wall_time:.3g}", "ms")
+    if run is not None:
+        for name in STATS:
+            table.add_row(name.replace("_", " "), str(getattr(run.stats, name)), "")
+        table.add_row("wall time of the integration", f"{1e3 * report.wall_time:.3g}", "ms")
     console.print(table)
     for path in report.files:
         console.print(Text(f"wrote {path}"), soft_wrap=True)

@@ -80,12 +80,16 @@ def of_angle(times: FloatArray, name: str, angle: ArrayLike | TimeFunction) -> P
         return Pair(rest, rest)
     if samples.ndim == 1:
         samples = samples[:, np.newaxis]
-    samples = checked_samples(name, samples, times.size)
+    samples = checked_samples(name, samples, times.size, "n")
     return of_samples(times, _unwrapped(times, samples) if name == "phi" else samples)
 
 
 def bending_vectors(theta: FloatArray, phi: FloatArray) -> FloatArray:
     """Return q = theta (cos phi, sin phi), qd, qdd (3, M, 2n) of angles (3, M, n)."""
+    if theta.shape[2] != phi.shape[2] and 1 not in (theta.shape[2], phi.shape[2]):
+        raise ValueError(
+            f"theta and phi must be for as many sections, got {theta.shape[2]} and {phi.shape[2]}"
+        )
     theta, phi = np.broadcast_arrays(theta, phi)
     (angle, rate, acceleration), (_, turn, turn_rate) = theta, phi
     along = [angle, rate, acceleration - angle * turn**2]
@@ -154,14 +158,18 @@ def checked_times(t: ArrayLike) -> FloatArray:
     return times
 
 
-def checked_samples(
-    name: str, values: ArrayLike, num_times: int, num_columns: int | None = None
-) -> FloatArray:
-    """Return samples (num_times, num_columns) as an array of its own, or refuse them."""
+def checked_samples(name: str, values: ArrayLike, num_times: int, columns: int | str) -> FloatArray:
+    """Return samples (num_times, columns) as an array of its own, or refuse them.
+
+    Instead of a number, `columns` may be "n" for any or "2n" for any that is even.
+    """
     samples = np.array(_finite(values, name))
-    fits = samples.ndim == 2 and samples.shape[0] == num_times
-    if not fits or samples.shape[1] != (num_columns or samples.shape[1]):
-        columns = "k" if num_columns is None else num_columns
+    fits = samples.ndim == 2 and samples.shape[0] == num_times and samples.shape[1] > 0
+    if fits and isinstance(columns, int):
+        fits = samples.shape[1] == columns
+    elif fits and columns == "2n":
+        fits = samples.shape[1] % 2 == 0
+    if not fits:
         raise ValueError(f"{name} must have shape ({num_times}, {columns}), got {samples.shape}")
     return samples
 

@@ -63,9 +63,7 @@ class Reference:
     def __post_init__(self) -> None:
         """Take copies nobody else can write to, and check that they fit together."""
         t = _motion.checked_times(self.t)
-        q = _motion.checked_samples("q", self.q, t.size)
-        if q.shape[1] % 2 or q.shape[1] == 0:
-            raise ValueError(f"q must have shape (N, 2n), got {q.shape}")
+        q = _motion.checked_samples("q", self.q, t.size, "2n")
         arrays = {"t": t, "q": q}
         for name in ("qd", "qdd"):
             arrays[name] = _motion.checked_samples(name, getattr(self, name), t.size, q.shape[1])
@@ -105,7 +103,7 @@ class Reference:
         Reference
         """
         times = _motion.checked_times(t)
-        values = _motion.checked_samples("q", q, times.size)
+        values = _motion.checked_samples("q", q, times.size, "2n")
         rates = None if qd is None else _motion.checked_samples("qd", qd, *values.shape)
         accelerations = None if qdd is None else _motion.checked_samples("qdd", qdd, *values.shape)
         if rates is not None and accelerations is not None:

@@ -98,7 +98,7 @@ def warn_beyond_taylor_range(model: Model, q: FloatArray) -> None:
     if not model.formulation.endswith("taylor") or q.size == 0:
         return
     largest = float(np.hypot(q[:, 0::2], q[:, 1::2]).max())
-    if largest > _core.taylor_range:
+    if largest > _core.taylor_range * (1.0 + 1e-9):  # the range itself is inside it
         warnings.warn(
             f"formulation {model.formulation!r} holds for |theta| up to 3 pi/5 = "
             f"{_core.taylor_range:.4f} rad; this motion reaches {largest:.4f} rad",

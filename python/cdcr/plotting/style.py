@@ -45,6 +45,7 @@ STYLE: dict[str, Any] = {
     "pdf.fonttype": 42,  # text stays text
     "savefig.dpi": 150,
     "svg.fonttype": "none",
+    "svg.hashsalt": "cdcr",  # the same picture is the same file
     "xtick.color": GREY,
     "xtick.labelcolor": BLACK,
     "xtick.labelsize": 9.5,

@@ -11,7 +11,7 @@ from cdcr.plotting.style import ALARM, BLACK, COLORS, StyledFigure, style
 from cdcr.scenarios._drawing import NUM_ANGLES, legend_below, new_figure, note
 from cdcr.scenarios.gravity_ratio import CLAIM, TENSION, WAYS, energy_ratio, model_of, theta_deg
 
-LINES = dict(zip(WAYS, ((BLACK, "-"), (COLORS[0], "-"), (COLORS[1], "-")), strict=True))
+HUES = dict(zip(WAYS, (BLACK, COLORS[0], COLORS[1]), strict=True))
 TENSIONS = np.linspace(0.0, 10.0, 41)  # [N]
 
 
@@ -29,7 +29,7 @@ def gravity_figure(title: str) -> StyledFigure:
 
 def _draw_ratio(axes: Axes) -> None:
     theta = np.linspace(0.01, taylor_range, NUM_ANGLES)
-    color, _ = LINES["upright"]
+    color = HUES["upright"]
     axes.plot(np.rad2deg(theta), -100.0 * energy_ratio(theta, "upright"), color=color)
     axes.axhline(CLAIM, color=ALARM, linestyle=":", linewidth=1.3)
     axes.text(2.0, CLAIM + 0.35, f"the paper: below {CLAIM} %", color=ALARM, fontsize=9.5)
@@ -41,14 +41,11 @@ def _draw_ratio(axes: Axes) -> None:
 
 
 def _draw_angles(axes: Axes) -> None:
-    for way, (color, dashes) in LINES.items():
+    for way, color in HUES.items():
         angles = [theta_deg(tension, way) for tension in TENSIONS]
-        axes.plot(TENSIONS, angles, color=color, linestyle=dashes, label=way)
         here = theta_deg(TENSION, way)
+        axes.plot(TENSIONS, angles, color=color, label=f"{way}: {here:.2f} deg at {TENSION:g} N")
         axes.plot(TENSION, here, "o", color=color, markersize=5)
-        axes.annotate(
-            f"{here:.1f}", (TENSION, here), (-28, 4), textcoords="offset points", color=color
-        )
     axes.set(xlim=(0.0, TENSIONS[-1]), ylim=(0.0, None))
     axes.set_xlabel("tension of cable 1 [N]")
     axes.set_ylabel(r"bending angle at rest $\theta$ [deg]")
@@ -56,7 +53,7 @@ def _draw_angles(axes: Axes) -> None:
 
 
 def _draw_shapes(axes: Axes) -> None:
-    for way, (color, _) in LINES.items():
+    for way, color in HUES.items():
         model = model_of(way)
         shape = robot_shape(model, model.equilibrium([TENSION, 0.0, 0.0]))
         axes.plot(*shape.backbone[:, [0, 2]].T, color=color, linewidth=2.2)

@@ -40,7 +40,7 @@ def oscillation_figure(title: str, run: Trajectory) -> StyledFigure:
         for axes in (free, damped, loose):
             panels.show_time(axes, run, named=axes is loose)
         figure.align_ylabels()
-        legend_below(figure, loose, ncols=7)
+        legend_below(figure, loose, ncols=4)
     return figure
 
 

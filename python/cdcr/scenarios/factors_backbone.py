@@ -6,7 +6,7 @@ SCENARIO = factor_scenario(
     name="factors-backbone",
     number=2,
     pair=("H1", "H2"),
-    title=r"Translation of the backbone: $H_1$ and $H_2$",
+    title="Translation of the backbone: H₁ and H₂",
     description=(
         "H1 belongs to thetad^2 and H2 to phid^2 in the backbone's kinetic energy of translation, "
         "eq. (9). Eqs. (10) to (13) are printed correctly; cut after theta^4, H1 is good to "

@@ -6,7 +6,7 @@ SCENARIO = factor_scenario(
     name="factors-backbone-rotation",
     number=3,
     pair=("H3", "H4"),
-    title=r"Rotation of the backbone: $H_3$ and $H_4$",
+    title="Rotation of the backbone: H₃ and H₄",
     description=(
         "H3 belongs to thetad^2 and H4 to phid^2 in the backbone's kinetic energy of rotation, "
         "eq. (14). From eqs. (3) and (4) H3 is the constant 1/3; the printed eq. (25) varies, "

@@ -6,7 +6,7 @@ SCENARIO = factor_scenario(
     name="factors-disks",
     number=4,
     pair=("H5", "H6"),
-    title=r"Translation of the disks: $H_5$ and $H_6$",
+    title="Translation of the disks: H₅ and H₆",
     description=(
         "H5 belongs to thetad^2 and H6 to phid^2 in the disks' kinetic energy of translation, "
         "eq. (15), summed over ten disks. The printed eqs. (27) and (28) give exactly half of what "

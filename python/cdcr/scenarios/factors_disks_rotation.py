@@ -6,7 +6,7 @@ SCENARIO = factor_scenario(
     name="factors-disks-rotation",
     number=5,
     pair=("H7", "H8"),
-    title=r"Rotation of the disks: $H_7$ and $H_8$",
+    title="Rotation of the disks: H₇ and H₈",
     description=(
         "H7 belongs to thetad^2 and H8 to phid^2 in the disks' kinetic energy of rotation, "
         "eq. (16), summed over ten disks. From eqs. (3) and (4) H7 is the constant 77/20; the "

@@ -92,7 +92,7 @@ def _draw(scenario: Scenario, run: Trajectory) -> Figure:
 
 SCENARIO = Scenario(
     name="free-oscillation",
-    title=r"Released from $\theta = 45°$ without tension",
+    title="Released from θ = 45° without tension",
     description=(
         "The robot of Table 1 is let go at theta = pi/4, phi = 0, with slack cables. The paper's "
         "equations have no damping, so it swings for ever with the same amplitude and a period of "

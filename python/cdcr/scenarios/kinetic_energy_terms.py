@@ -78,7 +78,7 @@ def _draw(scenario: Scenario, run: None) -> Figure:
 
 SCENARIO = Scenario(
     name="kinetic-energy-terms",
-    title=r"Terms of the kinetic energy: $M_{11}$ and $M_{22}$, exact and cut after $\theta^4$",
+    title="Terms of the kinetic energy: M₁₁ and M₂₂, exact and cut after θ⁴",
     description=(
         "Twice the kinetic energy is M11 thetad^2 + M22 phid^2, eq. (21) with the factors of "
         "eq. (9) and the masses of Table 1. The paper finds Taylor polynomials good to 0.05 %: "
