@@ -1,7 +1,7 @@
-// 10 s of free oscillation from theta = pi/4, sampled at 1,001 times, by every method.
+// Runs of 10 s, sampled at 1,001 times, by every method.
 //
 // A row's "error" is the largest error in theta [rad] over these times, against dopri5 at
-// rtol 1e-13. The rows named with a tolerance make the curve of time against error.
+// rtol 1e-13. The rows named with a tolerance or a step make the curve of time against error.
 #include <cdcr/cvode.hpp>
 #include <sstream>
 
@@ -11,22 +11,19 @@
 namespace cdcr::bench {
 namespace {
 
-/// One free oscillation by one method.
-class Oscillation {
- public:
-  explicit Oscillation(Index num_times = 1001)
-      : times_(VectorXd::LinSpaced(num_times, 0.0, 10.0)) {}
+struct Kind {
+  Method method;
+  const char* name;
+};
+constexpr Kind adaptive[] = {
+    {Method::dopri5, "dopri5"}, {Method::adams, "adams"}, {Method::bdf, "bdf"}};
 
-  [[nodiscard]] Trajectory run(Method method, const Options& options) const {
-    const bool by_cvode = method == Method::bdf || method == Method::adams;
-    return simulate(model_, bent().q, bent().qd, times_, still_, method, options,
-                    by_cvode ? make_cvode_integrator : make_integrator);
-  }
-
- private:
-  Model model_{robot(false)};
-  VectorXd times_;
-  TensionInput still_ = TensionInput::constant(VectorXd::Zero(3));
+/// From rest at q0, under constant tensions, without gravity.
+struct Problem {
+  std::string name;
+  double damping;
+  double theta;
+  Eigen::Vector3d tension;
 };
 
 /// atol follows rtol at the distance that the defaults have.
@@ -37,45 +34,67 @@ Options tolerance(double rtol) {
   return options;
 }
 
-struct Kind {
-  Method method;
-  const char* name;
-};
+Options fixed(double step) {
+  Options options;
+  options.step = step;
+  return options;
+}
+
+Robot damped(double damping) {
+  Robot robot = bench::robot(false);
+  robot.sections[0].damping = damping;
+  return robot;
+}
 
 class Runs {
  public:
-  Runs(const Harness& harness) : harness_(harness), truth_(exact_.run(Method::dopri5, best())) {}
+  Runs(const Harness& harness, const Problem& problem, Index num_times = 1001)
+      : harness_(harness),
+        name_(problem.name),
+        model_(damped(problem.damping)),
+        q0_(bending(problem.theta, 0.0)),
+        tension_(TensionInput::constant(problem.tension)),
+        times_(VectorXd::LinSpaced(num_times, 0.0, 10.0)),
+        truth_(run(Method::dopri5, tolerance(1e-13))) {}
 
-  void measure(const std::string& name, Method method, const Options& options, long blocks) const {
-    const std::string row = "free oscillation, " + name;
+  void measure(const std::string& how, Method method, const Options& options, long blocks) const {
+    const std::string row = name_ + ", " + how;
     if (!harness_.wants(row)) return;
-    const Trajectory run = exact_.run(method, options);
+    const Trajectory once = run(method, options);
     std::ostringstream extra;
-    extra << std::setprecision(3) << R"(, "error": )" << (run.q - truth_.q).cwiseAbs().maxCoeff()
-          << R"(, "steps": )" << run.stats.steps << R"(, "evaluations": )" << run.stats.evaluations;
-    harness_.run(
-        {row, "ms", 1, blocks}, [] {}, [&](long /*i*/) { keep(exact_.run(method, options)); },
-        extra.str());
+    extra << std::setprecision(3) << R"(, "error": )" << (once.q - truth_.q).cwiseAbs().maxCoeff()
+          << R"(, "steps": )" << once.stats.steps << R"(, "evaluations": )"
+          << once.stats.evaluations;
+    const Plan plan{row, "ms", 1, blocks};
+    harness_.run(plan, [] {}, [&](long /*i*/) { keep(run(method, options)); }, extra.str());
   }
 
-  void ends_only() const {
-    const Oscillation two_times(2);
-    const Options options = tolerance(1e-8);
-    harness_.run(
-        {"free oscillation, dopri5 rtol 1e-8, last state only", "ms", 1, 300}, [] {},
-        [&](long /*i*/) { keep(two_times.run(Method::dopri5, options)); });
+  void measure_defaults() const {
+    for (const auto& [method, name] : adaptive) {
+      measure(std::string(name) + " by default", method, Options(), 100);
+    }
+    measure("rk4 by default", Method::rk4, Options(), 100);
+  }
+
+  void measure_adaptive(const std::string& rtol, long blocks) const {
+    for (const auto& [method, name] : adaptive) {
+      measure(name + (" rtol " + rtol), method, tolerance(std::stod(rtol)), blocks);
+    }
   }
 
  private:
-  static Options best() {
-    Options options;
-    options.rtol = 1e-13;
-    options.atol = 1e-15;
-    return options;
+  [[nodiscard]] Trajectory run(Method method, const Options& options) const {
+    const bool by_cvode = method == Method::bdf || method == Method::adams;
+    return simulate(model_, q0_, VectorXd::Zero(2), times_, tension_, method, options,
+                    by_cvode ? make_cvode_integrator : make_integrator);
   }
 
   const Harness& harness_;
-  Oscillation exact_;
+  std::string name_;
+  Model model_;
+  VectorXd q0_;
+  TensionInput tension_;
+  VectorXd times_;
   Trajectory truth_;
 };
 
@@ -84,22 +103,24 @@ class Runs {
 
 int main(int argc, char** argv) {
   using namespace cdcr;
+  using bench::Runs;
   const bench::Harness harness(argc, argv);
-  const bench::Runs runs(harness);
-  const bench::Kind kinds[] = {
-      {Method::dopri5, "dopri5"}, {Method::adams, "adams"}, {Method::bdf, "bdf"}};
-  for (const auto& [method, name] : kinds) {
-    runs.measure(std::string(name) + " by default", method, Options(), 100);
-    for (const char* rtol : {"1e-6", "1e-7", "1e-8", "1e-9", "1e-10", "1e-11", "1e-12"}) {
-      const bool headline = std::string(rtol) == "1e-8";
-      runs.measure(std::string(name) + " rtol " + rtol, method, bench::tolerance(std::atof(rtol)),
-                   headline ? 300 : 50);
-    }
+  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+
+  const Runs oscillation(harness, {"free oscillation", 0.0, bench::quarter_pi, none});
+  oscillation.measure_defaults();
+  oscillation.measure_adaptive("1e-8", 300);
+  for (const char* rtol : {"1e-6", "1e-7", "1e-9", "1e-10", "1e-11", "1e-12"}) {
+    oscillation.measure_adaptive(rtol, 50);
   }
   for (const char* step : {"4e-3", "2e-3", "1e-3", "5e-4", "2.5e-4"}) {
-    Options options;
-    options.step = std::atof(step);
-    runs.measure(std::string("rk4 step ") + step, Method::rk4, options, 100);
+    oscillation.measure(std::string("rk4 step ") + step, Method::rk4, bench::fixed(std::stod(step)),
+                        50);
   }
-  runs.ends_only();
+  Runs(harness, {"free oscillation, last state only", 0.0, bench::quarter_pi, none}, 2)
+      .measure_adaptive("1e-8", 50);
+  Runs(harness, {"step-tension", 0.0, 0.0, {5.0, 0.0, 0.0}}).measure_defaults();
+  // Some two thousand times the damping that lets the paper's robot settle: a stiff problem.
+  const Runs honey(harness, {"return through honey", 2.0, bench::quarter_pi, none});
+  honey.measure_adaptive("1e-8", 100);
 }

@@ -6,6 +6,8 @@
 
 namespace cdcr::bench {
 
+inline constexpr double quarter_pi = 0.78539816339744831;
+
 /// A point of a run.
 struct State {
   VectorXd q, qd;
@@ -20,7 +22,7 @@ inline Robot robot(bool gravity) {
 
 /// The start of every run here: bent by pi/4 towards phi = 0, at rest.
 inline State bent() {
-  return {bending(0.78539816339744831, 0.0), VectorXd::Zero(2)};
+  return {bending(quarter_pi, 0.0), VectorXd::Zero(2)};
 }
 
 /// States of a spatial swing of 10 s, each another point of it. Their number divides 1024.

@@ -28,7 +28,9 @@ std::string index_text(Index flat, const std::vector<Index>& sizes) {
   return "[" + text + "]";
 }
 
-[[noreturn]] void refuse(const std::ostringstream& text) { throw py::value_error(text.str()); }
+[[noreturn]] void refuse(const std::ostringstream& text) {
+  throw py::value_error(text.str());
+}
 
 }  // namespace
 
@@ -42,9 +44,9 @@ Array read_array(const py::handle& object, const char* name, const std::vector<I
     refuse(text);
   }
   const std::vector<Index> got(array.shape(), array.shape() + array.ndim());
-  const bool fits = got.size() == shape.size() &&
-                    std::equal(got.begin(), got.end(), shape.begin(),
-                               [](Index a, Index b) { return b < 0 || a == b; });
+  const bool fits =
+      got.size() == shape.size() && std::equal(got.begin(), got.end(), shape.begin(),
+                                               [](Index a, Index b) { return b < 0 || a == b; });
   if (!fits) {
     std::ostringstream text;
     text << name << " must have shape " << shape_text(shape) << ", got " << shape_text(got);

@@ -17,15 +17,14 @@ void bind_control(py::module_& m) {
   const PidOptions defaults;
   py::class_<Pid, Controller>(m, "Pid")
       .def(py::init([](const Model& model, double kp, double ki, double kd, double period,
-                       bool feed_forward, bool anti_windup, double min_tension,
-                       double max_tension, std::vector<Index> cables) {
+                       bool feed_forward, bool anti_windup, double min_tension, double max_tension,
+                       std::vector<Index> cables) {
              return Pid(model, {kp, ki, kd, period, feed_forward, anti_windup,
                                 TensionLimits{min_tension, max_tension, std::move(cables)}});
            }),
            "model"_a, py::kw_only(), "kp"_a, "ki"_a = defaults.ki, "kd"_a = defaults.kd,
            "period"_a = defaults.period, "feed_forward"_a = defaults.feed_forward,
-           "anti_windup"_a = defaults.anti_windup,
-           "min_tension"_a = defaults.limits.min_tension,
+           "anti_windup"_a = defaults.anti_windup, "min_tension"_a = defaults.limits.min_tension,
            "max_tension"_a = defaults.limits.max_tension, "cables"_a = defaults.limits.cables)
       .def_property(
           "reference", [](const Pid& self) { return to_array(self.reference()); },

@@ -9,7 +9,6 @@ namespace {
 namespace py = pybind11;
 using namespace py::literals;
 
-
 VectorArgument read_rate(const Model& model, const py::handle& object, const char* name) {
   return {object, name, model.num_coordinates()};
 }
@@ -71,8 +70,7 @@ void bind_dynamics(PyModel& model) {
           "q"_a, "qd"_a, "tension"_a)
       .def(
           "inverse_dynamics",
-          [](const Model& self, const py::object& q, const py::object& qd,
-             const py::object& qdd) {
+          [](const Model& self, const py::object& q, const py::object& qd, const py::object& qdd) {
             Data data(self);
             py::array_t<double> force(self.num_coordinates());
             inverse_dynamics(self, data, *read_bending(self, q, "q"), *read_rate(self, qd, "qd"),

@@ -33,9 +33,8 @@ TensionInput call_python(py::function function, Index num_cables,
 
 /// `source` is a const TensionInput or a Controller.
 template <class Source>
-Trajectory run(const Model& model, const py::object& q0, const py::object& qd0,
-               const py::object& t, Source& source, Method method, const Options& options,
-               const py::object& progress) {
+Trajectory run(const Model& model, const py::object& q0, const py::object& qd0, const py::object& t,
+               Source& source, Method method, const Options& options, const py::object& progress) {
   const VectorXd q = *read_bending(model, q0, "q0");
   const VectorXd qd = *VectorArgument(qd0, "qd0", model.num_coordinates());
   const VectorXd times = *VectorArgument(t, "t", -1);
@@ -141,8 +140,8 @@ void bind_simulate(py::module_& m) {
 
   m.def("simulate", &run<const TensionInput>, "model"_a, "q0"_a, "qd0"_a, "t"_a, "input"_a,
         "method"_a, "options"_a, "progress"_a);
-  m.def("simulate_controlled", &run<Controller>, "model"_a, "q0"_a, "qd0"_a, "t"_a,
-        "controller"_a, "method"_a, "options"_a, "progress"_a);
+  m.def("simulate_controlled", &run<Controller>, "model"_a, "q0"_a, "qd0"_a, "t"_a, "controller"_a,
+        "method"_a, "options"_a, "progress"_a);
 }
 
 }  // namespace cdcr::python

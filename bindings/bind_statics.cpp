@@ -42,8 +42,7 @@ void bind_statics(py::module_& m, PyModel& model) {
   model.def(
       "find_equilibrium",
       [](const Model& self, const py::object& tension, const py::object& q0) {
-        const VectorXd start =
-            q0.is_none() ? VectorXd() : VectorXd(*read_bending(self, q0, "q0"));
+        const VectorXd start = q0.is_none() ? VectorXd() : VectorXd(*read_bending(self, q0, "q0"));
         return equilibrium(self, *read_tension(self, tension), start);
       },
       "tension"_a, "q0"_a = py::none());

@@ -86,15 +86,15 @@ void Dopri5::make_stages(double h) {
   }
   derivative(t_ + 8.0 / 9.0 * h, trial_, k5_);
   for (Index i = 0; i < n; ++i) {
-    trial_[i] = y_[i] + h * (9017.0 / 3168.0 * k1_[i] - 355.0 / 33.0 * k2_[i] +
-                             46732.0 / 5247.0 * k3_[i] + 49.0 / 176.0 * k4_[i] -
-                             5103.0 / 18656.0 * k5_[i]);
+    trial_[i] =
+        y_[i] + h * (9017.0 / 3168.0 * k1_[i] - 355.0 / 33.0 * k2_[i] + 46732.0 / 5247.0 * k3_[i] +
+                     49.0 / 176.0 * k4_[i] - 5103.0 / 18656.0 * k5_[i]);
   }
   derivative(t_ + h, trial_, k6_);
   for (Index i = 0; i < n; ++i) {
-    trial_[i] = y_[i] + h * (35.0 / 384.0 * k1_[i] + 500.0 / 1113.0 * k3_[i] +
-                             125.0 / 192.0 * k4_[i] - 2187.0 / 6784.0 * k5_[i] +
-                             11.0 / 84.0 * k6_[i]);
+    trial_[i] =
+        y_[i] + h * (35.0 / 384.0 * k1_[i] + 500.0 / 1113.0 * k3_[i] + 125.0 / 192.0 * k4_[i] -
+                     2187.0 / 6784.0 * k5_[i] + 11.0 / 84.0 * k6_[i]);
   }
   derivative(t_ + h, trial_, k7_);
 }
@@ -133,9 +133,8 @@ Status Dopri5::step() {
     const double error = error_norm(h);
     if (!(error <= 1.0)) {  // also for NaN
       ++stats_.rejected;
-      h_ = h * (std::isfinite(error)
-                    ? std::max(largest_cut, safety * std::pow(error, -0.2))
-                    : largest_cut);
+      h_ = h * (std::isfinite(error) ? std::max(largest_cut, safety * std::pow(error, -0.2))
+                                     : largest_cut);
       if (h_ < smallest) return why_stuck();
       continue;
     }
@@ -165,10 +164,10 @@ void Dopri5::interpolate(double t, VectorXd& y) {
   if (!dense_ready_) {  // k7 of the step just made lives in k1_ now
     bend_ = h * k1_before_ - (y_ - y_before_);
     turn_ = (y_ - y_before_) - h * k1_ - bend_;
-    fifth_ = h * (-12715105075.0 / 11282082432.0 * k1_before_ +
-                  87487479700.0 / 32700410799.0 * k3_ - 10690763975.0 / 1880347072.0 * k4_ +
-                  701980252875.0 / 199316789632.0 * k5_ - 1453857185.0 / 822651844.0 * k6_ +
-                  69997945.0 / 29380423.0 * k1_);
+    fifth_ =
+        h * (-12715105075.0 / 11282082432.0 * k1_before_ + 87487479700.0 / 32700410799.0 * k3_ -
+             10690763975.0 / 1880347072.0 * k4_ + 701980252875.0 / 199316789632.0 * k5_ -
+             1453857185.0 / 822651844.0 * k6_ + 69997945.0 / 29380423.0 * k1_);
     dense_ready_ = true;
   }
   const double s = (t - t_before_) / h, r = 1.0 - s;

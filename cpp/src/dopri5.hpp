@@ -26,9 +26,9 @@ class Dopri5 final : public Integrator {
 
   Plant& plant_;
   Options options_;
-  double t_ = 0.0, stop_ = 0.0, h_ = 0.0;     // h_: the next step wanted
-  double t_before_ = 0.0, h_before_ = 0.0;    // the last step made
-  double last_error_ = 1e-4;                  // of the step before, for the PI controller
+  double t_ = 0.0, stop_ = 0.0, h_ = 0.0;   // h_: the next step wanted
+  double t_before_ = 0.0, h_before_ = 0.0;  // the last step made
+  double last_error_ = 1e-4;                // of the step before, for the PI controller
   bool dense_ready_ = false;
   VectorXd y_, trial_, y_before_;
   VectorXd k1_, k2_, k3_, k4_, k5_, k6_, k7_;  // slopes; k1_ holds f(t_, y_) between steps

@@ -32,8 +32,7 @@ inline void section_bias(const Model& model, const Values& inertia, double x, do
 
 }  // namespace
 
-void actuation_force(const Model& model, const ConstVectorRef& tension,
-                     VectorRef force) noexcept {
+void actuation_force(const Model& model, const ConstVectorRef& tension, VectorRef force) noexcept {
   // A plain loop: for so few numbers a general matrix product costs more than the dynamics.
   const MatrixXd& B = model.actuation_matrix();
   for (Index i = 0; i < B.rows(); ++i) {

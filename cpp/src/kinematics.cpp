@@ -72,8 +72,7 @@ SectionFrame section_frame(double length, double x, const Vector3d& q3) noexcept
   out.at = section_pose(length, x, q3, f);
 
   // dr/dq = alpha E + 2 (alpha' q3 + beta' z) q^T with alpha = l x^2 A, beta = l x S, eq. (4).
-  const Vector3d along =
-      2.0 * length * x * x * x * (x * f.dA * q3 + f.dS * Vector3d::UnitZ());
+  const Vector3d along = 2.0 * length * x * x * x * (x * f.dA * q3 + f.dS * Vector3d::UnitZ());
   // omega = left Jacobian of SO(3) at x (z x q) times x (z x qd), eq. (5):
   // J_l = I + A [phi]^ + G [phi]^2 with G = (y - sin y)/y^3 = (1 - S)/y^2.
   const Vector3d turn = x * Vector3d(-q3[1], q3[0], 0.0);
@@ -84,8 +83,7 @@ SectionFrame section_frame(double length, double x, const Vector3d& q3) noexcept
     const Vector3d e = Vector3d::Unit(k);
     const Vector3d rate = x * Vector3d(-e[1], e[0], 0.0);
     out.J.col(k).head<3>() = length * x * x * f.A * e + along * q3[k];
-    out.J.col(k).tail<3>() =
-        rate + f.A * turn.cross(rate) + G * turn.cross(turn.cross(rate));
+    out.J.col(k).tail<3>() = rate + f.A * turn.cross(rate) + G * turn.cross(turn.cross(rate));
   }
   return out;
 }
@@ -119,8 +117,7 @@ void jacobian(const Model& model, const ConstVectorRef& q, Index section, double
   Pose base;
   for (Index i = 0; i <= section; ++i) {
     const double x = i == section ? fraction : 1.0;
-    const SectionFrame frame =
-        section_frame(model.robot().sections[i].length, x, bending3(q, i));
+    const SectionFrame frame = section_frame(model.robot().sections[i].length, x, bending3(q, i));
     const Vector3d arm = base.R * frame.at.p;
     // Sections before this one carry its end along: v += omega x arm.
     for (Index k = 0; k < 2 * i; ++k) {

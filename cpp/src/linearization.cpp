@@ -34,12 +34,12 @@ void state_jacobian(const Model& model, Data& data, const ConstVectorRef& q_in,
   // With N(q, qd) = M(q) qdd + h(q, qd) at fixed qdd:  d qdd = -M^-1 dN.
   Matrix2d stiffness;
   potential_hessian(model, data, q_in, stiffness);
-  const Matrix2d dN_q =
-      stiffness + 2.0 * da * qdd * q.transpose()                                 // a qdd
-      + b * q_qdd * identity + q * (b * qdd + 2.0 * db * q_qdd * q).transpose()  // b q (q.qdd)
-      + 2.0 * qd * (da * qd + 2.0 * dda * p * q).transpose()                     // 2 a' p qd
-      + (db * p * p + (b - da) * w) * identity
-      + 2.0 * q * (db * p * qd + (ddb * p * p + (db - dda) * w) * q).transpose();
+  const Matrix2d dN_q = stiffness + 2.0 * da * qdd * q.transpose()  // a qdd
+                        + b * q_qdd * identity +
+                        q * (b * qdd + 2.0 * db * q_qdd * q).transpose()        // b q (q.qdd)
+                        + 2.0 * qd * (da * qd + 2.0 * dda * p * q).transpose()  // 2 a' p qd
+                        + (db * p * p + (b - da) * w) * identity +
+                        2.0 * q * (db * p * qd + (ddb * p * p + (db - dda) * w) * q).transpose();
   const Matrix2d dN_qd = (2.0 * da * p + model.damping()[0]) * identity +
                          2.0 * da * qd * q.transpose() +
                          2.0 * q * (db * p * q + (b - da) * qd).transpose();
@@ -57,8 +57,7 @@ void linearize(const Model& model, Data& data, const ConstVectorRef& q, const Co
 
   const Vector2d bending = q;
   const auto inertia = model.table(0)(Group::inertia, bending.squaredNorm());
-  const Matrix2d inverse_mass =
-      solve_mass(inertia[0], inertia[1], bending, Matrix2d::Identity());
+  const Matrix2d inverse_mass = solve_mass(inertia[0], inertia[1], bending, Matrix2d::Identity());
   B.topRows<2>().setZero();
   for (Index j = 0; j < model.num_cables(); ++j) {
     B.col(j).tail<2>().noalias() = inverse_mass * model.actuation_matrix().col(j).head<2>();

@@ -2,10 +2,10 @@
 //
 // The factors H1 to H8 enter M11 = a + b sigma and M22 = a sigma (paper eq. (21)). Kept as printed:
 // H5, H6 (27), (28) and with them the disks' translation at half its value; H3, H7 (25), (29)
-// varying with theta; l I_b with a second moment of area in place of a rotary inertia; no spin about
-// the tangent. Mended, because no consistent model exists without: 1/3 and 1/4 before H1 and H2 in
-// (21), the missing cosine in (28), the order of the velocities in (20). A payload, which the paper
-// does not have, is added exactly.
+// varying with theta; l I_b with a second moment of area in place of a rotary inertia; no spin
+// about the tangent. Mended, because no consistent model exists without: 1/3 and 1/4 before H1 and
+// H2 in (21), the missing cosine in (28), the order of the velocities in (20). A payload, which the
+// paper does not have, is added exactly.
 #include <cmath>
 
 #include "cdcr/formulation.hpp"

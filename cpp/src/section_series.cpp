@@ -1,4 +1,5 @@
-// The derivation in one place: from the elements of a section to the power series of a, b, G_A, G_S.
+// The derivation in one place: from the elements of a section to the power series of a, b, G_A,
+// G_S.
 //
 // An element at fraction x of the length has mass m, transverse inertia I_t, axial inertia I_a.
 // With y = x theta, A(y) = (1 - cos y)/y^2, S(y) = sin y / y and the planar speed
@@ -49,12 +50,12 @@ Brackets brackets() {
   long double sign = 1.0L;
   long double four = 1.0L;  // 4^j
   for (int j = 0; j < num_terms; ++j, sign = -sign, four *= 4.0L) {
-    c.A.push_back(sign * inv[2 * j + 2]);                                   // (1 - cos y)/y^2
-    c.S.push_back(sign * inv[2 * j + 1]);                                   // sin y / y
-    c.A2.push_back(sign * (8.0L * four - 2.0L) * inv[2 * j + 4]);           // A^2
-    c.S2.push_back(sign * 2.0L * four * inv[2 * j + 2]);                    // S^2
+    c.A.push_back(sign * inv[2 * j + 2]);                                         // (1 - cos y)/y^2
+    c.S.push_back(sign * inv[2 * j + 1]);                                         // sin y / y
+    c.A2.push_back(sign * (8.0L * four - 2.0L) * inv[2 * j + 4]);                 // A^2
+    c.S2.push_back(sign * 2.0L * four * inv[2 * j + 2]);                          // S^2
     c.spread.push_back(sign * (32.0L * four - 4.0L * (j + 3)) * inv[2 * j + 6]);  // (D - A^2)/y^2
-    c.turn.push_back(sign * 8.0L * four * inv[2 * j + 4]);                  // (1 - S^2)/y^2
+    c.turn.push_back(sign * 8.0L * four * inv[2 * j + 4]);                        // (1 - S^2)/y^2
   }
   return c;
 }
@@ -63,8 +64,8 @@ Brackets brackets() {
 
 SectionSeries exact_series(const Section& s, double payload) {
   const long double l2 = static_cast<long double>(s.length) * s.length;
-  const long double rod_t = static_cast<long double>(s.backbone_mass) * s.backbone_diameter *
-                            s.backbone_diameter / 16.0L;
+  const long double rod_t =
+      static_cast<long double>(s.backbone_mass) * s.backbone_diameter * s.backbone_diameter / 16.0L;
   const long double disk_t =
       static_cast<long double>(s.disk_mass) * s.disk_diameter * s.disk_diameter / 16.0L;
   const Moments mass(s, s.backbone_mass, s.disk_mass, payload);

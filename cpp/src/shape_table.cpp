@@ -8,7 +8,7 @@
 namespace cdcr::detail {
 namespace {
 
-constexpr int num_pieces = 9;  // sigma up to (3 pi)^2 = max_bending^2
+constexpr int num_pieces = 9;   // sigma up to (3 pi)^2 = max_bending^2
 constexpr int num_powers = 16;  // the next is below 1e-17 of the value in every piece
 constexpr int num_groups = 3;
 constexpr int block = 4 * num_powers;

@@ -82,8 +82,8 @@ class Recorder {
 };
 
 /// One stretch without break points, from the integrator's restart to its stop time.
-Status run_segment(Integrator& integrator, Recorder& recorder, double stop,
-                   const Options& options, const Progress& progress) {
+Status run_segment(Integrator& integrator, Recorder& recorder, double stop, const Options& options,
+                   const Progress& progress) {
   while (integrator.time() < stop) {
     const long steps = integrator.stats().steps;
     if (steps >= options.max_steps) return Status::step_limit;

@@ -19,9 +19,7 @@ class Energy {
   Energy(const Model& model, VectorXd force)
       : model_(model), data_(model), force_(std::move(force)) {}
 
-  double value(const VectorXd& q) {
-    return potential_energy(model_, data_, q) - force_.dot(q);
-  }
+  double value(const VectorXd& q) { return potential_energy(model_, data_, q) - force_.dot(q); }
   VectorXd gradient(const VectorXd& q) {
     VectorXd g(q.size());
     potential_gradient(model_, data_, q, g);
@@ -137,9 +135,7 @@ Equilibrium equilibrium(const Model& model, const VectorXd& tension, const Vecto
   // A search stalled by rounding has converged as far as the arithmetic allows.
   converged = converged || result.residual <= 1e3 * energy.noise(q);
   const bool at_limit = q.segment<2>(0).norm() > 0.999 * max_bending;
-  result.status = converged    ? Status::ok
-                  : at_limit ? Status::bending_limit
-                             : Status::not_converged;
+  result.status = converged ? Status::ok : at_limit ? Status::bending_limit : Status::not_converged;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(energy.hessian(q));
   result.eigenvalues = eigen.eigenvalues();
   result.stable = result.eigenvalues.minCoeff() > 0.0;

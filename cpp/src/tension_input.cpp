@@ -86,7 +86,9 @@ bool TensionInput::holds(Index segment) const noexcept {
 void TensionInput::evaluate(double t, Index segment, const ConstVectorRef& q,
                             const ConstVectorRef& qd, VectorRef tension) const {
   if (function_) {
-    function_(t, q, qd, tension);
+    // A break point belongs to the segment after it; the one before sees the value just before it.
+    const bool beyond = segment < static_cast<Index>(times_.size()) && t >= times_[segment];
+    function_(beyond ? std::nextafter(times_[segment], -HUGE_VAL) : t, q, qd, tension);
     return;
   }
   const Index from = std::clamp<Index>(segment - 1, 0, values_.cols() - 1);

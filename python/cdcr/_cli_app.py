@@ -12,7 +12,7 @@ import typer
 from rich.console import Console
 
 import cdcr
-from cdcr import _cli_audit, _cli_figures, _cli_run, _cli_tables
+from cdcr import _cli_audit, _cli_figures, _cli_new, _cli_run, _cli_tables
 
 if TYPE_CHECKING:
     from cdcr._simulate import MethodName
@@ -141,6 +141,19 @@ def run_command(
             _cli_tables.print_report(Console(), report)
         if report.run is not None and not report.run.success:
             raise _cli_run.RunFailed(f"{report.run.message} No file was written.")
+
+
+@app.command("new", short_help="Write a scenario file to start from.")
+def new_command(
+    file: Annotated[Path, typer.Argument(metavar="FILE.toml", help="The file to write.")],
+    overwrite: Annotated[
+        bool, typer.Option("--overwrite", help="Replace a file that is there.")
+    ] = False,
+) -> None:
+    """Write a scenario file that `run` takes as it is, with every option in a comment."""
+    with _told_plainly(), _cli_run.mistakes():
+        _cli_new.write_template(file, overwrite=overwrite)
+        typer.echo(f"wrote {file}; next: cdcr run {file}")
 
 
 @app.command("audit", short_help="Hold the origin paper's claims against its own equations.")

@@ -89,5 +89,5 @@ def _marked(verdict: Verdict, words: str) -> Text:
 def _summary(claims: Sequence[Claim]) -> Text:
     counts: list[Any] = [Text(f"{len(claims)} claims: ", style="bold")]
     for i, (verdict, count) in enumerate(tally(claims).items()):
-        counts += [Text(", " if i else ""), _marked(verdict, f"{count} {verdict}")]
+        counts += [Text(", " if i else ""), _marked(verdict, f"{verdict} {count}")]
     return Text.assemble(*counts)

@@ -26,6 +26,7 @@ from cdcr.scenarios._findings import Finding
 # Modules the files are written with, and the extras that bring them.
 NEEDED = (("matplotlib", "plot"), ("xarray", "data"), ("h5netcdf", "data"), ("h5py", "data"))
 STATS = ("steps", "rejected", "evaluations", "jacobians", "newton_failures")
+MAX_NAMED = 4  # files named in one sentence
 BAR_DELAY = 1.0  # shorter runs show no progress bar [s]
 
 
@@ -176,8 +177,9 @@ def refuse_existing(out: Path, targets: tuple[Path, ...], *, overwrite: bool) ->
         raise NotADirectoryError(f"{out} is a file, not a folder to write to")
     existing = [str(path) for path in targets if path.exists()]
     if existing and not overwrite:
+        named = existing if len(existing) <= MAX_NAMED else [existing[0], "and others"]
         raise FileExistsError(
-            f"{', '.join(existing)} exist{'s' if len(existing) == 1 else ''} already; "
+            f"{', '.join(named)} exist{'s' if len(existing) == 1 else ''} already; "
             "give --overwrite to replace, or another folder with --out"
         )
 

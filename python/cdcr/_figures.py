@@ -18,9 +18,7 @@ INDEX = "index.html"
 def paper_scenarios() -> list[Scenario]:
     """Return the scenarios that redraw a figure of the paper, in its order."""
     known = [scenarios.get(name) for name in scenarios.names()]
-    return sorted(
-        (one for one in known if one.paper_figure is not None), key=lambda one: one.paper_figure or 0
-    )
+    return sorted((one for one in known if one.paper_figure), key=lambda one: one.paper_figure or 0)
 
 
 def targets(out: Path) -> tuple[Path, ...]:
@@ -83,7 +81,8 @@ def write_figures(
 def _draw(scenario: Scenario, partial: dict[str, Path]) -> None:
     run = scenario.simulate() if scenario.has_run else None
     figure = scenario.figure(run)
-    for suffix in SUFFIXES:
+    for suffix in SUFFIXES:  # the layout found for the first serves all
         # Without the date, the same picture is the same file.
         metadata = {"Date": None} if suffix == ".svg" else None
         figure.savefig(partial[f"{scenario.name}{suffix}"], metadata=metadata)
+        figure.set_layout_engine("none")

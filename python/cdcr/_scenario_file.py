@@ -2,51 +2,42 @@
 
     robot = "amouri2020"            # a known robot, a robot file, or a table [robot] with sections
     t_end = 10.0                    # [s]
-    tension = [5.0, 0.0, 0.0]       # of each cable [N]; or a table, see below
+    tension = [5.0, 0.0, 0.0]       # of each cable [N]; or tables, see `cdcr new`
 
     [initial]                       # straight and at rest without it
     theta_deg = [45.0]              # of each section; or theta [rad], or q [rad]
     phi_deg = [0.0]
 
-    [tension]                       # over time: in place
-    t = [0.0, 1.0, 2.0]             # [s]
-    rows = [[0.0, 0.0, 0.0], [5.0, 0.0, 0.0], [5.0, 5.0, 0.0]]
-    interpolation = "previous"      # or "linear"
-
-    [tension]                       # over time: from a file with the columns t, cable 1, ...
-    file = "tension.csv"
-
-Files named in it are found from the folder it is in.
+In place of tension there may be a [trajectory] or a [controller]. ``cdcr new FILE`` writes a file
+that shows everything. Files named in it are found from the folder it is in.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from cdcr import robots
-from cdcr._coordinates import bending
+from cdcr._controller_file import read_controller
 from cdcr._model import Model
 from cdcr._robot import Robot
 from cdcr._robot_file import load_robot, robot_from_table
-from cdcr._simulate import TensionTable, tension_input
-from cdcr._tension_file import read_tension_csv
-from cdcr._toml import complaints, read_toml, refuse, shown_toml
-from cdcr.scenarios import Scenario
+from cdcr._scenario_run import FILES, FileScenario
+from cdcr._scenario_values import bending_vector, length_complaints, rival_complaints, said_by
+from cdcr._tension_file import read_tension
+from cdcr._tension_shapes import TensionShapes
+from cdcr._toml import complaints, read_toml, refuse
+from cdcr._trajectory_file import read_trajectory
 
-_ANGLES = ("theta", "theta_deg", "phi", "phi_deg")
-_RIVALS = (("theta", "theta_deg"), ("phi", "phi_deg"), *(("q", angle) for angle in _ANGLES))
 # Keys that a file has in common with Scenario.
 _COMMON = ("title", "description", "source", "formulation", "t_end", "num_samples", "method")
 _OPTIONS = ("rtol", "atol", "step", "max_step", "max_steps")
+_INPUTS = ("tension", "trajectory", "controller")
 
 
-def load_scenario(path: str | PathLike[str]) -> Scenario:
+def load_scenario(path: str | PathLike[str]) -> FileScenario:
     """Return the scenario of a file, named as the file without its suffix.
 
     Raises
@@ -61,20 +52,62 @@ def load_scenario(path: str | PathLike[str]) -> Scenario:
     file = Path(path)
     table = read_toml(file, "scenario file")
     refuse(str(file), complaints(ScenarioTable, table))
+    refuse(str(file), _input_complaints(table))
     robot = _robot(table["robot"], file)
-    with _said_by(str(file)):
+    with said_by(str(file)):
         model = Model(robot, formulation=table.get("formulation", "exact"))
-    q0, qd0 = initial_state(table.get("initial", {}), len(robot.sections), file)
     given: dict[str, Any] = {"title": file.stem, "description": "", "source": str(file)}
     given |= {name: table[name] for name in (*_COMMON, *_OPTIONS) if name in table}
-    return Scenario(
-        name=file.stem,
-        robot=robot,
-        q0=q0,
-        qd0=qd0,
-        tension=_tension(table.get("tension"), model, file),
-        **given,
-    )
+    given |= _output(table.get("output", {}), table, file)
+    given |= _input(table, model, file)
+    if "initial" in table or "q0" not in given:
+        q0, qd0 = initial_state(table.get("initial", {}), len(robot.sections), file)
+        given |= {"q0": q0, "qd0": qd0}
+    return FileScenario(name=file.stem, robot=robot, **given)
+
+
+def _input_complaints(table: Mapping[str, Any]) -> list[str]:
+    found = []
+    given = [name for name in _INPUTS if name in table]
+    if len(given) > 1:
+        got = " and ".join(given)
+        found.append(f"there must be only one of tension, trajectory and controller, got {got}")
+    fed = table.get("trajectory", {}).get("feed_back", False)
+    if "trajectory" in table and "initial" in table and not fed:
+        found.append(
+            "initial needs feed_back = true in [trajectory]; without it nothing starts anywhere"
+        )
+    return found
+
+
+def _input(table: Mapping[str, Any], model: Model, file: Path) -> dict[str, Any]:
+    """Return the fields of a scenario that say what moves the robot."""
+    if "controller" in table:
+        loop = read_controller(table["controller"], model, file)
+        return {"controller": loop, "tell": loop.tell, "draw": loop.draw}
+    if "trajectory" in table:
+        motion = read_trajectory(table["trajectory"], model.num_sections, table["t_end"], file)
+        q0, qd0 = motion.start()
+        fields = {"drive": motion, "tell": motion.tell, "draw": motion.draw, "q0": q0, "qd0": qd0}
+        return fields if motion.feed_back else fields | {"method": "inverse dynamics"}
+    tension = read_tension(table.get("tension"), model, file)
+    return {"drive" if isinstance(tension, TensionShapes) else "tension": tension}
+
+
+def _output(output: Mapping[str, Any], table: Mapping[str, Any], file: Path) -> dict[str, Any]:
+    from cdcr._scenario_schema import OutputTable
+
+    found = complaints(OutputTable, output, "output")
+    if "num_samples" in output and "num_samples" in table:
+        found.append("num_samples must stand at the top or in [output], not in both")
+    refuse(str(file), found)
+    fields: dict[str, Any] = {}
+    if "num_samples" in output:
+        fields["num_samples"] = output["num_samples"]
+    if "files" in output:
+        # In the order in which files are written, the picture first; one named twice is one file.
+        fields["files"] = tuple(FILES[name] for name in FILES if name in output["files"])
+    return fields
 
 
 def _robot(value: str | dict[str, Any], file: Path) -> Robot:
@@ -82,17 +115,8 @@ def _robot(value: str | dict[str, Any], file: Path) -> Robot:
         return robot_from_table(value, where=f"{file}, [robot]")
     if value.endswith(".toml"):
         return load_robot(file.parent / value)
-    with _said_by(f"{file}, robot"):
+    with said_by(f"{file}, robot"):
         return robots.get(value)
-
-
-@contextmanager
-def _said_by(where: str) -> Iterator[None]:
-    """Begin what is refused inside with where it stands."""
-    try:
-        yield
-    except ValueError as error:
-        raise ValueError(f"{where}: {error}") from None
 
 
 def initial_state(
@@ -101,63 +125,8 @@ def initial_state(
     """Return q0 and qd0 from an [initial] table."""
     from cdcr._scenario_schema import InitialTable
 
-    found = complaints(InitialTable, table, "initial")
-    for one, other in _RIVALS:
-        if one in table and other in table:
-            found.append(f"initial must have {one} or {other}, not both")
+    found = complaints(InitialTable, table, "initial") + rival_complaints(table, "initial")
     refuse(str(file), found)
-    for key, value in table.items():
-        wanted = num_sections * (2 if key in ("q", "qd") else 1)
-        if len(value) != wanted:
-            found.append(
-                f"initial.{key} must have {_count(wanted, 'number')} for a robot with "
-                f"{_count(num_sections, 'section')}, got {shown_toml(value)}"
-            )
-    refuse(str(file), found)
-    straight = [0.0] * num_sections
-    theta = table.get("theta", np.deg2rad(table.get("theta_deg", straight)))
-    phi = table.get("phi", np.deg2rad(table.get("phi_deg", straight)))
-    q0 = table.get("q", bending(theta, phi).tolist())
-    return tuple(map(float, q0)), tuple(map(float, table.get("qd", 2 * straight)))
-
-
-def _tension(value: Any, model: Model, file: Path) -> tuple[float, ...] | TensionTable:
-    if isinstance(value, dict):
-        return _tension_over_time(value, model, file)
-    num_cables = model.num_cables
-    tension = [0.0] * num_cables if value is None else value
-    if len(tension) != num_cables:
-        wanted = f"tension must have {_count(num_cables, 'number')}, one for each cable"
-        refuse(str(file), [f"{wanted}, got {shown_toml(value)}"])
-    return tuple(map(float, tension))
-
-
-def _tension_over_time(table: dict[str, Any], model: Model, file: Path) -> TensionTable:
-    from cdcr._scenario_schema import TensionFile, TensionRows
-
-    refuse(str(file), complaints(TensionFile if "file" in table else TensionRows, table, "tension"))
-    if "file" in table:
-        where = str(file.parent / table["file"])
-        t, rows = read_tension_csv(Path(where), model.num_cables)
-    else:
-        where = f"{file}, [tension]"
-        t, rows = table["t"], table["rows"]
-        refuse(where, _row_complaints(t, rows, model.num_cables))
-    tension = TensionTable(t, rows, table.get("interpolation", "linear"))
-    with _said_by(where):
-        tension_input(model, tension)
-    return tension
-
-
-def _row_complaints(t: list[float], rows: list[list[float]], num_cables: int) -> list[str]:
-    if len(rows) != len(t):
-        return [f"rows must be as many as t, {len(t)}, got {len(rows)}"]
-    return [
-        f"rows[{i}] must have {_count(num_cables, 'number')}, one for each cable, got {len(row)}"
-        for i, row in enumerate(rows)
-        if len(row) != num_cables
-    ]
-
-
-def _count(number: int, noun: str) -> str:
-    return f"{number} {noun}" + ("" if number == 1 else "s")
+    refuse(str(file), length_complaints(table, num_sections, "initial"))
+    qd = table.get("qd", [0.0] * (2 * num_sections))
+    return bending_vector(table, num_sections), tuple(map(float, qd))

@@ -24,7 +24,7 @@ def _positive(wanted: str) -> Any:
 
 
 class ScenarioTable(BaseModel):
-    """A scenario file. The tables in robot, initial and tension are checked on their own."""
+    """A scenario file. The tables in it are checked on their own."""
 
     model_config = _STRICT
 
@@ -36,10 +36,13 @@ class ScenarioTable(BaseModel):
     )
     formulation: str = _optional("a string")
     initial: dict[str, Any] = _optional("a table with q or theta and phi, and qd")
-    tension: list[_Tension] | dict[str, Any] = _optional(
-        "an array with a number >= 0 [N] for each cable, "
-        "or a table with t and rows, or a table with file"
+    tension: list[_Tension] | list[dict[str, Any]] | dict[str, Any] = _optional(
+        "an array with a number >= 0 [N] for each cable, or tables [[tension]] with cable and "
+        "shape, or a table with t and rows, or a table with file"
     )
+    trajectory: dict[str, Any] = _optional("a table with shape, or with t or file")
+    controller: dict[str, Any] = _optional("a table with type")
+    output: dict[str, Any] = _optional("a table with num_samples or files")
     t_end: float = Field(gt=0.0, allow_inf_nan=False, description="a number > 0 [s]")
     num_samples: int = _optional(f"a whole number 2 to {MAX_SAMPLES}", ge=2, le=MAX_SAMPLES)
     method: Literal["bdf", "adams", "dopri5", "rk4"] = _optional(
@@ -52,8 +55,8 @@ class ScenarioTable(BaseModel):
     max_steps: int = _optional("a whole number > 0", gt=0, lt=2**63)
 
 
-class InitialTable(BaseModel):
-    """The [initial] table: where the robot starts, straight and at rest unless told otherwise."""
+class ReferenceTable(BaseModel):
+    """Bending vectors, or the angles of them: [controller.reference]."""
 
     model_config = _STRICT
 
@@ -62,7 +65,41 @@ class InitialTable(BaseModel):
     theta_deg: list[_Finite] = _optional("an array with a number [deg] for each section")
     phi: list[_Finite] = _optional("an array with a number [rad] for each section")
     phi_deg: list[_Finite] = _optional("an array with a number [deg] for each section")
+
+
+class InitialTable(ReferenceTable):
+    """The [initial] table: where the robot starts, straight and at rest unless told otherwise."""
+
     qd: list[_Finite] = _optional("an array with two numbers [rad/s] for each section")
+
+
+class OutputTable(BaseModel):
+    """The [output] table: what is written."""
+
+    model_config = _STRICT
+
+    num_samples: int = _optional(f"a whole number 2 to {MAX_SAMPLES}", ge=2, le=MAX_SAMPLES)
+    files: list[Literal["picture", "csv", "nc"]] = _optional(
+        'an array with one or more of "picture", "csv", "nc"', min_length=1
+    )
+
+
+class ControllerTable(BaseModel):
+    """The [controller] table of type "pid"."""
+
+    model_config = _STRICT
+
+    type: Literal["pid"] = Field(description='"pid"')
+    kp: float = Field(ge=0.0, allow_inf_nan=False, description="a number >= 0 [N m/rad]")
+    ki: float = _optional("a number >= 0 [N m/(rad s)]", ge=0.0, allow_inf_nan=False)
+    kd: float = _optional("a number >= 0 [N m s/rad]", ge=0.0, allow_inf_nan=False)
+    period: float = _positive("a number > 0 [s]")
+    feed_forward: bool = _optional("true or false")
+    anti_windup: bool = _optional("true or false")
+    min_tension: float = _optional("a number [N], or -inf for no limit")
+    max_tension: float = _optional("a number [N], or inf for no limit")
+    cables: list[int] = _optional("an array with numbers of cables, from 1", min_length=1)
+    reference: dict[str, Any] = _optional("a table with q, or theta and phi")
 
 
 class _TensionOverTime(BaseModel):

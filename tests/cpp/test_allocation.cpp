@@ -1,7 +1,6 @@
 // Tensions for a generalised force, against trying every set of cables at their limits.
 #include <doctest/doctest.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,6 +10,7 @@
 
 #include "cdcr/allocation.hpp"
 #include "cdcr/dynamics.hpp"
+#include "support/active_sets.hpp"
 #include "support/allocations.hpp"
 #include "support/cases.hpp"
 #include "support/residual.hpp"
@@ -44,88 +44,6 @@ Model evenly_spread(int num_cables) {
   return model_of(angles);
 }
 
-/// Sizes that the distance to a force and the norm of tensions are compared with.
-double force_size(const Model& model, const VectorXd& force, const VectorXd& tension) {
-  return force.norm() + model.actuation_matrix().norm() * tension.norm();
-}
-
-struct Best {
-  double distance = inf, norm = inf;
-};
-
-/// Calls body(F) for the best tensions of every choice of cables at lower, at upper, and free.
-template <class Body>
-void for_each_active_set(const Model& model, const VectorXd& force, const TensionLimits& limits,
-                         Body body) {
-  const MatrixXd& B = model.actuation_matrix();
-  const Index count = model.num_cables();
-  std::vector<bool> usable(static_cast<std::size_t>(count), limits.cables.empty());
-  for (const Index cable : limits.cables) usable[static_cast<std::size_t>(cable)] = true;
-  const int num_sets = static_cast<int>(std::lround(std::pow(3.0, count)));
-  for (int set = 0; set < num_sets; ++set) {
-    VectorXd F = VectorXd::Zero(count);
-    std::vector<Index> free;
-    bool possible = true;
-    int rest = set;
-    for (Index j = 0; j < count; ++j, rest /= 3) {
-      const int place = rest % 3;
-      if (!usable[static_cast<std::size_t>(j)]) {
-        possible = possible && place == 0;  // one of three is enough
-        continue;
-      }
-      if (place == 2) {
-        free.push_back(j);
-        continue;
-      }
-      F[j] = place == 0 ? limits.min_tension : limits.max_tension;
-      possible = possible && std::isfinite(F[j]);
-    }
-    if (!possible) continue;
-    if (!free.empty()) {
-      MatrixXd B_free(B.rows(), static_cast<Index>(free.size()));
-      for (Index k = 0; k < B_free.cols(); ++k) {
-        B_free.col(k) = B.col(free[static_cast<std::size_t>(k)]);
-      }
-      const VectorXd missing = force - B * F;
-      const VectorXd F_free = B_free.completeOrthogonalDecomposition().solve(missing);
-      for (Index k = 0; k < F_free.size(); ++k) F[free[static_cast<std::size_t>(k)]] = F_free[k];
-    }
-    body(F);
-  }
-}
-
-bool within(const VectorXd& F, const TensionLimits& limits, double slack) {
-  for (Index j = 0; j < F.size(); ++j) {
-    if (F[j] < limits.min_tension - slack || F[j] > limits.max_tension + slack) return false;
-  }
-  return true;
-}
-
-/// Least distance, and the least norm of all that come as near.
-Best best_of_all(const Model& model, const VectorXd& force, const TensionLimits& limits) {
-  std::vector<VectorXd> found;
-  for_each_active_set(model, force, limits, [&](const VectorXd& F) {
-    VectorXd used = F;
-    if (!limits.cables.empty()) {
-      used.resize(static_cast<Index>(limits.cables.size()));
-      for (Index k = 0; k < used.size(); ++k) {
-        used[k] = F[limits.cables[static_cast<std::size_t>(k)]];
-      }
-    }
-    if (within(used, limits, 1e-12 * (1.0 + F.norm()))) found.push_back(F);
-  });
-  Best best;
-  const auto distance_of = [&](const VectorXd& F) {
-    return (model.actuation_matrix() * F - force).norm();
-  };
-  for (const VectorXd& F : found) best.distance = std::fmin(best.distance, distance_of(F));
-  for (const VectorXd& F : found) {
-    const double slack = 1e-11 * force_size(model, force, F);
-    if (distance_of(F) <= best.distance + slack) best.norm = std::fmin(best.norm, F.norm());
-  }
-  return best;
-}
-
 void check_against_all(const Model& model, const VectorXd& force, const TensionLimits& limits) {
   CAPTURE(model.actuation_matrix());
   CAPTURE(force.transpose());
@@ -151,9 +69,8 @@ void check_against_all(const Model& model, const VectorXd& force, const TensionL
     }
   }
   for (Index j = 0; j < model.num_cables(); ++j) {
-    const bool used = limits.cables.empty() ||
-                      std::find(limits.cables.begin(), limits.cables.end(), j) !=
-                          limits.cables.end();
+    const bool used = limits.cables.empty() || std::find(limits.cables.begin(), limits.cables.end(),
+                                                         j) != limits.cables.end();
     const double F = answer.tension[j];
     if (used) CHECK((F >= limits.min_tension && F <= limits.max_tension));
     if (!used) CHECK(F == 0.0);
@@ -238,8 +155,7 @@ TEST_CASE("three cables: slack where least needed, the others share the force") 
     const VectorXd push_pull = expected;
     for (const double pretension : {0.0, 1.5}) {
       const Allocation answer = allocate(model, force, {pretension, inf, {}});
-      const VectorXd raised =
-          (expected.array() + (pretension - expected.minCoeff())).matrix();
+      const VectorXd raised = (expected.array() + (pretension - expected.minCoeff())).matrix();
       CHECK(answer.feasible);
       CHECK(residual(answer.tension, raised) <= tolerance::closed);
       CHECK(residual(answer.tension.minCoeff(), pretension, raised.norm()) <= tolerance::closed);
@@ -272,8 +188,7 @@ TEST_CASE("the closed form of three cables and the search agree for all directio
 TEST_CASE("out of reach, it names the cables at their limits") {
   const Model model(amouri2020());
   const double radius = model.robot().sections[0].cable_radius;
-  const Allocation answer =
-      allocate(model, radius * Eigen::Vector2d(10.0, 0.0), {0.0, 4.0, {}});
+  const Allocation answer = allocate(model, radius * Eigen::Vector2d(10.0, 0.0), {0.0, 4.0, {}});
   CHECK_FALSE(answer.feasible);
   CHECK(answer.tension == Eigen::Vector3d(4.0, 0.0, 0.0));
   CHECK(answer.limiting == std::vector<Index>{0, 1, 2});

@@ -20,9 +20,7 @@ def model() -> cdcr.Model:
 
 def with_cables(*angles: float) -> cdcr.Model:
     robot = cdcr.robots.amouri2020()
-    return cdcr.Model(
-        replace(robot, sections=(replace(robot.sections[0], cable_angles=angles),))
-    )
+    return cdcr.Model(replace(robot, sections=(replace(robot.sections[0], cable_angles=angles),)))
 
 
 def test_the_force_is_met_by_tensions_of_which_one_is_zero(model: cdcr.Model) -> None:

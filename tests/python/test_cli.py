@@ -128,7 +128,7 @@ def test_modes_that_do_not_vibrate() -> None:
 @pytest.mark.parametrize(
     ("args", "sentence"),
     [
-        (["run", "x"], "there is no scenario 'x'. Known: step-tension"),
+        (["run", "x"], f"there is no scenario 'x'. Known: {', '.join(cdcr.scenarios.names())}"),
         (["run", "x.toml"], "there is no scenario file x.toml"),
         (
             ["run", "step-tension", "--method", "euler"],

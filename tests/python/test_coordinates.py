@@ -55,7 +55,7 @@ def test_a_negative_theta_bends_the_other_way() -> None:
 def test_straight_has_angle_zero_whatever_the_signs(x: float, y: float) -> None:
     theta, phi = cdcr.polar([x, y])
     assert (theta, phi) == (0.0, 0.0)
-    assert not np.signbit([theta, phi]).any()
+    assert not np.signbit(np.array([theta, phi])).any()
     assert not np.signbit(cdcr.polar([[x, y, x, y]])[1]).any()
 
 

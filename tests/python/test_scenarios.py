@@ -51,7 +51,9 @@ def test_every_scenario_is_complete() -> None:
 
 
 def test_an_unknown_name_is_refused_with_the_known_ones() -> None:
-    with pytest.raises(ValueError, match=r"^there is no scenario 'x'\. Known: step-tension$"):
+    known = ", ".join(cdcr.scenarios.names())
+    assert "free-oscillation, step-tension, two-cables" in known
+    with pytest.raises(ValueError, match=rf"^there is no scenario 'x'\. Known: {known}$"):
         cdcr.scenarios.get("x")
     with pytest.raises(ValueError, match=r"Did you mean 'step-tension'\?"):
         cdcr.scenarios.get("step_tension")
@@ -112,6 +114,7 @@ def test_mean_of_theta_over_whole_periods(scenario: Scenario, run: cdcr.Trajecto
 
 @pytest.mark.parametrize("method", ["bdf", "adams", "dopri5", "rk4"])
 def test_overrides_reach_the_integrator(scenario: Scenario, method: Any) -> None:
+    assert isinstance(scenario.tension, tuple)
     run = scenario.simulate(method=method, t_end=0.1, num_samples=3)
     plain = cdcr.simulate(
         cdcr.Model(scenario.robot),
@@ -264,7 +267,8 @@ def test_the_picture_shows_robot_angles_and_tensions(
     assert phi.get_ylabel() == r"orientation $\varphi$ [deg]"
     assert tension.get_ylabel() == "tension [N]"
     assert tension.get_xlabel() == "time [s]"
-    curve, static = theta.get_lines()
+    curve, static, paper = theta.get_lines()
+    assert np.asarray(paper.get_ydata()) == pytest.approx(15.53)
     np.testing.assert_array_equal(np.asarray(curve.get_ydata()), np.rad2deg(run.theta[:, 0]))
     assert np.asarray(static.get_ydata()) == pytest.approx(14.9778, abs=1e-4)
     assert "14.98 deg" in theta.get_title("left")

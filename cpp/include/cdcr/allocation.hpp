@@ -50,9 +50,9 @@ class Allocator {
   void left_for_free() noexcept;
 
   double low_, high_;
-  double scale_ = 1.0;                 // largest column of B, so that lengths are near one
-  MatrixXd B_, normal_;                // B/scale; sum of b b^T over the free cables
-  VectorXd Q_, rest_, lambda_;         // Q/scale; what the free cables must give; multipliers
+  double scale_ = 1.0;          // largest column of B, so that lengths are near one
+  MatrixXd B_, normal_;         // B/scale; sum of b b^T over the free cables
+  VectorXd Q_, rest_, lambda_;  // Q/scale; what the free cables must give; multipliers
   VectorXd F_, tension_, force_;
   // Closed form: B null = 0 with null > 0, and the pseudo-inverse of B/scale (3, 2).
   Vector3d null_ = Vector3d::Zero();

@@ -8,10 +8,10 @@ namespace cdcr {
 /// Gains of a PID loop on the bending vectors, whose output is a generalised force. The same for
 /// every component, so the loop has no preferred direction.
 struct PidOptions {
-  double kp = 0.0;         ///< [N m/rad], >= 0
-  double ki = 0.0;         ///< [N m/(rad s)], >= 0
-  double kd = 0.0;         ///< [N m s/rad], >= 0, on the measured rate
-  double period = 1e-3;    ///< [s], > 0
+  double kp = 0.0;           ///< [N m/rad], >= 0
+  double ki = 0.0;           ///< [N m/(rad s)], >= 0
+  double kd = 0.0;           ///< [N m s/rad], >= 0, on the measured rate
+  double period = 1e-3;      ///< [s], > 0
   bool feed_forward = true;  ///< adds the force that holds the reference still, dU/dq
   bool anti_windup = true;   ///< stops integrating what the tension limits cannot give
   TensionLimits limits;

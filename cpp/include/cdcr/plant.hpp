@@ -47,7 +47,7 @@ class Plant {
   Controller* controller_;
   Data data_;
   VectorXd tension_, force_;
-  Index segment_ = 0;  // of the input, or periods of the controller made
+  Index segment_ = 0;   // of the input, or periods of the controller made
   double start_ = 0.0;  // of the controller's first period
   double segment_end_ = 0.0;
   bool force_holds_ = false;  // over the whole segment

@@ -7,9 +7,9 @@ namespace cdcr {
 
 /// A point of rest and whether the robot stays there.
 struct Equilibrium {
-  VectorXd q;            ///< (2n) [rad]
-  VectorXd eigenvalues;  ///< of the stiffness d2U/dq2 at q, increasing (2n) [N m/rad]
-  bool stable = false;   ///< all eigenvalues positive
+  VectorXd q;             ///< (2n) [rad]
+  VectorXd eigenvalues;   ///< of the stiffness d2U/dq2 at q, increasing (2n) [N m/rad]
+  bool stable = false;    ///< all eigenvalues positive
   double residual = 0.0;  ///< largest component of dU/dq - B F [N m]
   int iterations = 0;
   Status status = Status::not_converged;

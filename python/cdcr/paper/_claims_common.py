@@ -89,6 +89,11 @@ def excess(approximate: Any, exact: Any) -> float:
     return 100.0 * float(approximate / exact - 1.0)
 
 
+def tiny(value: Any) -> str:
+    """Return a rounding error as text."""
+    return f"{float(value):.0e}" if value else "0"
+
+
 @lru_cache(maxsize=1)
 def model() -> Model:
     """Return the exact model of Table 1."""

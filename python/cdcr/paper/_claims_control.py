@@ -15,6 +15,7 @@ from cdcr.paper._claims_common import (
     SECTION,
     Claim,
     FloatArray,
+    holds_if,
     model,
     numbers,
 )
@@ -68,7 +69,7 @@ def circle_tracking() -> Claim:
             f"{peaks[0]:.3f}, {peaks[1]:.3f} and {peaks[2]:.3f} N, cable 1 starts at {start:.3f} "
             "N. Feasible, once (19) is used with the pair of cables of the sector."
         ),
-        verdict="holds" if np.min(force) >= 0.0 and np.all(peaks > 0.0) else "does not hold",
+        verdict=holds_if(np.min(force) >= 0.0 and np.all(peaks > 0.0)),
         values=numbers(
             turns=turns, peak_1=peaks[0], peak_2=peaks[1], peak_3=peaks[2], start_1=start
         ),

@@ -19,6 +19,7 @@ from cdcr.paper._claims_common import (
     holds_if,
     model,
     numbers,
+    tiny,
 )
 from cdcr.robots import amouri2020
 
@@ -60,8 +61,8 @@ def elastic_energy() -> Claim:
         where="4.2, (18); (23)",
         claim="U = E I_b theta^2/(2 l), and so K11 = E I_b/l.",
         computed=(
-            f"The model has (18) to {energy:.0e} J, and the slope of (18) is K11 theta with K11 = "
-            f"{K:.6f} N m/rad, to {slope:.0e} N m by differences: (18) and (23) agree."
+            f"The model has (18) to {tiny(energy)} J, and the slope of (18) is K11 theta with K11 "
+            f"= {K:.6f} N m/rad, to {tiny(slope)} N m by differences: (18) and (23) agree."
         ),
         verdict=holds_if(energy < SAME and slope < 1e-9),  # differences lose some digits
         values=numbers(energy_gap=energy, slope_gap=slope, k11=K),

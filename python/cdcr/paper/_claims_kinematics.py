@@ -17,6 +17,7 @@ from cdcr.paper._claims_common import (
     holds_if,
     model,
     numbers,
+    tiny,
 )
 from cdcr.paper._claims_printed import printed_factors
 from cdcr.paper._factors import factors, taylor_coefficients
@@ -74,8 +75,8 @@ def kinematics() -> Claim:
         where="3.2, (1), (2)",
         claim="Position and orientation along an arc of constant curvature, without torsion.",
         computed=(
-            f"(1) is the integral of (4) along the arc to {integral:.0e} m; both are the model's "
-            f"pose to {pose:.0e}; at theta = 0 the frame (2) is the base's, whatever phi."
+            f"(1) is the integral of (4) along the arc to {tiny(integral)} m; both are the model's "
+            f"pose to {tiny(pose)}; at theta = 0 the frame (2) is the base's, whatever phi."
         ),
         verdict=holds_if(worst < SAME),
         values=numbers(integral_gap=integral, pose_gap=pose, straight_gap=start),
@@ -122,7 +123,7 @@ def backbone_translation() -> Claim:
         where="4.1.1, (9)-(11)",
         claim="Translation of the backbone: l^2 m_b (H1/3 thetad^2 + H2/4 phid^2)/2.",
         computed=(
-            f"(10) and (11) are the integrals over (1) to {max(first, second):.0e}; H1 = "
+            f"(10) and (11) are the integrals over (1) to {tiny(max(first, second))}; H1 = "
             f"{start.H1:.2f} at theta = 0. In the integrand of (9) m_b must mean m_b/l."
         ),
         verdict=holds_if(max(first, second) < SAME),
@@ -164,10 +165,10 @@ def singularities() -> Claim:
         where="1; 4.1.1",
         claim="Taylor expansions avoid the numerical singularities near theta = 0.",
         computed=(
-            f"In the factors, yes: (10) as it stands is wrong by up to {100 * lost:.1g} % at "
+            f"In the factors, yes: (10) as it stands is wrong by up to {100 * lost:,.0f} % at "
             f"theta of about {np.mean(theta):.0e} rad in double precision. In the motion, no: H2, "
-            f"H4, H6 and H8 are {left:.0f} at theta = 0, so M22 = 0 and (20) divides zero by zero. Bending components q = theta "
-            "(cos phi, sin phi) cure both."
+            f"H4, H6 and H8 are {left:.0f} at theta = 0, so M22 = 0 and (20) divides zero by "
+            "zero. Bending components q = theta (cos phi, sin phi) cure both."
         ),
         verdict="holds in part",
         values=numbers(h1_error_percent=100.0 * lost, phi_factors_straight=left),
@@ -206,8 +207,9 @@ def moment_of_inertia() -> Claim:
         where="4.1.4, (16), (17)",
         claim="The disks' moment of inertia turns with them; of it I_xx alone stands in (16).",
         computed=(
-            f"With I_xx = I_yy and omega of (3), omega^T I omega is I_xx |omega|^2 to {worst:.0e}: "
-            "(16) follows from (3) and (17). I_zz drops out with the spin that (3) lacks."
+            "With I_xx = I_yy and omega of (3), omega^T I omega is I_xx |omega|^2, to "
+            f"{tiny(worst)}. So (16) follows from (3) and (17); I_zz drops out with the spin that "
+            "(3) lacks."
         ),
         verdict=holds_if(worst < SAME),
         values=numbers(worst_gap=worst),

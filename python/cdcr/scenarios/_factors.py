@@ -11,6 +11,7 @@ from cdcr._core import taylor_range
 from cdcr.paper import factors
 from cdcr.robots import amouri2020
 from cdcr.scenarios._findings import Finding
+from cdcr.scenarios._paper import source
 from cdcr.scenarios._scenario import Scenario
 
 if TYPE_CHECKING:
@@ -38,7 +39,7 @@ def factor_scenario(
         name=name,
         title=title,
         description=description,
-        source=f"Amouri, Mahfoudi, Zaatri (2020), Fig. {number}, doi 10.46604/ijeti.2020.4422",
+        source=source(f"Fig. {number}"),
         paper_figure=number,
         robot=amouri2020(),
         tell=tell,

@@ -36,7 +36,7 @@ def oscillation_figure(title: str, run: Trajectory) -> StyledFigure:
         _draw_band(damped, float(run.t[-1]))
         note(damped, rf"with a damping of {1e4 * DAMPING:.2f}$\cdot 10^{{-4}}$ N m s/rad")
         _draw_amplitudes(loose, run, others)
-        note(loose, "no damping either, but loose integrators: none drawn here explains the settling")
+        note(loose, "no damping, loose integrators: none drawn here explains the settling")
         for axes in (free, damped, loose):
             panels.show_time(axes, run, named=axes is loose)
         figure.align_ylabels()

@@ -32,8 +32,7 @@ def pid_figure(title: str, run: Trajectory) -> StyledFigure:
                 _draw(tension, loop, others[loop].t, others[loop].tension[:, 0])
             angle.axhline(TARGET, color=BLACK, linewidth=0.9, linestyle=":")
             tension.axhline(0.0, color=BLACK, linewidth=0.9)
-            mark = "   (recommended)" if reading == RECOMMENDED.reading else ""
-            note(angle, words + mark)
+            note(angle, f"{words} (recommended)" if reading == RECOMMENDED.reading else words)
             tension.set_xlabel("time [s]")
             tension.set(xlim=(0.0, min(SHOWN[reading], float(run.t[-1]))), ylim=TENSIONS)
             _tell_start(tension, max(others[Loop(reading, True, True)].tension[:, 0]))
@@ -51,6 +50,7 @@ def _tell_start(axes: Axes, highest: float) -> None:
 
 
 def _draw(axes: Axes, loop: Loop, t: FloatArray, values: FloatArray) -> None:
+    chosen = loop._replace(reading=RECOMMENDED.reading) == RECOMMENDED
     axes.plot(
         t,
         values,
@@ -58,5 +58,5 @@ def _draw(axes: Axes, loop: Loop, t: FloatArray, values: FloatArray) -> None:
         linestyle="--" if loop.limited else "-",
         linewidth=1.6 if loop.limited else 3.4,
         alpha=1.0 if loop.limited else 0.4,
-        label=loop.label,
+        label=f"{loop.label} (recommended)" if chosen else loop.label,
     )

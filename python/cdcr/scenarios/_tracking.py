@@ -63,7 +63,8 @@ class Sweep(NamedTuple):
 
     def error(self, run: Trajectory) -> FloatArray:
         """Return how far a run is from the motion (N,), as a length of bending vectors [rad]."""
-        return np.linalg.norm(run.q - self.reference(run.t).q, axis=1)
+        distance: FloatArray = np.linalg.norm(run.q - self.reference(run.t).q, axis=1)
+        return distance
 
     def tell(self, scenario: Scenario, run: Trajectory) -> tuple[Finding, ...]:
         """Return the tensions needed, and how well they lead the robot."""

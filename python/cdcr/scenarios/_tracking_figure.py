@@ -58,7 +58,8 @@ def _draw_tensions(axes: Axes, sweep: Sweep, run: Trajectory) -> None:
     fine = sweep.inverse(run.model, t_end, FINE_STEP)
     coarse = sweep.inverse(run.model, t_end, STEP)
     for j in range(run.model.num_cables):
-        axes.plot(fine.t, fine.tension[:, j], color=COLORS[j], label="cable 1" if j == 0 else f"{j + 1}")
+        name = f"{j + 1}" if j else "cable 1"
+        axes.plot(fine.t, fine.tension[:, j], color=COLORS[j], label=name)
         axes.plot(coarse.t, coarse.tension[:, j], ".", color=COLORS[j], markersize=4.5)
     axes.set_ylabel("tension [N]")
     note(axes, f"by inverse dynamics; dots every {STEP:g} s")

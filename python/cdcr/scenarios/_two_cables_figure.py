@@ -25,7 +25,7 @@ def two_cables_figure(title: str, run: Trajectory) -> StyledFigure:
         panels.plot_tension(tension, run)
         for k, (axes, name) in enumerate(zip(tip, "xyz", strict=True)):
             axes.plot(run.t, run.tip[:, k], color=COLORS[0], label="moving")
-            axes.plot(run.t, tips[:, k], color=BLACK, linestyle="--", linewidth=1.2, label="settled")
+            axes.plot(run.t, tips[:, k], color=BLACK, ls="--", linewidth=1.2, label="settled")
             axes.set_ylabel(f"tip {name} [m]")
             axes.margins(y=0.12)
         legend_above(tip[0])

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from cdcr.robots import amouri2020
 from cdcr.scenarios._findings import Finding
+from cdcr.scenarios._paper import source
 from cdcr.scenarios._scenario import Scenario
 
 if TYPE_CHECKING:
@@ -34,8 +35,7 @@ SCENARIO = Scenario(
         "library: tensions make the robot move (forward dynamics), a motion asks for tensions "
         "(inverse dynamics), and a controller closes the loop."
     ),
-    source="Amouri, Mahfoudi, Zaatri (2020), section 5.3 and Fig. 11, doi 10.46604/ijeti.2020.4422; "
-    "diagram ours",
+    source=source("section 5.3 and Fig. 11") + "; diagram ours",
     paper_figure=11,
     robot=amouri2020(),
     tell=_tell,

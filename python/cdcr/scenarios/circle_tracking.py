@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from cdcr._trajectory import Trajectory
 from cdcr.robots import amouri2020
+from cdcr.scenarios._paper import source
 from cdcr.scenarios._scenario import Scenario
 from cdcr.scenarios._tracking import STEP, Sweep
 
@@ -27,12 +28,12 @@ SCENARIO = Scenario(
     title="A circle: θ = π/12, φ = π t/5",
     description=(
         "The tip goes round a circle in 10 s. Inverse dynamics gives the least non-negative "
-        "tensions of all three cables, since phi passes through every sector: 4.984 N on cable 1 at "
-        "the start, and up to 5.754 N on cable 1 at the paper's samples, every 0.2 s. The "
-        "sampled tensions, joined by lines, are then fed to the robot: without feedback or damping "
+        "tensions of all three cables, since phi passes through every sector: 4.984 N on cable 1 "
+        "at the start, and up to 5.754 N on each at the paper's samples, every 0.2 s. The sampled "
+        "tensions, joined by lines, are then fed to the robot: without feedback or damping "
         "it follows the circle to 0.05 deg."
     ),
-    source="Amouri, Mahfoudi, Zaatri (2020), section 5.3 and Fig. 12, doi 10.46604/ijeti.2020.4422",
+    source=source("section 5.3 and Fig. 12"),
     paper_figure=12,
     robot=amouri2020(),
     q0=CIRCLE.start()[0],

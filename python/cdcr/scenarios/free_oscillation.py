@@ -14,6 +14,7 @@ from cdcr._simulate import simulate
 from cdcr._trajectory import Trajectory
 from cdcr.robots import amouri2020
 from cdcr.scenarios._findings import Finding, findings
+from cdcr.scenarios._paper import source
 from cdcr.scenarios._scenario import Scenario
 
 if TYPE_CHECKING:
@@ -101,7 +102,7 @@ SCENARIO = Scenario(
         "away, or add some, but none of those drawn comes near the paper's settling: rk4 with the "
         "paper's sample step of 0.06 s still has 37 deg of amplitude after 60 s."
     ),
-    source="Amouri, Mahfoudi, Zaatri (2020), section 5.1 and Fig. 8, doi 10.46604/ijeti.2020.4422",
+    source=source("section 5.1 and Fig. 8"),
     paper_figure=8,
     robot=amouri2020(),
     q0=(START, 0.0),

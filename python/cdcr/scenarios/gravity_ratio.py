@@ -12,6 +12,7 @@ from cdcr._core import taylor_range
 from cdcr._model import Model
 from cdcr.robots import amouri2020
 from cdcr.scenarios._findings import Finding
+from cdcr.scenarios._paper import source
 from cdcr.scenarios._scenario import Scenario
 
 if TYPE_CHECKING:
@@ -41,7 +42,7 @@ def energy_ratio(theta: ArrayLike, way: str) -> NDArray[np.float64]:
 
 
 def stiffness(way: str) -> float:
-    """Return the bending stiffness d2U/dtheta2 of the straight robot, gravity included [N m/rad]."""
+    """Return the bending stiffness d2U/dtheta2 of the straight robot, with gravity [N m/rad]."""
     model = model_of(way)
     rest = np.zeros(2)
     A, _ = model.linearize(rest, rest, np.zeros(model.num_cables))
@@ -91,7 +92,7 @@ SCENARIO = Scenario(
         "so 0.27 was perhaps a ratio, read as per cent. Under 5 N on cable 1 the robot bends by "
         "14.98 deg without gravity, about 20 deg standing upright and 12 deg hanging."
     ),
-    source="Amouri, Mahfoudi, Zaatri (2020), section 4.2 and Fig. 7, doi 10.46604/ijeti.2020.4422",
+    source=source("section 4.2 and Fig. 7"),
     paper_figure=7,
     robot=amouri2020(),
     tell=_tell,

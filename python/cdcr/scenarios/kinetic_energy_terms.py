@@ -13,6 +13,7 @@ from cdcr.paper import factors, inertia
 from cdcr.robots import amouri2020
 from cdcr.scenarios._factors import cut
 from cdcr.scenarios._findings import Finding
+from cdcr.scenarios._paper import source
 from cdcr.scenarios._scenario import Scenario
 
 if TYPE_CHECKING:
@@ -85,7 +86,7 @@ SCENARIO = Scenario(
         "that holds, nearly, for M11 (0.056 % at 3 pi/5), but M22 is 13.8 % too small there, or "
         "12.6 % in eq. (21) as printed, which lacks the 1/3 and 1/4 of eq. (9)."
     ),
-    source="Amouri, Mahfoudi, Zaatri (2020), section 4.1.4 and Fig. 6, doi 10.46604/ijeti.2020.4422",
+    source=source("section 4.1.4 and Fig. 6"),
     paper_figure=6,
     robot=amouri2020(),
     tell=_tell,

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from cdcr._trajectory import Trajectory
 from cdcr.robots import amouri2020
+from cdcr.scenarios._paper import source
 from cdcr.scenarios._pid import RECOMMENDED, tell
 from cdcr.scenarios._scenario import Scenario
 
@@ -24,13 +25,13 @@ SCENARIO = Scenario(
     title="A PID loop brings the robot to 15.53 deg: three readings of its gains",
     description=(
         "The straight robot is to bend to 15.53 deg, the result of the paper's Fig. 9, by cable 1 "
-        "alone. The paper gives Kp = 2.8, KI = 0.004 and KD = 0.38 without units. With the error in "
-        "rad and a tension as output it reaches 2 deg; with the error in degrees 13.9 deg and with "
-        "a moment as output 13.8 deg, both after an instant in which the cable would have to push. "
-        "Recommended: the error in degrees, the static tension fed forward, and no tension below "
-        "zero: 15.53 deg within half a second. That loop is the run whose data are written."
+        "alone. The paper gives Kp = 2.8, KI = 0.004 and KD = 0.38 without units. With the error "
+        "in rad and a tension as output it reaches 2 deg; with the error in degrees 13.9 deg and "
+        "with a moment as output 13.8 deg, both after an instant in which the cable would have to "
+        "push. Recommended: the error in degrees, the static tension fed forward, and no tension "
+        "below zero: 15.53 deg within half a second. That loop is the run whose data are written."
     ),
-    source="Amouri, Mahfoudi, Zaatri (2020), section 5.4 and Fig. 14, doi 10.46604/ijeti.2020.4422",
+    source=source("section 5.4 and Fig. 14"),
     paper_figure=14,
     robot=amouri2020(),
     q0=(0.0, 0.0),

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from cdcr._trajectory import Trajectory
 from cdcr.robots import amouri2020
+from cdcr.scenarios._paper import source
 from cdcr.scenarios._scenario import Scenario
 from cdcr.scenarios._tracking import STEP, Sweep
 
@@ -31,7 +32,7 @@ SCENARIO = Scenario(
         "ends there, with tensions of 41.6 N on cable 1 and 20.8 N on cable 2. Fed to the robot "
         "every 0.2 s, they lead it along the same path."
     ),
-    source="Amouri, Mahfoudi, Zaatri (2020), section 5.3 and Fig. 13, doi 10.46604/ijeti.2020.4422",
+    source=source("section 5.3 and Fig. 13"),
     paper_figure=13,
     robot=amouri2020(),
     q0=PLANE.start()[0],

@@ -12,6 +12,7 @@ from cdcr._simulate import TensionTable
 from cdcr._trajectory import Trajectory
 from cdcr.robots import amouri2020
 from cdcr.scenarios._findings import Finding
+from cdcr.scenarios._paper import source
 from cdcr.scenarios._scenario import Scenario
 
 if TYPE_CHECKING:
@@ -67,8 +68,7 @@ SCENARIO = Scenario(
         "a second. The tip follows its settled positions, which are what the paper shows, and "
         "swings about them, since nothing damps it."
     ),
-    source="Amouri, Mahfoudi, Zaatri (2020), section 5.2 and Fig. 10, doi 10.46604/ijeti.2020.4422; "
-    "tensions ours",
+    source=source("section 5.2 and Fig. 10") + "; tensions ours",
     paper_figure=10,
     robot=amouri2020(),
     q0=(0.0, 0.0),

@@ -1,0 +1,144 @@
+"""What the model's methods refuse, each with its own sentence."""
+
+import math
+import re
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+import cdcr
+
+Q, QD, QDD = [0.4, -0.7], [1.5, 0.3], [-2.0, 5.0]
+TENSION = [3.0, 1.0, 0.5]
+
+
+@pytest.fixture(scope="module")
+def model() -> cdcr.Model:
+    return cdcr.Model(cdcr.robots.amouri2020(gravity=(1.0, 2.0, -9.81), payload=0.01))
+
+
+# Every method, by what it takes.
+OF_Q: dict[str, Callable[[cdcr.Model, Any], Any]] = {
+    "pose": lambda m, q: m.pose(q, 0, 0.5),
+    "tip": lambda m, q: m.tip(q),
+    "jacobian": lambda m, q: m.jacobian(q, 0, 1.0),
+    "cable_lengths": lambda m, q: m.cable_lengths(q),
+    "mass_matrix": lambda m, q: m.mass_matrix(q),
+    "potential_energy": lambda m, q: m.potential_energy(q),
+    "bias": lambda m, q: m.bias(q, QD),
+    "kinetic_energy": lambda m, q: m.kinetic_energy(q, QD),
+    "forward_dynamics": lambda m, q: m.forward_dynamics(q, QD, TENSION),
+    "inverse_dynamics": lambda m, q: m.inverse_dynamics(q, QD, QDD),
+    "linearize": lambda m, q: m.linearize(q, QD, TENSION),
+}
+OF_QD: dict[str, Callable[[cdcr.Model, Any], Any]] = {
+    "bias": lambda m, qd: m.bias(Q, qd),
+    "kinetic_energy": lambda m, qd: m.kinetic_energy(Q, qd),
+    "forward_dynamics": lambda m, qd: m.forward_dynamics(Q, qd, TENSION),
+    "inverse_dynamics": lambda m, qd: m.inverse_dynamics(Q, qd, QDD),
+    "linearize": lambda m, qd: m.linearize(Q, qd, TENSION),
+}
+OF_TENSION: dict[str, Callable[[cdcr.Model, Any], Any]] = {
+    "forward_dynamics": lambda m, tension: m.forward_dynamics(Q, QD, tension),
+    "linearize": lambda m, tension: m.linearize(Q, QD, tension),
+    "equilibrium": lambda m, tension: m.equilibrium(tension),
+    "find_equilibrium": lambda m, tension: m.find_equilibrium(tension),
+}
+
+
+def refuses(sentence: str) -> Any:
+    return pytest.raises(ValueError, match=f"^{re.escape(sentence)}$")
+
+
+@pytest.mark.parametrize("name", OF_Q)
+def test_a_bad_bending_vector_is_refused(model: cdcr.Model, name: str) -> None:
+    call = OF_Q[name]
+    with refuses("q must have shape (2,), got (3,)"):
+        call(model, [1.0, 2.0, 3.0])
+    with refuses("q must have shape (2,), got (1, 2)"):
+        call(model, [[1.0, 2.0]])
+    with refuses("q must have shape (2,), got ()"):
+        call(model, 1.0)
+    with refuses("q[1] must be finite, got nan"):
+        call(model, [0.0, math.nan])
+    with refuses("q must be numbers of shape (2,), got str"):
+        call(model, "bent")
+    with refuses("q must be numbers of shape (2,), got list"):
+        call(model, [1.0, [2.0]])
+    with refuses("q must bend each section by at most 3 pi rad, got 10 rad in section 0"):
+        call(model, [6.0, 8.0])
+
+
+@pytest.mark.parametrize("name", OF_QD)
+def test_a_bad_rate_is_refused(model: cdcr.Model, name: str) -> None:
+    with refuses("qd must have shape (2,), got (1,)"):
+        OF_QD[name](model, [1.0])
+    with refuses("qd[0] must be finite, got -inf"):
+        OF_QD[name](model, [-math.inf, 0.0])
+
+
+def test_a_bad_acceleration_is_refused(model: cdcr.Model) -> None:
+    with refuses("qdd must have shape (2,), got (0,)"):
+        model.inverse_dynamics(Q, QD, [])
+    with refuses("qdd[0] must be finite, got inf"):
+        model.inverse_dynamics(Q, QD, [math.inf, 0.0])
+
+
+@pytest.mark.parametrize("name", OF_TENSION)
+def test_a_bad_tension_is_refused(model: cdcr.Model, name: str) -> None:
+    with refuses("tension must have shape (3,), got (2,)"):
+        OF_TENSION[name](model, [1.0, 2.0])
+    with refuses("tension[2] must be finite, got nan"):
+        OF_TENSION[name](model, [1.0, 2.0, math.nan])
+    with refuses("tension[1] must be >= 0 N (a cable cannot push), got -0.5"):
+        OF_TENSION[name](model, [1.0, -0.5, 0.0])
+
+
+def test_a_bad_place_is_refused(model: cdcr.Model) -> None:
+    for call in (model.pose, model.jacobian):
+        with refuses("section must be 0 to 0, got 1"):
+            call(Q, 1, 0.5)
+        with refuses("section must be 0 to 0, got -1"):
+            call(Q, -1, 0.5)
+        with refuses("fraction must be 0 to 1, got 1.5"):
+            call(Q, 0, 1.5)
+        with refuses("fraction must be 0 to 1, got nan"):
+            call(Q, 0, math.nan)
+
+
+def test_bad_rows_are_refused(model: cdcr.Model) -> None:
+    with refuses("q must have shape (any, 2), got (2,)"):
+        model.tips(Q)
+    with refuses("q[1, 0] must be finite, got inf"):
+        model.potential_energies([[0.0, 0.0], [math.inf, 0.0]])
+    with refuses("qd must have shape (2, 2), got (1, 2)"):
+        model.kinetic_energies([[0.0, 0.0], [0.1, 0.0]], [[0.0, 0.0]])
+
+
+def test_a_bad_start_of_the_search_is_refused(model: cdcr.Model) -> None:
+    with refuses("q0 must have shape (2,), got (1,)"):
+        model.equilibrium(TENSION, [0.0])
+    with refuses("q0 must bend each section by at most 3 pi rad, got 10 rad in section 0"):
+        model.equilibrium(TENSION, [10.0, 0.0])
+
+
+def test_a_bad_point_is_refused(model: cdcr.Model) -> None:
+    with refuses("p must have shape (3,), got (2,)"):
+        model.inverse_kinematics([0.1, 0.2])
+    with refuses("p[2] must be finite, got nan"):
+        model.inverse_kinematics([0.1, 0.2, math.nan])
+
+
+def test_a_bad_robot_or_formulation_is_refused() -> None:
+    with pytest.raises(TypeError, match=r"^robot must be a cdcr\.Robot, got str$"):
+        cdcr.Model("amouri2020")  # type: ignore[arg-type]
+    with refuses(
+        "formulation must be one of ('exact', 'taylor', 'printed', 'printed-taylor'), got 'fast'"
+    ):
+        cdcr.Model(cdcr.robots.amouri2020(), formulation="fast")
+    robot = cdcr.robots.amouri2020()
+    two = replace(robot, sections=robot.sections * 2)
+    with refuses("Model takes a robot of exactly one section for now, got 2 sections"):
+        cdcr.Model(two)
