@@ -47,17 +47,17 @@ need() {
 
 check_python() {
   command -v "$python" >/dev/null || die "there is no $python here; cdcr needs Python 3.10 or \
-newer (apt-get install python3 python3-venv), or name one: make $goal PYTHON=/path/to/python3."
+newer: apt-get install python3 python3-venv, or name one with PYTHON=/path/to/python3."
   "$python" -c 'import sys; sys.exit(sys.version_info < (3, 10))' ||
     die "cdcr needs Python 3.10 or newer, $python is $("$python" -V 2>&1); \
-name another one: make $goal PYTHON=/path/to/python3."
+name another one with PYTHON=/path/to/python3."
 }
 
 # The Debian package with a part of this Python, such as python3.11-dev for "dev".
 python_package() {
   "$python" -c 'import sys; sys.exit(sys.base_prefix != "/usr")' ||
     die "$python, which is not the system's own, was installed without its $2; \
-add that, or name another Python: make $goal PYTHON=/usr/bin/python3."
+add that, or name another one with PYTHON=/usr/bin/python3."
   "$python" -c "import sys; print('python%d.%d-$1' % sys.version_info[:2])"
 }
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 import warnings
 from bisect import bisect_right
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
@@ -249,15 +250,16 @@ class TensionShapes:
         for start, end in pairwise(edges):
             stretch = bisect_right(self.break_points, start)
             within = times[(times > start) & (times < end)]
-            part = simulate_quietly(
-                model,
-                q0,
-                qd0,
-                t=np.concatenate([[start], within, [end]]),
-                tension=self._source(stretch),
-                max_steps=max_steps,
-                **options,
-            )
+            with told_once():
+                part = simulate(
+                    model,
+                    q0,
+                    qd0,
+                    t=np.concatenate([[start], within, [end]]),
+                    tension=self._source(stretch),
+                    max_steps=max_steps,
+                    **options,
+                )
             parts.append(part)
             if not part.success:
                 break
@@ -298,11 +300,12 @@ class TensionShapes:
         return run
 
 
-def simulate_quietly(model: Model, q0: ArrayLike, qd0: ArrayLike, **options: Any) -> Trajectory:
-    """Run without the warning about a Taylor formulation, which the whole run gives once."""
+@contextmanager
+def told_once() -> Iterator[None]:
+    """Keep back the warning about a Taylor formulation, which is given for the run as a whole."""
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="formulation .* holds for")
-        return simulate(model, q0, qd0, **options)
+        yield
 
 
 def total(stats: Iterable[Stats]) -> Stats:

@@ -14,7 +14,7 @@ from cdcr._model import Model
 from cdcr._motion import Motion
 from cdcr._reference import Reference
 from cdcr._simulate import simulate
-from cdcr._tension_shapes import simulate_quietly, total
+from cdcr._tension_shapes import told_once, total
 from cdcr._trajectory import Trajectory
 from cdcr.scenarios import Scenario
 from cdcr.scenarios._findings import Finding, findings
@@ -108,14 +108,17 @@ class TrackedMotion:
                 method="inverse dynamics",
             )
         if self.step is None:
-            return simulate_quietly(model, q0, qd0, t=t, tension=needed.tension_at, **options)
+            with told_once():
+                return simulate(model, q0, qd0, t=t, tension=needed.tension_at, **options)
         intervals = max(1, round(float(t[-1] - t[0]) / self.step))
-        table = self.inverse(model, np.linspace(t[0], t[-1], intervals + 1)).to_table()
-        return simulate(model, q0, qd0, t=t, tension=table, **options)
+        with told_once():
+            table = self.inverse(model, np.linspace(t[0], t[-1], intervals + 1)).to_table()
+            return simulate(model, q0, qd0, t=t, tension=table, **options)
 
     def tell(self, scenario: Scenario, run: Trajectory) -> tuple[Finding, ...]:
         """Return what every run shows, the tensions needed, and how well they lead the robot."""
-        needed = self.inverse(run.model, run.t)
+        with told_once():
+            needed = self.inverse(run.model, run.t)
         found = [*findings(scenario, run)]
         for j, tension in enumerate(needed.tension.T):
             key, cable = f"tension_{j + 1}", f"tension needed of cable {j + 1}"
@@ -161,10 +164,11 @@ class TrackedMotion:
 def _out_of_reach(needed: InverseRun) -> str:
     misses = np.flatnonzero(~needed.feasible)
     first = int(misses[0])
-    cables = " and ".join(str(cable + 1) for cable in needed.limiting[first])
+    limiting = [str(cable + 1) for cable in needed.limiting[first]]
+    cables = f"cable{'' if len(limiting) == 1 else 's'} {' and '.join(limiting)}"
     return (
         f"at t = {needed.t[first]:g} s the motion cannot be had with tensions from "
-        f"{needed.min_tension:g} to {needed.max_tension:g} N (limited by cable {cables}), nor at "
+        f"{needed.min_tension:g} to {needed.max_tension:g} N (limited by {cables}), nor at "
         f"{misses.size - 1} more of {len(needed)} samples; widen the limits, slow the motion down, "
         'or take the nearest tensions with infeasible = "nearest"'
     )

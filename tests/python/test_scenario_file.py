@@ -183,12 +183,14 @@ def test_methods_are_those_of_the_core() -> None:
         (
             FILE.replace("[5, 0, 0]", "5"),
             "tension must be an array with a number >= 0 [N] for each cable, "
-            "or a table with t and rows, or a table with file, got 5 (integer)",
+            "or tables [[tension]] with cable and shape, or a table with t and rows, "
+            "or a table with file, got 5 (integer)",
         ),
         (
             FILE.replace("[5, 0, 0]", "[5, -1, 0]"),
             "tension must be an array with a number >= 0 [N] for each cable, "
-            "or a table with t and rows, or a table with file, got -1 (integer) at tension[1]",
+            "or tables [[tension]] with cable and shape, or a table with t and rows, "
+            "or a table with file, got -1 (integer) at tension[1]",
         ),
         (
             FILE.replace("[5, 0, 0]", "[5]"),
@@ -210,6 +212,24 @@ def test_methods_are_those_of_the_core() -> None:
             FILE + "[initial]\ntheta_dge = [1]\n",
             "initial.theta_dge is not a known key. Did you mean 'theta_deg'? "
             "Known keys: q, theta, theta_deg, phi, phi_deg, qd",
+        ),
+        (
+            FILE + "[controller]\ntype = 'pid'\nkp = 1\n",
+            "there must be only one of tension, trajectory and controller, "
+            "got tension and controller",
+        ),
+        (
+            FILE + "[output]\nfiles = ['png']\n",
+            'output.files must be an array with one or more of "picture", "csv", "nc", '
+            "got 'png' (string) at output.files[0]",
+        ),
+        (
+            FILE + "[output]\nfile = ['csv']\n",
+            "output.file is not a known key. Did you mean 'files'? Known keys: num_samples, files",
+        ),
+        (
+            FILE + "num_samples = 5\n[output]\nnum_samples = 6\n",
+            "num_samples must stand at the top or in [output], not in both",
         ),
         (
             FILE + "[initial]\ntheta = [1]\ntheta_deg = [1]\n",
