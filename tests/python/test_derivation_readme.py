@@ -29,7 +29,9 @@ def sources() -> list[Path]:
         path
         for folder in folders
         for path in sorted((ROOT / folder).rglob("*"))
-        if path.suffix in {".hpp", ".cpp", ".py", ".pyi"} and "paper" not in str(path)
+        if path.suffix in {".hpp", ".cpp", ".py", ".pyi"}
+        and not {"paper", "scenarios"} & set(path.parts)
+        and "paper" not in path.name
     ]
 
 
@@ -82,8 +84,24 @@ def test_the_cpp_example_is_what_the_consumer_project_compiles() -> None:
     assert lines[start : start + len(wanted)] == wanted
 
 
-def test_the_python_example_prints_what_it_says(capsys: pytest.CaptureFixture[str]) -> None:
-    (example,), (output,) = blocks(ORIGIN, "python"), blocks(ORIGIN, "text")
+def examples() -> list[tuple[str, str]]:
+    """Each Python example with the output that stands behind it."""
+    front = (ROOT / "README.md").read_text()
+    pairs = []
+    for document in (ORIGIN, front[: front.index("## C++")]):
+        pairs += zip(blocks(document, "python"), blocks(document, "text"), strict=True)
+    return pairs
+
+
+@pytest.mark.parametrize(("example", "output"), examples())
+def test_a_python_example_prints_what_it_says(
+    example: str,
+    output: str,
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.chdir(tmp_path)  # an example may write files
     exec(example, {})
     assert capsys.readouterr().out == output
 

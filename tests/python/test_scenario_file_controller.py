@@ -1,0 +1,144 @@
+"""Controllers in a scenario file: the loop they make, and what may not be written."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import cdcr
+from cdcr._scenario_file import load_scenario
+from cdcr.scenarios import Scenario
+
+HEAD = 'robot = "amouri2020"\nt_end = 2\nnum_samples = 201\nmethod = "dopri5"\n'
+PID = 'type = "pid"\nkp = 2.0\nki = 0.5\nkd = 0.3\n'
+BENT = "[controller.reference]\ntheta_deg = [15]\nphi_deg = [60]\n"
+
+
+def load(folder: Path, controller: str) -> Scenario:
+    path = folder / "loop.toml"
+    path.write_text(f"{HEAD}[controller]\n{controller}", encoding="utf-8")
+    return load_scenario(path)
+
+
+def plain(reference: tuple[float, float], **options: object) -> cdcr.Trajectory:
+    model = cdcr.Model(cdcr.robots.amouri2020())
+    pid = cdcr.Pid(model, **options)  # type: ignore[arg-type]
+    pid.reference = reference
+    t = np.linspace(0.0, 2.0, 201)
+    return cdcr.simulate(model, [0.0, 0.0], [0.0, 0.0], t=t, controller=pid, method="dopri5")
+
+
+def test_a_loop_runs_as_the_same_call_in_python(tmp_path: Path) -> None:
+    run = load(tmp_path, PID + BENT).simulate()
+    bent = cdcr.bending(math.radians(15), math.radians(60))
+    same = plain((bent[0], bent[1]), kp=2.0, ki=0.5, kd=0.3)
+    np.testing.assert_array_equal(run.q, same.q)
+
+
+def test_everything_a_loop_may_have(tmp_path: Path) -> None:
+    text = (
+        'type = "pid"\nkp = 1\nkd = 0.2\nki = 0.1\nperiod = 0.01\nfeed_forward = false\n'
+        "anti_windup = false\nmin_tension = -inf\nmax_tension = 8\ncables = [1, 2]\n"
+        "[controller.reference]\nq = [0.1, 0.2]\n"
+    )
+    run = load(tmp_path, text).simulate()
+    options = {
+        "kp": 1.0,
+        "kd": 0.2,
+        "ki": 0.1,
+        "period": 0.01,
+        "feed_forward": False,
+        "anti_windup": False,
+        "min_tension": -math.inf,
+        "max_tension": 8.0,
+        "cables": [0, 1],
+    }
+    np.testing.assert_array_equal(run.q, plain((0.1, 0.2), **options).q)
+    np.testing.assert_array_equal(run.tension[:, 2], 0.0)
+    assert run.tension[:, :2].max() > 0.0
+
+
+def test_a_second_run_is_the_same(tmp_path: Path) -> None:
+    scenario = load(tmp_path, PID + BENT)
+    np.testing.assert_array_equal(scenario.simulate().q, scenario.simulate().q)
+
+
+def test_straight_is_held_without_a_reference(tmp_path: Path) -> None:
+    run = load(tmp_path, PID).simulate()
+    np.testing.assert_array_equal(run.q, 0.0)
+
+
+def test_what_a_loop_tells(tmp_path: Path) -> None:
+    scenario = load(tmp_path, PID + BENT)
+    run = scenario.simulate()
+    found = {one.key: one.value for one in scenario.summary(run)}
+    bent = cdcr.bending(math.radians(15), math.radians(60))
+    error = np.linalg.norm(run.q - bent, axis=1)
+    assert found["error_end_deg"] == math.degrees(error[-1])
+    assert found["tension_max_N"] == run.tension.max()
+    settled = run.t >= found["settling_s"]
+    assert np.all(error[settled] <= 0.02 * error[0])
+    assert error[np.argmax(settled) - 1] > 0.02 * error[0]
+
+
+def test_a_picture_shows_the_reference(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    scenario = load(tmp_path, PID + BENT)
+    figure = scenario.figure(scenario.simulate())
+    heights = [line.get_ydata()[0] for line in figure.axes[1].get_lines()]  # type: ignore[index]
+    assert any(abs(float(height) - 15.0) < 1e-9 for height in heights)
+
+
+@pytest.mark.parametrize(
+    ("controller", "sentence"),
+    [
+        ('type = "pd"\nkp = 1\n', ": controller.type must be \"pid\", got 'pd' (string)"),
+        ("kp = 1\n", ': controller.type is missing; it must be "pid"'),
+        (
+            PID + "kpp = 1\n",
+            ": controller.kpp is not a known key. Did you mean 'kp'? Known keys: type, kp, ki, "
+            "kd, period, feed_forward, anti_windup, min_tension, max_tension, cables, reference",
+        ),
+        (
+            PID.replace("2.0", "-2"),
+            ": controller.kp must be a number >= 0 [N m/rad], got -2 (integer)",
+        ),
+        (
+            PID + "cables = [0]\n",
+            ": controller.cables[0] must be the number of a cable, 1 to 3, got 0",
+        ),
+        (PID + "cables = [1, 1]\n", ": controller.cables[1] must differ from those before, got 1"),
+        (
+            PID + "feed_forward = 1\n",
+            ": controller.feed_forward must be true or false, got 1 (integer)",
+        ),
+        (
+            PID + BENT.replace("[15]", "[15, 20]"),
+            ": controller.reference.theta_deg must have 1 number for a robot with 1 section, "
+            "got [15, 20] (array)",
+        ),
+        (
+            PID + BENT + "theta = [1]\n",
+            ": controller.reference must have theta or theta_deg, not both",
+        ),
+        (
+            PID + BENT + "thta = [1]\n",
+            ": controller.reference.thta is not a known key. Did you mean 'theta'? "
+            "Known keys: q, theta, theta_deg, phi, phi_deg",
+        ),
+    ],
+)
+def test_what_is_wrong_with_a_controller(tmp_path: Path, controller: str, sentence: str) -> None:
+    with pytest.raises(ValueError, match="controller") as caught:
+        load(tmp_path, controller)
+    assert str(caught.value) == f"{tmp_path / 'loop.toml'}{sentence}"
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    ["min_tension = 3\nmax_tension = 2\n", "max_tension = nan\n", "[controller.reference]\nq = [20, 0]\n"],
+)
+def test_what_the_core_refuses_names_file_and_table(tmp_path: Path, wrong: str) -> None:
+    with pytest.raises(ValueError, match=r"loop\.toml, \[controller\]: "):
+        load(tmp_path, PID + wrong)
