@@ -1,5 +1,7 @@
 #include <pybind11/stl.h>
 
+#include <sstream>
+
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "cdcr/allocation.hpp"
@@ -32,8 +34,9 @@ void bind_statics(py::module_& m, PyModel& model) {
       "find_tension",
       [](const Model& self, const py::object& force, double min_tension, double max_tension) {
         if (!(min_tension >= 0.0)) {
-          throw py::value_error("min_tension must be >= 0 N (a cable cannot push), got " +
-                                std::to_string(min_tension));
+          std::ostringstream text;
+          text << "min_tension must be >= 0 N (a cable cannot push), got " << min_tension;
+          throw py::value_error(text.str());
         }
         return allocate(self, *VectorArgument(force, "force", self.num_coordinates()),
                         {min_tension, max_tension, {}});

@@ -21,8 +21,8 @@ const char* message(Status status) noexcept {
       return "The state became infinite or not a number: use a smaller step, and check the "
              "tensions and the initial state.";
     case Status::bending_limit:
-      return "A section bent beyond 3 pi rad, past the model's validity: lower the tensions, add "
-             "damping, or use a smaller step.";
+      return "A section bent beyond 3 pi rad, past the model's validity: lower the tensions; in a "
+             "run, add damping or use a smaller step.";
     case Status::invalid_tension:
       return "The tensions must be finite, not negative (a cable cannot push), and one for each "
              "cable; the state was left as it was.";

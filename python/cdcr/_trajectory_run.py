@@ -13,6 +13,7 @@ from cdcr._inverse import Infeasible, InverseRun, inverse_run
 from cdcr._model import Model
 from cdcr._motion import Motion
 from cdcr._reference import Reference
+from cdcr._scenario_values import said_by
 from cdcr._simulate import simulate
 from cdcr._tension_shapes import told_once, total
 from cdcr._trajectory import Trajectory
@@ -74,15 +75,16 @@ class TrackedMotion:
 
     def inverse(self, model: Model, t: FloatArray) -> InverseRun:
         """Return the tensions needed at times (N,) [s]."""
-        needed = inverse_run(
-            model,
-            self.reference(t),
-            min_tension=self.min_tension,
-            max_tension=self.max_tension,
-            infeasible="nearest",
-        )
-        if self.infeasible == "raise" and not np.all(needed.feasible):
-            raise ValueError(f"{self.where}: {_out_of_reach(needed)}")
+        with said_by(self.where):
+            needed = inverse_run(
+                model,
+                self.reference(t),
+                min_tension=self.min_tension,
+                max_tension=self.max_tension,
+                infeasible="nearest",
+            )
+            if self.infeasible == "raise" and not np.all(needed.feasible):
+                raise ValueError(_out_of_reach(needed))
         return needed
 
     def run(
@@ -165,7 +167,7 @@ def _out_of_reach(needed: InverseRun) -> str:
     misses = np.flatnonzero(~needed.feasible)
     first = int(misses[0])
     limiting = [str(cable + 1) for cable in needed.limiting[first]]
-    cables = f"cable{'' if len(limiting) == 1 else 's'} {' and '.join(limiting)}"
+    cables = f"cable{'' if len(limiting) == 1 else 's'} {', '.join(limiting)}"
     return (
         f"at t = {needed.t[first]:g} s the motion cannot be had with tensions from "
         f"{needed.min_tension:g} to {needed.max_tension:g} N (limited by {cables}), nor at "

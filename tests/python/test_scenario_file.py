@@ -28,6 +28,11 @@ def load(folder: Path, text: str) -> Scenario:
     return load_scenario(path)
 
 
+def load_scenario_files(folder: Path, output: str) -> tuple[str, ...]:
+    load(folder, FILE + output)
+    return load_scenario(folder / "pull.toml").files
+
+
 def refusal(folder: Path, text: str, where: str = "pull.toml") -> list[str]:
     """The sentences, without the place each must begin with."""
     with pytest.raises(ValueError, match=r"pull\.toml") as caught:
@@ -268,6 +273,19 @@ def test_what_is_wrong_in_a_part_of_a_file(
     tmp_path: Path, text: str, where: str, sentence: str
 ) -> None:
     assert refusal(tmp_path, text, where) == [sentence]
+
+
+@pytest.mark.parametrize("formulation", ["exact", "taylor", "printed", "printed-taylor"])
+def test_formulations(tmp_path: Path, formulation: str) -> None:
+    scenario = load(tmp_path, FILE + f'formulation = "{formulation}"\n')
+    assert scenario.model.formulation == formulation
+
+
+def test_what_is_written_by_default_and_when_told(tmp_path: Path) -> None:
+    assert load_scenario_files(tmp_path, "") == (".png", ".csv", ".nc")
+    output = '[output]\nnum_samples = 7\nfiles = ["nc", "picture"]\n'
+    assert load_scenario_files(tmp_path, output) == (".png", ".nc")
+    assert load(tmp_path, FILE + output).num_samples == 7
 
 
 def test_a_formulation_must_be_known(tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 import math
 import warnings
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -19,7 +20,7 @@ from cdcr.scenarios import Scenario
 ROUNDING = 1e-14
 # Of two runs at the tightest tolerance whose steps differ [rad], [rad/s].
 RUN = 1e-10
-TIGHT = {"method": "dopri5", "rtol": 1e-12, "atol": 1e-14}
+TIGHT: dict[str, Any] = {"method": "dopri5", "rtol": 1e-12, "atol": 1e-14}
 HEAD = 'robot = "amouri2020"\nt_end = 2.0\nmethod = "dopri5"\nrtol = 1e-12\natol = 1e-14\n'
 
 STEP = Step(value=5.0, at=0.3)
@@ -121,7 +122,7 @@ def restarted(edges: list[float], rows: list[list[float]], at: float) -> NDArray
     """q and qd at `at` of runs under constant tensions, one for each stretch."""
     q, qd = np.zeros(2), np.zeros(2)
     for start, end, row in zip(edges[:-1], edges[1:], rows, strict=True):
-        run = cdcr.simulate(model(), q, qd, t=[start, end], tension=row, **TIGHT)  # type: ignore[arg-type]
+        run = cdcr.simulate(model(), q, qd, t=[start, end], tension=row, **TIGHT)
         q, qd = run.q[-1], run.qd[-1]
     assert edges[-1] == at
     return np.concatenate([q, qd])
@@ -141,6 +142,24 @@ def test_a_run_over_jumps_is_one_restarted_there(method: str) -> None:
     np.testing.assert_allclose(np.concatenate([run.q[-1], run.qd[-1]]), exact, atol=limit)
     np.testing.assert_array_equal(run.tension[2], [5.0, 0.0, 3.0])
     assert run.method == method
+
+
+def test_a_jump_beside_a_sine_is_a_restart() -> None:
+    def sine(t: float) -> float:
+        return 2.0 + 1.5 * math.sin(3.0 * math.pi * t)
+
+    shapes = TensionShapes(3, [(0, STEP), (1, Sine(mean=2.0, amplitude=1.5, frequency=1.5))])
+    q, qd = np.zeros(2), np.zeros(2)
+    for t, pull in (([0.0, 0.3], 0.0), ([0.3, 2.0], 5.0)):
+
+        def function(t: float, pull: float = pull) -> list[float]:
+            return [pull, sine(t), 0.0]
+
+        run = cdcr.simulate(model(), q, qd, t=t, tension=function, **TIGHT)
+        q, qd = run.q[-1], run.qd[-1]
+    whole = shapes.run(model(), [0.0, 0.0], [0.0, 0.0], [0.0, 2.0], **TIGHT)
+    np.testing.assert_allclose(whole.q[-1], q, atol=RUN)
+    np.testing.assert_allclose(whole.qd[-1], qd, atol=RUN)
 
 
 def test_fixed_steps_keep_their_order_over_jumps() -> None:
@@ -164,7 +183,7 @@ def test_ramps_run_as_a_table() -> None:
     )
     t, rest = np.linspace(0.0, 2.0, 9), [0.0, 0.0]
     run = shapes.run(model(), rest, rest, t, **TIGHT)
-    plain = cdcr.simulate(model(), rest, rest, t=t, tension=table, **TIGHT)  # type: ignore[arg-type]
+    plain = cdcr.simulate(model(), rest, rest, t=t, tension=table, **TIGHT)
     np.testing.assert_allclose(run.q, plain.q, atol=RUN)
     np.testing.assert_allclose(run.tension, plain.tension, atol=ROUNDING)
 
@@ -177,7 +196,7 @@ def test_a_smooth_sine_runs_as_a_function() -> None:
         return [0.0, 2.0 + math.sin(4.0 * math.pi * t), 0.0]
 
     run = shapes.run(model(), rest, rest, t, **TIGHT)
-    plain = cdcr.simulate(model(), rest, rest, t=t, tension=function, **TIGHT)  # type: ignore[arg-type]
+    plain = cdcr.simulate(model(), rest, rest, t=t, tension=function, **TIGHT)
     np.testing.assert_allclose(run.q, plain.q, atol=RUN)
 
 
@@ -199,7 +218,9 @@ def test_costs_and_failures_of_the_stretches_add_up() -> None:
 
 def test_a_taylor_model_warns_once() -> None:
     taylor = cdcr.Model(cdcr.robots.amouri2020(), formulation="taylor")
-    tension = TensionShapes(3, [(0, Step(value=v, at=a)) for v, a in ((20, 0.0), (5, 0.4), (1, 0.5))])
+    tension = TensionShapes(
+        3, [(0, Step(value=v, at=a)) for v, a in ((20, 0.0), (5, 0.4), (1, 0.5))]
+    )
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         run = tension.run(taylor, [1.8, 0.0], [0.0, 0.0], np.linspace(0.0, 0.6, 7))
@@ -306,9 +327,7 @@ NO_PUSH = (
         ),
     ],
 )
-def test_what_is_wrong_with_a_shape(
-    tmp_path: Path, keys: dict[str, object], sentence: str
-) -> None:
+def test_what_is_wrong_with_a_shape(tmp_path: Path, keys: dict[str, object], sentence: str) -> None:
     text = table(**keys)
     with pytest.raises(ValueError, match="tension") as caught:
         load(tmp_path, text)

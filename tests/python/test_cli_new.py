@@ -1,0 +1,184 @@
+"""The command new: its file runs as it is, and with each of its comments switched on."""
+
+import json
+import os
+import re
+from dataclasses import fields
+from pathlib import Path
+
+import numpy as np
+import pytest
+from pydantic import BaseModel
+
+import cdcr
+
+pytest.importorskip("typer")
+pytest.importorskip("matplotlib")
+pytest.importorskip("h5netcdf")
+
+from matplotlib.figure import Figure
+from typer.testing import CliRunner, Result
+
+from cdcr import _scenario_schema, _shape_schema
+from cdcr._cli_app import app
+from cdcr._scenario_template import TEMPLATE
+
+BLOCKS = TEMPLATE.split("\n\n")
+SWITCHED_OFF = [i for i, block in enumerate(BLOCKS) if re.search(r"^#\S", block, re.MULTILINE)]
+# Tensions are shared among cables that are named by other arithmetic than among all [rad].
+NAMED_CABLES = 1e-13
+
+
+def cdcr_(*args: object) -> Result:
+    return CliRunner().invoke(app, [str(arg) for arg in args])
+
+
+def everything_in(folder: Path) -> list[str]:
+    return sorted(os.listdir(folder))  # noqa: PTH208 - hidden files count
+
+
+@pytest.fixture
+def quick(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Draw an empty picture where the picture does not matter."""
+    monkeypatch.setattr(cdcr.scenarios.Scenario, "figure", lambda self, run: Figure())
+
+
+def switched_on(i: int) -> str:
+    """The template with a block switched on, and off what cannot stand beside it."""
+    block = re.sub(r"^#(\S)", r"\1", BLOCKS[i], flags=re.MULTILINE)
+    others = "\n\n".join([*BLOCKS[:i], block, *BLOCKS[i + 1 :]])
+    if re.search(r"^\[+(tension|trajectory|controller)", block, re.MULTILINE):
+        others = re.sub(r"^tension = .*\n", "", others, flags=re.MULTILINE)
+    if re.search(r"^(\[robot\]|robot = \"robot.toml\")", block, re.MULTILINE):
+        others = re.sub(r'^robot = "amouri2020"\n', "", others, flags=re.MULTILINE)
+    return others
+
+
+def test_the_file_runs_as_it_is(tmp_path: Path) -> None:
+    path, out = tmp_path / "my.toml", tmp_path / "out"
+    result = cdcr_("new", path)
+    assert result.exit_code == 0, result.output
+    assert result.stdout == f"wrote {path}; next: cdcr run {path}\n"
+    assert path.read_text(encoding="utf-8") == TEMPLATE
+    result = cdcr_("run", path, "--out", out)
+    assert result.exit_code == 0, result.output
+    assert everything_in(out) == ["my.csv", "my.nc", "my.png"]
+    assert "14.9778" in result.stdout  # 5 N on cable 1, as in step-tension
+
+
+@pytest.mark.usefixtures("quick")
+@pytest.mark.parametrize("i", SWITCHED_OFF)
+def test_it_runs_with_each_comment_switched_on(tmp_path: Path, i: int) -> None:
+    cdcr.robots.amouri2020(damping=1e-3).save(tmp_path / "robot.toml")
+    (tmp_path / "tension.csv").write_text("t,cable 1,cable 2,cable 3\n0,0,0,0\n1,5,0,0\n")
+    lines = [f"{t},{t},{9 * t}" for t in range(11)]
+    (tmp_path / "path.csv").write_text("\n".join(["t,theta_deg 1,phi_deg 1", *lines]))
+    path = tmp_path / "my.toml"
+    path.write_text(switched_on(i), encoding="utf-8")
+    result = cdcr_("run", path, "--out", tmp_path / "out", "--json")
+    assert result.exit_code == 0, result.output
+    told = json.loads(result.stdout)
+    assert told["success"]
+    assert told["t_end"] == 10.0
+    if "[trajectory]" in BLOCKS[i]:
+        errors = [value for key, value in told["findings"].items() if key == "path_error_rad"]
+        assert len(errors) == ("feed_back = true\n" in BLOCKS[i] + "\n")
+        assert all(error < 1e-8 for error in errors)
+
+
+def test_there_are_blocks_to_switch_on() -> None:
+    assert len(SWITCHED_OFF) == 18
+    assert sum("[trajectory]" in BLOCKS[i] for i in SWITCHED_OFF) == 6
+
+
+def test_every_key_is_shown() -> None:
+    said = set(re.findall(r"\w+", TEMPLATE))
+    schemas: tuple[type[BaseModel], ...] = (
+        _scenario_schema.ScenarioTable,
+        _scenario_schema.InitialTable,
+        _scenario_schema.OutputTable,
+        _scenario_schema.ControllerTable,
+        _scenario_schema.ReferenceTable,
+        _scenario_schema.TensionRows,
+        _scenario_schema.TensionFile,
+        _shape_schema.TrajectorySamples,
+        _shape_schema.TrajectoryFile,
+        *_shape_schema.TENSION_SHAPES.values(),
+        *_shape_schema.TRAJECTORY_SHAPES.values(),
+    )
+    for schema in schemas:
+        assert set(schema.model_fields) - said == set(), schema.__name__
+    for item in (*fields(cdcr.Robot), *fields(cdcr.Section)):
+        assert {item.name, f"{item.name}_deg"} & said, item.name
+
+
+def test_defaults_shown_are_the_defaults(tmp_path: Path) -> None:
+    """The integrator and its tolerances, the number of samples, the options of a PID loop."""
+    path = tmp_path / "my.toml"
+    runs = []
+    for text in (TEMPLATE, switched_on(BLOCKS.index(next(b for b in BLOCKS if "#rtol" in b)))):
+        path.write_text(re.sub(r"^max_step = .*\n", "", text, flags=re.MULTILINE))
+        runs.append(cdcr.scenarios.Scenario.simulate(_load(path)))
+    np.testing.assert_array_equal(runs[0].q, runs[1].q)
+    pid = next(b for b in BLOCKS if "#[controller]" in b)
+    text = switched_on(BLOCKS.index(pid))
+    loops = []
+    defaults = r"^(period|feed_forward|anti_windup|min_tension|max_tension|cables) = .*\n"
+    for one in (text, re.sub(defaults, "", text, flags=re.MULTILINE)):
+        path.write_text(one)
+        loops.append(_load(path).simulate(t_end=1.0))
+    assert len(loops[0]) == 101
+    np.testing.assert_allclose(loops[0].q, loops[1].q, atol=NAMED_CABLES)
+
+
+def _load(path: Path) -> cdcr.scenarios.Scenario:
+    from cdcr._scenario_file import load_scenario
+
+    return load_scenario(path)
+
+
+@pytest.mark.usefixtures("quick")
+@pytest.mark.parametrize(
+    ("files", "written"),
+    [
+        (["csv"], ["my.csv"]),
+        (["nc", "picture"], ["my.nc", "my.png"]),
+        (["csv", "csv"], ["my.csv"]),
+    ],
+)
+def test_only_the_files_asked_for_are_written(
+    tmp_path: Path, files: list[str], written: list[str]
+) -> None:
+    path, out = tmp_path / "my.toml", tmp_path / "out"
+    path.write_text(f'robot = "amouri2020"\nt_end = 0.1\n[output]\nfiles = {files}\n')
+    result = cdcr_("run", path, "--out", out)
+    assert result.exit_code == 0, result.output
+    assert everything_in(out) == written
+    again = cdcr_("run", path, "--out", out)
+    assert again.exit_code == 2
+    assert all(str(out / name) in again.stderr for name in written)
+
+
+def test_a_file_is_replaced_only_when_told(tmp_path: Path) -> None:
+    path = tmp_path / "my.toml"
+    path.write_text("mine")
+    result = cdcr_("new", path)
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert result.stderr == f"cdcr: {path} exists already; give --overwrite to replace it\n"
+    assert path.read_text() == "mine"
+    assert cdcr_("new", path, "--overwrite").exit_code == 0
+    assert path.read_text(encoding="utf-8") == TEMPLATE
+    assert everything_in(tmp_path) == ["my.toml"]
+
+
+def test_a_file_must_be_one_that_run_takes(tmp_path: Path) -> None:
+    result = cdcr_("new", tmp_path / "my.txt")
+    assert result.exit_code == 2
+    assert result.stderr == "cdcr: the file name must end in .toml, got 'my.txt'\n"
+    result = cdcr_("new", tmp_path / "no" / "my.toml")
+    assert result.exit_code == 2
+    assert result.stderr == f"cdcr: the folder {tmp_path / 'no'} does not exist; make it first\n"
+    (tmp_path / "folder.toml").mkdir()
+    result = cdcr_("new", tmp_path / "folder.toml", "--overwrite")
+    assert result.stderr == f"cdcr: {tmp_path / 'folder.toml'} is a folder, not a file\n"
+    assert everything_in(tmp_path) == ["folder.toml"]
