@@ -22,7 +22,8 @@ std::string shape_text(const Sizes& sizes) {
 std::string index_text(Index flat, const std::vector<Index>& sizes) {
   std::string text;
   for (std::size_t i = sizes.size(); i-- > 0;) {
-    text = std::to_string(flat % sizes[i]) + (text.empty() ? "" : ", ") + text;
+    if (!text.empty()) text.insert(0, ", ");
+    text.insert(0, std::to_string(flat % sizes[i]));
     flat /= sizes[i];
   }
   return "[" + text + "]";

@@ -23,9 +23,6 @@ class VectorArgument {
   VectorArgument(const py::handle& object, const char* name, Index size)
       : array_(read_array(object, name, {size})), map_(array_.data(), array_.size()) {}
 
-  operator const Eigen::Map<const VectorXd>&() const {
-    return map_;
-  }  // NOLINT(google-explicit-constructor)
   [[nodiscard]] const Eigen::Map<const VectorXd>& operator*() const { return map_; }
 
  private:

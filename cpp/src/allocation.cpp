@@ -35,7 +35,7 @@ void check(const Model& model, const TensionLimits& limits) {
 
 }  // namespace
 
-Allocator::Allocator(const Model& model, TensionLimits limits)
+Allocator::Allocator(const Model& model, const TensionLimits& limits)
     : low_(limits.min_tension), high_(limits.max_tension), ldlt_(model.num_coordinates()) {
   check(model, limits);
   const Index m = model.num_coordinates(), c = model.num_cables();

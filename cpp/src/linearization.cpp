@@ -6,8 +6,8 @@ namespace cdcr {
 namespace {
 
 using Group = detail::ShapeTable::Group;
-using Matrix2d = Eigen::Matrix2d;
-using Vector2d = Eigen::Vector2d;
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
 
 /// M^-1 X for M = a I + b q q^T.
 Matrix2d solve_mass(double a, double b, const Vector2d& q, const Matrix2d& X) noexcept {

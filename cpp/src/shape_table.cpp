@@ -1,5 +1,6 @@
 #include "cdcr/shape_table.hpp"
 
+#include <cstddef>
 #include <limits>
 
 #include "cdcr/model.hpp"
@@ -11,7 +12,7 @@ namespace {
 constexpr int num_pieces = 9;   // sigma up to (3 pi)^2 = max_bending^2
 constexpr int num_powers = 16;  // the next is below 1e-17 of the value in every piece
 constexpr int num_groups = 3;
-constexpr int block = 4 * num_powers;
+constexpr std::ptrdiff_t block = 4 * num_powers;
 constexpr double piece_width = max_bending * max_bending / num_pieces;
 constexpr double sigma_limit = max_bending * max_bending;
 
@@ -54,7 +55,7 @@ ShapeTable::ShapeTable(const SectionSeries& s)
       for (int f = 0; f < 4; ++f) {
         const Series c = recentred(group[f], centre, half_width);
         for (int k = 0; k < num_powers; ++k) {
-          coefficients_[at + 4 * k + f] = static_cast<double>(c[k]);
+          coefficients_[at + static_cast<std::size_t>(4 * k + f)] = static_cast<double>(c[k]);
         }
       }
       at += block;
@@ -68,18 +69,19 @@ ShapeTable::Values ShapeTable::operator()(Group group, double sigma) const noexc
     return {nan, nan, nan, nan};
   }
   const double position = sigma * (1.0 / piece_width);
-  int piece = static_cast<int>(position);
+  auto piece = static_cast<std::ptrdiff_t>(position);
   if (piece == num_pieces) piece = num_pieces - 1;
-  const double t = 2.0 * (position - piece) - 1.0;
+  const double t = 2.0 * (position - static_cast<double>(piece)) - 1.0;
   const double u = t * t;
-  const double* c = coefficients_.data() + (piece * num_groups + static_cast<int>(group)) * block;
+  const double* c =
+      coefficients_.data() + (piece * num_groups + static_cast<std::ptrdiff_t>(group)) * block;
   // Even and odd powers apart: two short dependency chains in place of one long one.
   Values even, odd;
   for (int f = 0; f < 4; ++f) {
     even[f] = c[block - 8 + f];
     odd[f] = c[block - 4 + f];
   }
-  for (int k = num_powers - 4; k >= 0; k -= 2) {
+  for (std::ptrdiff_t k = num_powers - 4; k >= 0; k -= 2) {
     for (int f = 0; f < 4; ++f) {
       even[f] = even[f] * u + c[4 * k + f];
       odd[f] = odd[f] * u + c[4 * k + 4 + f];

@@ -31,13 +31,13 @@ class Energy {
     return H;
   }
   /// Rounding error that the gradient cannot get below.
-  double noise(const VectorXd& q) const {
+  [[nodiscard]] double noise(const VectorXd& q) const {
     const double elastic = model_.stiffness().maxCoeff() * q.lpNorm<Eigen::Infinity>();
     return 1e-15 * (elastic + force_.lpNorm<Eigen::Infinity>() + weight_moment());
   }
 
  private:
-  double weight_moment() const {
+  [[nodiscard]] double weight_moment() const {
     double mass = model_.robot().payload, length = 0.0;
     for (const Section& s : model_.robot().sections) {
       mass += s.backbone_mass + s.num_disks * s.disk_mass;
@@ -115,13 +115,14 @@ Equilibrium equilibrium(const Model& model, const VectorXd& tension, const Vecto
     // gradient counts as progress too.
     const double slope = gradient.dot(step);
     bool moved = false;
-    for (double factor = 1.0; factor > 1e-10 && !moved; factor *= 0.5) {
+    double factor = 1.0;
+    for (int halving = 0; halving < 33 && !moved; ++halving, factor = std::ldexp(1.0, -halving)) {
       const VectorXd trial = q + factor * step;
       if (!within_limit(trial)) continue;
       const double trial_value = energy.value(trial);
       const VectorXd trial_gradient = energy.gradient(trial);
       if (trial_value <= value + 1e-4 * factor * slope ||
-          (factor == 1.0 && trial_gradient.norm() < 0.5 * gradient.norm() &&
+          (halving == 0 && trial_gradient.norm() < 0.5 * gradient.norm() &&
            trial_value <= value + 1e-12 * std::abs(value))) {
         q = trial;
         value = trial_value;

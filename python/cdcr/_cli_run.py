@@ -18,13 +18,18 @@ from cdcr._export import new_file
 from cdcr._extras import require
 from cdcr._robot import Robot
 from cdcr._scenario_file import load_scenario
+from cdcr._scenario_run import FileScenario
 from cdcr._simulate import MethodName
 from cdcr._trajectory import Trajectory
 from cdcr.scenarios import Scenario
 from cdcr.scenarios._findings import Finding
 
-# Modules the files are written with, and the extras that bring them.
-NEEDED = (("matplotlib", "plot"), ("xarray", "data"), ("h5netcdf", "data"), ("h5py", "data"))
+# Files of a run, the modules they are written with, and the extras that bring these.
+NEEDED = {
+    ".png": (("matplotlib", "plot"),),
+    ".csv": (),
+    ".nc": (("xarray", "data"), ("h5netcdf", "data"), ("h5py", "data")),
+}
 STATS = ("steps", "rejected", "evaluations", "jacobians", "newton_failures")
 MAX_NAMED = 4  # files named in one sentence
 BAR_DELAY = 1.0  # shorter runs show no progress bar [s]
@@ -102,10 +107,12 @@ def run(
         given = {"t_end": t_end, "method": method, "rtol": rtol, "atol": atol}
         _refuse_options(scenario, given | {"max_steps": max_steps})
         return _picture(scenario, out, overwrite=overwrite)
-    targets = tuple(out / f"{scenario.name}{suffix}" for suffix in (".png", ".csv", ".nc"))
+    files = scenario.files if isinstance(scenario, FileScenario) else tuple(NEEDED)
+    targets = tuple(out / f"{scenario.name}{suffix}" for suffix in files)
     refuse_existing(out, targets, overwrite=overwrite)
-    for module, extra in NEEDED:
-        require(module, extra)
+    for suffix in files:
+        for module, extra in NEEDED[suffix]:
+            require(module, extra)
     with DelayedBar(console, scenario.name, scenario.t_end if t_end is None else t_end) as bar:
         start = time.perf_counter()
         with mistakes():
@@ -187,16 +194,16 @@ def refuse_existing(out: Path, targets: tuple[Path, ...], *, overwrite: bool) ->
 def write(
     scenario: Scenario, run: Trajectory | None, targets: tuple[Path, ...], *, overwrite: bool
 ) -> None:
-    """Write picture, CSV and netCDF of a run; they appear together when all are complete."""
+    """Write pictures and data of a run; they appear together when all are complete."""
     out = targets[0].parent
     made = [folder for folder in (out, *out.parents) if not folder.exists()]
     out.mkdir(parents=True, exist_ok=True)
     try:
         with ExitStack() as stack:
-            png, *data = [stack.enter_context(new_file(t, overwrite=overwrite)) for t in targets]
-            scenario.figure(run).savefig(png)
-            if run is not None:
-                for path in data:
+            for path in [stack.enter_context(new_file(t, overwrite=overwrite)) for t in targets]:
+                if path.suffix == ".png":
+                    scenario.figure(run).savefig(path)
+                elif run is not None:
                     run.save(path)
     except BaseException:
         with suppress(OSError):  # somebody else may have put something there

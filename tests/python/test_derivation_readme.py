@@ -87,7 +87,7 @@ def test_the_cpp_example_is_what_the_consumer_project_compiles() -> None:
 def examples() -> list[tuple[str, str]]:
     """Each Python example with the output that stands behind it."""
     front = (ROOT / "README.md").read_text()
-    pairs = []
+    pairs: list[tuple[str, str]] = []
     for document in (ORIGIN, front[: front.index("## C++")]):
         pairs += zip(blocks(document, "python"), blocks(document, "text"), strict=True)
     return pairs

@@ -13,7 +13,7 @@ namespace cdcr {
 struct TensionLimits {
   double min_tension = 0.0;
   double max_tension = std::numeric_limits<double>::infinity();
-  std::vector<Index> cables = {};
+  std::vector<Index> cables;
 };
 
 /// Finds the least-norm tensions that give a generalised force, eq. (20):
@@ -25,7 +25,7 @@ struct TensionLimits {
 /// std::invalid_argument. Run: solve and what follows it are real-time safe.
 class Allocator {
  public:
-  explicit Allocator(const Model& model, TensionLimits limits = {});
+  explicit Allocator(const Model& model, const TensionLimits& limits = {});
 
   /// Solves for force (2n) [N m]; true when the force is met.
   bool solve(const ConstVectorRef& force) noexcept;
