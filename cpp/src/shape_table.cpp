@@ -12,7 +12,7 @@ namespace {
 constexpr int num_pieces = 9;   // sigma up to (3 pi)^2 = max_bending^2
 constexpr int num_powers = 16;  // the next is below 1e-17 of the value in every piece
 constexpr int num_groups = 3;
-constexpr std::ptrdiff_t block = 4 * num_powers;
+constexpr std::ptrdiff_t block = 4 * std::ptrdiff_t{num_powers};
 constexpr double piece_width = max_bending * max_bending / num_pieces;
 constexpr double sigma_limit = max_bending * max_bending;
 
