@@ -21,7 +21,9 @@ void measure(const Harness& harness) {
               [&](long /*i*/) { keep(equilibrium(free, tension)); });
   harness.run({"equilibrium, gravity", "ns", 100}, nothing,
               [&](long /*i*/) { keep(equilibrium(heavy, tension)); });
-  const TensionLimits limits{0.5, 50.0};
+  TensionLimits limits;
+  limits.min_tension = 0.5;
+  limits.max_tension = 50.0;
   harness.run({"allocate", "ns", 100}, nothing,
               [&](long /*i*/) { keep(allocate(free, force, limits)); });
   Allocator three_cables(free, limits), four_cables(four, limits);

@@ -11,9 +11,9 @@ namespace {
 template <class Sizes>
 std::string shape_text(const Sizes& sizes) {
   std::string text = "(";
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
-    if (i > 0) text += ", ";
-    text += sizes[i] < 0 ? std::string("any") : std::to_string(sizes[i]);
+  for (const Index size : sizes) {
+    if (text.size() > 1) text += ", ";
+    text += size < 0 ? std::string("any") : std::to_string(size);
   }
   return text + (sizes.size() == 1 ? ",)" : ")");
 }
@@ -35,8 +35,10 @@ std::string index_text(Index flat, const std::vector<Index>& sizes) {
 
 }  // namespace
 
-Array read_array(const py::handle& object, const char* name, const std::vector<Index>& shape) {
-  Array array = Array::ensure(object);
+Array read_array(const py::handle& object, const char* name, std::initializer_list<Index> shape) {
+  // An array that is already right is taken as it is, past the conversion.
+  Array array =
+      Array::check_(object) ? py::reinterpret_borrow<Array>(object) : Array::ensure(object);
   if (!array) {
     PyErr_Clear();
     std::ostringstream text;
@@ -44,20 +46,22 @@ Array read_array(const py::handle& object, const char* name, const std::vector<I
          << py::str(py::type::of(object).attr("__name__")).cast<std::string>();
     refuse(text);
   }
-  const std::vector<Index> got(array.shape(), array.shape() + array.ndim());
   const bool fits =
-      got.size() == shape.size() && std::equal(got.begin(), got.end(), shape.begin(),
-                                               [](Index a, Index b) { return b < 0 || a == b; });
+      std::equal(shape.begin(), shape.end(), array.shape(), array.shape() + array.ndim(),
+                 [](Index wanted, Index got) { return wanted < 0 || wanted == got; });
+  const auto got = [&array] {
+    return std::vector<Index>(array.shape(), array.shape() + array.ndim());
+  };
   if (!fits) {
     std::ostringstream text;
-    text << name << " must have shape " << shape_text(shape) << ", got " << shape_text(got);
+    text << name << " must have shape " << shape_text(shape) << ", got " << shape_text(got());
     refuse(text);
   }
   const double* data = array.data();
   for (Index i = 0; i < array.size(); ++i) {
     if (std::isfinite(data[i])) continue;
     std::ostringstream text;
-    text << name << index_text(i, got) << " must be finite, got " << data[i];
+    text << name << index_text(i, got()) << " must be finite, got " << data[i];
     refuse(text);
   }
   return array;

@@ -3,6 +3,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <initializer_list>
 #include <string>
 
 #include "cdcr/model.hpp"
@@ -15,7 +16,7 @@ using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 /// Reads an argument as finite float64 numbers of one shape, or raises ValueError naming the
 /// argument, what was given and what is wanted. A dimension of -1 takes any size.
 [[nodiscard]] Array read_array(const py::handle& object, const char* name,
-                               const std::vector<Index>& shape);
+                               std::initializer_list<Index> shape);
 
 /// A one-dimensional argument; keeps the array alive while the map is used.
 class VectorArgument {

@@ -1,5 +1,6 @@
 #include "rk4.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cdcr::detail {
@@ -17,7 +18,8 @@ Status Rk4::restart(double t, const VectorXd& y, double t_stop) {
   stop_ = t_stop;
   count_ = 0;
   // A remainder below one part in 1e9 of a step is rounding error of the caller's times.
-  last_ = std::max(1L, static_cast<long>(std::ceil((t_stop - t) / step_size_ - 1e-9)));
+  const double steps = std::ceil((t_stop - t) / step_size_ - 1e-9);
+  last_ = static_cast<long>(std::clamp(steps, 1.0, 9e18));
   y_ = y_before_ = y;
   plant_.derivative(t_, y_.data(), stages_.k1.data());
   ++stats_.evaluations;

@@ -17,25 +17,25 @@ namespace {
 // (2 y)^(2k)/(2k)! at y = 3 pi falls below 1e-21 at k = 45.
 constexpr int num_terms = 46;
 
-/// sum over elements of (weight per element) x^p.
+/// sum over elements of (weight per element) x^p, for all p needed.
 class Moments {
  public:
-  Moments(const Section& s, long double rod, long double disk, long double tip)
-      : num_disks_(s.num_disks), rod_(rod), disk_(disk), tip_(tip) {}
-
-  long double operator()(int p) const {
-    long double sum = rod_ / (p + 1) + tip_;
-    for (int k = 1; k <= num_disks_; ++k) {
-      long double power = 1.0L;
-      for (int i = 0; i < p; ++i) power *= static_cast<long double>(k) / num_disks_;
-      sum += disk_ * power;
+  Moments(const Section& s, long double rod, long double disk, long double tip) {
+    for (int p = 0; p < 2 * num_terms + 5; ++p) sums_.push_back(rod / (p + 1) + tip);
+    for (int k = 1; k <= s.num_disks; ++k) {
+      const long double x = static_cast<long double>(k) / s.num_disks;
+      long double term = disk;
+      for (long double& sum : sums_) {
+        sum += term;
+        term *= x;
+      }
     }
-    return sum;
   }
 
+  long double operator()(int p) const { return sums_[p]; }
+
  private:
-  int num_disks_;
-  long double rod_, disk_, tip_;
+  Series sums_;
 };
 
 /// 1/n!, 4^k/(2k)! and the brackets of (9) and (10), each as the coefficient of (y^2)^j.

@@ -1,5 +1,6 @@
 #include "cdcr/shape_table.hpp"
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <limits>
 
@@ -16,19 +17,24 @@ constexpr std::ptrdiff_t block = 4 * std::ptrdiff_t{num_powers};
 constexpr double piece_width = max_bending * max_bending / num_pieces;
 constexpr double sigma_limit = max_bending * max_bending;
 
-Series derivative(const Series& f) {
+/// Coefficients of df/dsigma = f'(t)/half_width.
+Series derivative(const Series& f, long double half_width) {
   Series d;
-  for (std::size_t k = 1; k < f.size(); ++k) d.push_back(f[k] * static_cast<long double>(k));
+  for (std::size_t k = 1; k < f.size(); ++k) {
+    d.push_back(f[k] * static_cast<long double>(k) / half_width);
+  }
   return d;
 }
 
-/// Coefficients in t of f(centre + half_width t), by repeated synthetic division.
+/// Coefficients in t of f(centre + half_width t), by repeated synthetic division: as many as the
+/// table keeps of f, f' and f''.
 Series recentred(Series f, long double centre, long double half_width) {
-  if (f.size() < num_powers) f.resize(num_powers, 0.0L);  // a cut series is short
-  const std::size_t n = f.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t k = n - 1; k-- > i;) f[k] += centre * f[k + 1];
+  constexpr std::size_t kept = num_powers + 2;
+  if (f.size() < kept) f.resize(kept, 0.0L);  // a cut series is short
+  for (std::size_t i = 0; i < kept; ++i) {
+    for (std::size_t k = f.size() - 1; k-- > i;) f[k] += centre * f[k + 1];
   }
+  f.resize(kept);
   long double scale = 1.0L;
   for (long double& c : f) {
     c *= scale;
@@ -41,24 +47,21 @@ Series recentred(Series f, long double centre, long double half_width) {
 
 ShapeTable::ShapeTable(const SectionSeries& s)
     : coefficients_(static_cast<std::size_t>(num_pieces) * num_groups * block) {
-  const Series da = derivative(s.a), db = derivative(s.b);
-  const Series dA = derivative(s.G_A), dS = derivative(s.G_S);
-  const Series groups[num_groups][4] = {
-      {s.a, s.b, da, db},
-      {s.G_A, s.G_S, dA, dS},
-      {derivative(da), derivative(db), derivative(dA), derivative(dS)}};
-  std::size_t at = 0;
+  const Series* functions[4] = {&s.a, &s.b, &s.G_A, &s.G_S};
   for (int piece = 0; piece < num_pieces; ++piece) {
     const long double half_width = piece_width / 2.0L;
     const long double centre = (2 * piece + 1) * half_width;
-    for (const auto& group : groups) {
-      for (int f = 0; f < 4; ++f) {
-        const Series c = recentred(group[f], centre, half_width);
-        for (int k = 0; k < num_powers; ++k) {
-          coefficients_[at + static_cast<std::size_t>(4 * k + f)] = static_cast<double>(c[k]);
-        }
-      }
-      at += block;
+    const auto put = [&](Group group, int place, const Series& c) {
+      double* to = &coefficients_[(piece * num_groups + static_cast<int>(group)) * block + place];
+      for (int k = 0; k < num_powers; ++k) to[4 * k] = static_cast<double>(c[k]);
+    };
+    for (int f = 0; f < 4; ++f) {
+      const Group group = f < 2 ? Group::inertia : Group::gravity;
+      const Series c = recentred(*functions[f], centre, half_width);
+      const Series first = derivative(c, half_width);
+      put(group, f % 2, c);
+      put(group, f % 2 + 2, first);
+      put(Group::second, f, derivative(first, half_width));
     }
   }
 }
@@ -69,26 +72,21 @@ ShapeTable::Values ShapeTable::operator()(Group group, double sigma) const noexc
     return {nan, nan, nan, nan};
   }
   const double position = sigma * (1.0 / piece_width);
-  auto piece = static_cast<std::ptrdiff_t>(position);
+  int piece = static_cast<int>(position);
   if (piece == num_pieces) piece = num_pieces - 1;
-  const double t = 2.0 * (position - static_cast<double>(piece)) - 1.0;
+  const double t = 2.0 * (position - piece) - 1.0;
   const double u = t * t;
-  const double* c =
-      coefficients_.data() + (piece * num_groups + static_cast<std::ptrdiff_t>(group)) * block;
-  // Even and odd powers apart: two short dependency chains in place of one long one.
-  Values even, odd;
-  for (int f = 0; f < 4; ++f) {
-    even[f] = c[block - 8 + f];
-    odd[f] = c[block - 4 + f];
-  }
-  for (std::ptrdiff_t k = num_powers - 4; k >= 0; k -= 2) {
-    for (int f = 0; f < 4; ++f) {
-      even[f] = even[f] * u + c[4 * k + f];
-      odd[f] = odd[f] * u + c[4 * k + 4 + f];
-    }
-  }
-  for (int f = 0; f < 4; ++f) even[f] += t * odd[f];
-  return even;
+  const double* c = coefficients_.data() + (piece * num_groups + static_cast<int>(group)) * block;
+  // Powers 0 to 3 modulo 4 apart: four short dependency chains in place of one long one.
+  using Four = Eigen::Array4d;  // one power of the four functions
+  using Sixteen = Eigen::Array<double, 16, 1>;
+  const auto powers_from = [c](int k) { return Eigen::Map<const Sixteen>(c + 4 * k); };
+  Sixteen sums = powers_from(num_powers - 4);
+  for (int k = num_powers - 8; k >= 0; k -= 4) sums = sums * (u * u) + powers_from(k);
+  Values values;
+  Eigen::Map<Four>(values.data()) = (sums.segment<4>(0) + u * sums.segment<4>(8)) +
+                                    t * (sums.segment<4>(4) + u * sums.segment<4>(12));
+  return values;
 }
 
 }  // namespace cdcr::detail

@@ -12,6 +12,8 @@ namespace cdcr {
 namespace {
 
 constexpr int max_iterations = 200;
+// A stiffness this small beside the largest is zero but for rounding.
+constexpr double neutral = 1e-12;
 
 /// Energy to be minimised: Pi(q) = U(q) - (B F).q, whose gradient is zero at rest.
 class Energy {
@@ -139,7 +141,7 @@ Equilibrium equilibrium(const Model& model, const VectorXd& tension, const Vecto
   result.status = converged ? Status::ok : at_limit ? Status::bending_limit : Status::not_converged;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(energy.hessian(q));
   result.eigenvalues = eigen.eigenvalues();
-  result.stable = result.eigenvalues.minCoeff() > 0.0;
+  result.stable = result.eigenvalues.minCoeff() > neutral * result.eigenvalues.maxCoeff();
   return result;
 }
 

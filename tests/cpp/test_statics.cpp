@@ -43,7 +43,7 @@ void check_truthful(const Model& model, const VectorXd& tension, const Equilibri
         tolerance::rounding);
   const VectorXd eigen = Eigen::SelfAdjointEigenSolver<MatrixXd>(hessian).eigenvalues();
   CHECK(residual(found.eigenvalues, eigen) <= tolerance::rounding);
-  CHECK(found.stable == (eigen.minCoeff() > 0.0));
+  CHECK(found.stable == (eigen.minCoeff() > 1e-12 * eigen.maxCoeff()));
 }
 
 TEST_SUITE_BEGIN("statics");

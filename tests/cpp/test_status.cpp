@@ -15,8 +15,8 @@
 namespace cdcr::test {
 namespace {
 
-// not_started and invalid_tension come from the simulator (test_simulator.cpp),
-// tolerance_not_met from an implicit method (test_cvode.cpp); all others are produced here.
+// not_started and invalid_tension come from the simulator (test_simulator.cpp), tolerance_not_met
+// from an implicit method (test_cvode_promises.cpp); all others are produced here.
 const std::vector<Status> all = {
     Status::ok,
     Status::not_started,

@@ -9,7 +9,7 @@ namespace cdcr {
 struct Equilibrium {
   VectorXd q;             ///< (2n) [rad]
   VectorXd eigenvalues;   ///< of the stiffness d2U/dq2 at q, increasing (2n) [N m/rad]
-  bool stable = false;    ///< all eigenvalues positive
+  bool stable = false;    ///< all eigenvalues positive; neutral counts as not stable
   double residual = 0.0;  ///< largest component of dU/dq - B F [N m]
   int iterations = 0;
   Status status = Status::not_converged;

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "cdcr/eigen_abi.hpp"
+
 namespace cdcr {
 
 using Eigen::Index;

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <Eigen/Core>
+
+// Eigen allocates its vectors differently under -mavx, -march=native or a sanitizer, and a vector
+// freed in another way than it was allocated in ruins the heap. Library and program must therefore
+// be built with the same such flags. Where they are not, linking fails for want of this symbol,
+// whose name holds what the program was built with; the library defines its own (eigen_abi.cpp).
+#define CDCR_JOIN_NOW(a, b, c, d) a##b##c##d
+#define CDCR_JOIN(a, b, c, d) CDCR_JOIN_NOW(a, b, c, d)
+#define CDCR_EIGEN_ABI                                                                      \
+  CDCR_JOIN(build_cdcr_with_the_same_flags_alignment_, EIGEN_DEFAULT_ALIGN_BYTES, _malloc_, \
+            EIGEN_MALLOC_ALREADY_ALIGNED)
+
+namespace cdcr::detail {
+extern const char CDCR_EIGEN_ABI;
+[[gnu::used]] inline const char* const eigen_abi = &CDCR_EIGEN_ABI;
+}  // namespace cdcr::detail
