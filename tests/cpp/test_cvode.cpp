@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "cdcr/dynamics.hpp"
 #include "support/cvode_runs.hpp"
 
 namespace cdcr::test {
@@ -40,6 +41,25 @@ TEST_CASE("default tolerances keep step-tension within 1e-6 rad over 10 s") {
     CAPTURE(label(method));
     const Trajectory found = run(model, pull(5.0), state(0.0, 0.0), times, method);
     CHECK(distance(found, truth) <= tolerance::cvode_default);
+  }
+}
+
+TEST_CASE("undamped energy over 1000 s at default tolerances") {
+  // No bound follows from the tolerances: BDF damps by itself, so this states what it does.
+  const Model model(amouri2020());
+  const VectorXd times = Eigen::Vector2d(0.0, 1000.0);
+  Data data(model);
+  for (const Method method : cvode_methods) {
+    const Trajectory found = run(model, pull(0.0), state(0.7, 0.2, -1.0, 3.0), times, method);
+    REQUIRE(found.status == Status::ok);
+    double energy[2];
+    for (int i = 0; i < 2; ++i) {
+      const VectorXd q = found.q.row(i).transpose(), qd = found.qd.row(i).transpose();
+      energy[i] = potential_energy(model, data, q) + kinetic_energy(model, data, q, qd);
+    }
+    const double drift = std::abs(energy[1] / energy[0] - 1.0);
+    MESSAGE("energy drift of ", label(method), " at default tolerances: ", drift);
+    CHECK(drift < (method == Method::bdf ? 1e-4 : 1e-5));
   }
 }
 
