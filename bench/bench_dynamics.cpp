@@ -41,7 +41,12 @@ void measure(const Harness& harness, const std::string& suffix, bool gravity) {
     keep(A);
     keep(B);
   });
-  if (gravity) return;  // kinematics knows no gravity
+  if (gravity) return;  // neither kinematics nor the paper knows gravity
+  const Model cut(robot(false), Formulation::taylor);
+  harness.run({"forward_dynamics, taylor"}, nothing, [&](long i) {
+    forward_dynamics(cut, data, state(i).q, state(i).qd, tension, out);
+    keep(out);
+  });
   harness.run({"tip and jacobian"}, nothing, [&](long i) {
     const Pose end = tip(model, state(i).q);
     jacobian(model, state(i).q, 0, 1.0, J);

@@ -53,7 +53,7 @@ ShapeTable::ShapeTable(const SectionSeries& s)
     const long double centre = (2 * piece + 1) * half_width;
     const auto put = [&](Group group, int place, const Series& c) {
       double* to = &coefficients_[(piece * num_groups + static_cast<int>(group)) * block + place];
-      for (int k = 0; k < num_powers; ++k) to[4 * k] = static_cast<double>(c[k]);
+      for (std::ptrdiff_t k = 0; k < num_powers; ++k) to[4 * k] = static_cast<double>(c[k]);
     };
     for (int f = 0; f < 4; ++f) {
       const Group group = f < 2 ? Group::inertia : Group::gravity;
@@ -80,7 +80,7 @@ ShapeTable::Values ShapeTable::operator()(Group group, double sigma) const noexc
   // Powers 0 to 3 modulo 4 apart: four short dependency chains in place of one long one.
   using Four = Eigen::Array4d;  // one power of the four functions
   using Sixteen = Eigen::Array<double, 16, 1>;
-  const auto powers_from = [c](int k) { return Eigen::Map<const Sixteen>(c + 4 * k); };
+  const auto powers_from = [c](std::ptrdiff_t k) { return Eigen::Map<const Sixteen>(c + 4 * k); };
   Sixteen sums = powers_from(num_powers - 4);
   for (int k = num_powers - 8; k >= 0; k -= 4) sums = sums * (u * u) + powers_from(k);
   Values values;
