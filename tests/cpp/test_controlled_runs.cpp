@@ -5,6 +5,7 @@
 
 #include "cdcr/cdcr.hpp"
 #include "support/cases.hpp"
+#include "support/pid_loops.hpp"
 #include "support/residual.hpp"
 #include "support/runs.hpp"
 #include "support/throws.hpp"
@@ -16,25 +17,6 @@ namespace tolerance {
 /// A steady state at the end of a run long enough for the motion to die out [rad].
 constexpr double settled = 1e-10;
 }  // namespace tolerance
-
-const Eigen::Vector2d q_start(0.3, -0.2), qd_start(0.5, 1.0);
-
-/// Table 1, upright, so damped that it comes to rest within a second or two.
-Robot heavily_damped() {
-  Robot robot = amouri2020();
-  robot.gravity = {0.0, 0.0, -9.81};
-  robot.sections[0].damping = 0.1;
-  return robot;
-}
-
-PidOptions gains(double kp, double ki = 0.0, double kd = 0.0, double period = 1e-2) {
-  PidOptions options;
-  options.kp = kp;
-  options.ki = ki;
-  options.kd = kd;
-  options.period = period;
-  return options;
-}
 
 Trajectory run(const Model& model, Controller& controller, const VectorXd& times,
                Method method = Method::rk4, double step = 1e-3) {
