@@ -33,19 +33,25 @@ std::string index_text(Index flat, const std::vector<Index>& sizes) {
   throw py::value_error(text.str());
 }
 
+Array convert(const py::handle& object, const char* name, std::initializer_list<Index> shape) {
+  // An array that is already right is taken as it is, past the conversion.
+  if (Array::check_(object)) return py::reinterpret_borrow<Array>(object);
+  try {
+    return Array(py::reinterpret_borrow<py::object>(object));
+  } catch (const py::error_already_set& error) {
+    // Ctrl-C may strike in the middle of a conversion, and is not the argument's fault.
+    if (!error.matches(PyExc_TypeError) && !error.matches(PyExc_ValueError)) throw;
+  }
+  std::ostringstream text;
+  text << name << " must be numbers of shape " << shape_text(shape) << ", got "
+       << py::str(py::type::of(object).attr("__name__")).cast<std::string>();
+  refuse(text);
+}
+
 }  // namespace
 
 Array read_array(const py::handle& object, const char* name, std::initializer_list<Index> shape) {
-  // An array that is already right is taken as it is, past the conversion.
-  Array array =
-      Array::check_(object) ? py::reinterpret_borrow<Array>(object) : Array::ensure(object);
-  if (!array) {
-    PyErr_Clear();
-    std::ostringstream text;
-    text << name << " must be numbers of shape " << shape_text(shape) << ", got "
-         << py::str(py::type::of(object).attr("__name__")).cast<std::string>();
-    refuse(text);
-  }
+  const Array array = convert(object, name, shape);
   const bool fits =
       std::equal(shape.begin(), shape.end(), array.shape(), array.shape() + array.ndim(),
                  [](Index wanted, Index got) { return wanted < 0 || wanted == got; });
