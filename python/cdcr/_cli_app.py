@@ -1,8 +1,9 @@
-"""The commands: list, info, run, audit, figures."""
+"""The commands: list, info, run, new, audit, figures."""
 
 from __future__ import annotations
 
 import json
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -27,11 +28,18 @@ app = typer.Typer(
 )
 
 
+def _warn_plainly(message: Warning | str, *_: object, **__: object) -> None:
+    """Show a warning as the sentence it is, without the place in the code it came from."""
+    typer.echo(f"cdcr: warning: {message}", err=True)
+
+
 @contextmanager
 def _told_plainly() -> Iterator[None]:
     """Turn what users can mend into a sentence on stderr and an exit code, without a traceback."""
     try:
-        yield
+        with warnings.catch_warnings():
+            warnings.showwarning = _warn_plainly
+            yield
     except KeyboardInterrupt:
         typer.echo("cdcr: interrupted, no file was written", err=True)
         raise typer.Exit(130) from None

@@ -1,6 +1,5 @@
 """The command line: what it prints where, its exit codes, and one sentence for every mistake."""
 
-import os
 import re
 import subprocess
 import sys
@@ -16,10 +15,9 @@ pytest.importorskip("typer")
 pytest.importorskip("matplotlib")
 pytest.importorskip("h5netcdf")
 
-from typer.testing import CliRunner, Result
 
-from cdcr._cli_app import app
 from cdcr._cli_tables import straight_modes
+from command import cdcr_, everything_in, refused
 
 RUN_OPTIONS = ["--out", "--method", "--t-end", "--rtol", "--atol", "--overwrite", "--json"]
 SECTION: dict[str, Any] = {
@@ -30,27 +28,10 @@ SECTION: dict[str, Any] = {
 }
 
 
-def cdcr_(*args: object) -> Result:
-    return CliRunner().invoke(app, [str(arg) for arg in args])
-
-
 def python(code: str, folder: Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, cwd=folder, check=False
     )
-
-
-def everything_in(folder: Path) -> list[str]:
-    return sorted(os.listdir(folder))  # noqa: PTH208 - hidden files count
-
-
-def refused(result: Result) -> str:
-    """The only line on stderr of a command that was refused."""
-    assert result.exit_code == 2, result.output
-    assert result.stdout == ""
-    (line,) = result.stderr.splitlines()
-    assert line.startswith("cdcr: ")
-    return line.removeprefix("cdcr: ")
 
 
 def test_version() -> None:
@@ -201,3 +182,16 @@ def test_python_m_cdcr() -> None:
         [sys.executable, "-m", "cdcr", "--version"], capture_output=True, text=True, check=True
     )
     assert done.stdout == f"cdcr {cdcr.__version__}\n"
+
+
+def test_a_warning_is_a_sentence_without_its_place_in_the_code(tmp_path: Path) -> None:
+    scenario = tmp_path / "far.toml"
+    scenario.write_text(
+        'robot = "amouri2020"\nformulation = "taylor"\nt_end = 0.1\ninitial = { q = [2.0, 0.0] }\n'
+    )
+    command = [sys.executable, "-m", "cdcr", "run", str(scenario), "--out", str(tmp_path)]
+    told = subprocess.run(command, capture_output=True, text=True, check=True).stderr
+    assert told.splitlines() == [
+        "cdcr: warning: formulation 'taylor' holds for |theta| up to 3 pi/5 = 1.8850 rad; "
+        "this motion reaches 2.0000 rad"
+    ]

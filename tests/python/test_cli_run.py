@@ -3,7 +3,6 @@
 import csv
 import io
 import json
-import os
 import subprocess
 import sys
 from pathlib import Path
@@ -20,32 +19,15 @@ pytest.importorskip("h5netcdf")
 
 from matplotlib.figure import Figure
 from rich.console import Console
-from typer.testing import CliRunner, Result
+from typer.testing import Result
 
 from cdcr import _cli_run
-from cdcr._cli_app import app
 from cdcr._scenario_file import load_scenario
+from command import cdcr_, everything_in, refused
 
 FILES = ["step-tension.png", "step-tension.csv", "step-tension.nc"]
 # 500 N bends the robot beyond the largest angle within a fraction of a second.
 TOO_STRONG = 'robot = "amouri2020"\nt_end = 1\nmethod = "dopri5"\ntension = [500, 0, 0]\n'
-
-
-def cdcr_(*args: object) -> Result:
-    return CliRunner().invoke(app, [str(arg) for arg in args])
-
-
-def everything_in(folder: Path) -> list[str]:
-    return sorted(os.listdir(folder))  # noqa: PTH208 - hidden files count
-
-
-def refused(result: Result) -> str:
-    """The only line on stderr of a command that was refused."""
-    assert result.exit_code == 2, result.output
-    assert result.stdout == ""
-    (line,) = result.stderr.splitlines()
-    assert line.startswith("cdcr: ")
-    return line.removeprefix("cdcr: ")
 
 
 @pytest.fixture(scope="module")

@@ -12,15 +12,13 @@ import pytest
 from numpy.typing import ArrayLike, NDArray
 
 import cdcr
+from model_calls import OF_Q, QD, QDD, TENSION, Q
 
 # A handful of operations on numbers near one.
 ROUNDING = 1e-14
 # Central differences with a step of 1e-5: its square, and rounding over it.
 STEP = 1e-5
 DIFFERENCES = 1e-9
-
-Q, QD, QDD = [0.4, -0.7], [1.5, 0.3], [-2.0, 5.0]
-TENSION = [3.0, 1.0, 0.5]
 
 
 def hanging(**options: Any) -> cdcr.Model:
@@ -38,22 +36,6 @@ def massless() -> cdcr.Model:
     return cdcr.Model(
         replace(robot, sections=(replace(robot.sections[0], backbone_mass=0.0, disk_mass=0.0),))
     )
-
-
-# Every method, by what it takes.
-OF_Q: dict[str, Callable[[cdcr.Model, Any], Any]] = {
-    "pose": lambda m, q: m.pose(q, 0, 0.5),
-    "tip": lambda m, q: m.tip(q),
-    "jacobian": lambda m, q: m.jacobian(q, 0, 1.0),
-    "cable_lengths": lambda m, q: m.cable_lengths(q),
-    "mass_matrix": lambda m, q: m.mass_matrix(q),
-    "potential_energy": lambda m, q: m.potential_energy(q),
-    "bias": lambda m, q: m.bias(q, QD),
-    "kinetic_energy": lambda m, q: m.kinetic_energy(q, QD),
-    "forward_dynamics": lambda m, q: m.forward_dynamics(q, QD, TENSION),
-    "inverse_dynamics": lambda m, q: m.inverse_dynamics(q, QD, QDD),
-    "linearize": lambda m, q: m.linearize(q, QD, TENSION),
-}
 
 
 def refuses(sentence: str) -> Any:

@@ -9,9 +9,7 @@ from typing import Any
 import pytest
 
 import cdcr
-
-Q, QD, QDD = [0.4, -0.7], [1.5, 0.3], [-2.0, 5.0]
-TENSION = [3.0, 1.0, 0.5]
+from model_calls import OF_Q, QD, QDD, TENSION, Q
 
 
 @pytest.fixture(scope="module")
@@ -19,20 +17,7 @@ def model() -> cdcr.Model:
     return cdcr.Model(cdcr.robots.amouri2020(gravity=(1.0, 2.0, -9.81), payload=0.01))
 
 
-# Every method, by what it takes.
-OF_Q: dict[str, Callable[[cdcr.Model, Any], Any]] = {
-    "pose": lambda m, q: m.pose(q, 0, 0.5),
-    "tip": lambda m, q: m.tip(q),
-    "jacobian": lambda m, q: m.jacobian(q, 0, 1.0),
-    "cable_lengths": lambda m, q: m.cable_lengths(q),
-    "mass_matrix": lambda m, q: m.mass_matrix(q),
-    "potential_energy": lambda m, q: m.potential_energy(q),
-    "bias": lambda m, q: m.bias(q, QD),
-    "kinetic_energy": lambda m, q: m.kinetic_energy(q, QD),
-    "forward_dynamics": lambda m, q: m.forward_dynamics(q, QD, TENSION),
-    "inverse_dynamics": lambda m, q: m.inverse_dynamics(q, QD, QDD),
-    "linearize": lambda m, q: m.linearize(q, QD, TENSION),
-}
+# Every method that takes more, by what it takes.
 OF_QD: dict[str, Callable[[cdcr.Model, Any], Any]] = {
     "bias": lambda m, qd: m.bias(Q, qd),
     "kinetic_energy": lambda m, qd: m.kinetic_energy(Q, qd),

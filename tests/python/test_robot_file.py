@@ -16,23 +16,7 @@ from hypothesis import strategies as st
 import cdcr
 from cdcr._robot_file import robot_text
 from cdcr._robot_schema import RobotTable, SectionTable
-
-FILE = """\
-gravity = [0, 0, -9.81]
-payload = 0.1
-
-[[sections]]
-length = 0.8
-backbone_mass = 0.03
-backbone_diameter = 0.005
-youngs_modulus = 9.5e9
-disk_mass = 0.008
-disk_diameter = 0.04
-num_disks = 10
-cable_radius = 0.019
-cable_angles = [0.0, 2.0, 4.0]
-damping = 1e-3
-"""
+from robot_file import FILE, load, replaced
 
 not_negative = st.floats(min_value=0.0, allow_infinity=False)
 positive = st.floats(min_value=0.0, exclude_min=True, allow_infinity=False)
@@ -56,17 +40,6 @@ robots = st.builds(
     gravity=st.tuples(finite, finite, finite),
     payload=not_negative,
 )
-
-
-def load(folder: Path, text: str) -> cdcr.Robot:
-    path = folder / "robot.toml"
-    path.write_text(text, encoding="utf-8")
-    return cdcr.Robot.load(path)
-
-
-def replaced(old: str, new: str) -> str:
-    assert old in FILE
-    return FILE.replace(old, new)
 
 
 def test_a_file_as_people_write_it(tmp_path: Path) -> None:

@@ -5,31 +5,8 @@ from pathlib import Path
 
 import pytest
 
-import cdcr
 from cdcr._robot_schema import SectionTable
-
-FILE = """\
-gravity = [0, 0, -9.81]
-payload = 0.1
-
-[[sections]]
-length = 0.8
-backbone_mass = 0.03
-backbone_diameter = 0.005
-youngs_modulus = 9.5e9
-disk_mass = 0.008
-disk_diameter = 0.04
-num_disks = 10
-cable_radius = 0.019
-cable_angles = [0.0, 2.0, 4.0]
-damping = 1e-3
-"""
-
-
-def load(folder: Path, text: str) -> cdcr.Robot:
-    path = folder / "robot.toml"
-    path.write_text(text, encoding="utf-8")
-    return cdcr.Robot.load(path)
+from robot_file import FILE, load, replaced
 
 
 def refusal(folder: Path, text: str) -> list[str]:
@@ -40,11 +17,6 @@ def refusal(folder: Path, text: str) -> list[str]:
     lines = str(caught.value).split("\n")
     assert all(line.startswith(where) for line in lines), lines
     return [line.removeprefix(where) for line in lines]
-
-
-def replaced(old: str, new: str) -> str:
-    assert old in FILE
-    return FILE.replace(old, new)
 
 
 def test_angles_in_both_units_are_refused(tmp_path: Path) -> None:
