@@ -95,7 +95,7 @@ Vector3d bending3(const ConstVectorRef& q, Index section) noexcept {
 }  // namespace
 
 Pose pose(const Model& model, const ConstVectorRef& q, Index section, double fraction) noexcept {
-  Pose base;
+  Pose base{model.robot().base_orientation, Vector3d::Zero()};
   for (Index i = 0; i <= section; ++i) {
     const double x = i == section ? fraction : 1.0;
     const Vector3d q3 = bending3(q, i);
@@ -114,7 +114,7 @@ Pose tip(const Model& model, const ConstVectorRef& q) noexcept {
 void jacobian(const Model& model, const ConstVectorRef& q, Index section, double fraction,
               MatrixRef J) noexcept {
   J.setZero();
-  Pose base;
+  Pose base{model.robot().base_orientation, Vector3d::Zero()};
   for (Index i = 0; i <= section; ++i) {
     const double x = i == section ? fraction : 1.0;
     const SectionFrame frame = section_frame(model.robot().sections[i].length, x, bending3(q, i));

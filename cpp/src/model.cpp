@@ -31,34 +31,26 @@ Model::Model(Robot robot, Formulation formulation)
     : robot_(std::move(robot)), formulation_(formulation) {
   validate(robot_);
   const auto n = static_cast<Index>(robot_.sections.size());
-  if (n != 1) {
-    throw std::invalid_argument("Model takes a robot of exactly one section for now, got " +
-                                std::to_string(n) + " sections");
-  }
+  cables_ = robot_.all_cables();
   stiffness_.resize(n);
   damping_.resize(n);
-  Index num_cables = 0;
   for (Index i = 0; i < n; ++i) {
     const Section& section = robot_.sections[i];
     tables_.emplace_back(series_of(section, robot_.payload, formulation));
     stiffness_[i] = section.stiffness();
     damping_[i] = section.damping;
-    num_cables += static_cast<Index>(section.cable_angles.size());
   }
 
   // A cable runs from the base to the end of its own section: Q_k += r e(gamma) F for k <= i.
+  const auto num_cables = static_cast<Index>(cables_.size());
   actuation_.setZero(2 * n, num_cables);
   straight_lengths_.setZero(num_cables);
-  Index cable = 0;
-  for (Index i = 0; i < n; ++i) {
-    const Section& section = robot_.sections[i];
-    for (const double gamma : section.cable_angles) {
-      for (Index k = 0; k <= i; ++k) {
-        actuation_(2 * k, cable) = section.cable_radius * std::cos(gamma);
-        actuation_(2 * k + 1, cable) = section.cable_radius * std::sin(gamma);
-        straight_lengths_[cable] += robot_.sections[k].length;
-      }
-      ++cable;
+  for (Index j = 0; j < num_cables; ++j) {
+    const Cable& cable = cables_[j];
+    for (Index k = 0; k <= cable.end_section; ++k) {
+      actuation_(2 * k, j) = cable.radius * std::cos(cable.angle);
+      actuation_(2 * k + 1, j) = cable.radius * std::sin(cable.angle);
+      straight_lengths_[j] += robot_.sections[k].length;
     }
   }
 

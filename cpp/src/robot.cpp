@@ -8,7 +8,6 @@ namespace cdcr {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr int max_sections = 32;
 constexpr int max_disks = 64;
 constexpr int max_cables = 16;
 
@@ -74,6 +73,32 @@ void check_section(const Section& s, const std::string& in, Check& check) {
 double Section::stiffness() const noexcept {
   const double d2 = backbone_diameter * backbone_diameter;
   return youngs_modulus * (pi / 64.0) * d2 * d2 / length;
+}
+
+std::vector<Disk> Section::disks() const {
+  const bool equal = disk_positions.empty();
+  const auto count = equal ? static_cast<std::size_t>(num_disks) : disk_positions.size();
+  std::vector<Disk> all;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double spaced = static_cast<double>(k + 1) / static_cast<double>(count);
+    all.push_back({equal ? spaced : disk_positions[k],
+                   disk_masses.empty() ? disk_mass : disk_masses[k],
+                   disk_diameters.empty() ? disk_diameter : disk_diameters[k]});
+  }
+  return all;
+}
+
+std::vector<Cable> Robot::all_cables() const {
+  std::vector<Cable> all;
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    const Section& s = sections[i];
+    for (const double angle : s.cable_angles) {
+      all.push_back({s.cable_radius, angle, static_cast<int>(i), s.cable_stiffness,
+                     s.cable_damping, std::nullopt});
+    }
+  }
+  all.insert(all.end(), cables.begin(), cables.end());
+  return all;
 }
 
 std::vector<std::string> violations(const Section& section) {

@@ -18,3 +18,4 @@
 #include "cdcr/status.hpp"
 #include "cdcr/tension_input.hpp"
 #include "cdcr/version.hpp"
+#include "cdcr/wrench.hpp"

@@ -27,6 +27,8 @@ class Model {
   [[nodiscard]] Index num_coordinates() const noexcept { return 2 * num_sections(); }
   [[nodiscard]] Index num_cables() const noexcept { return actuation_.cols(); }
 
+  /// Every cable, in the order of tensions (num_cables).
+  [[nodiscard]] const std::vector<Cable>& cables() const noexcept { return cables_; }
   /// B of Q = B F (2n, num_cables) [m]: tensions to generalised force. Constant.
   [[nodiscard]] const MatrixXd& actuation_matrix() const noexcept { return actuation_; }
   /// Cable lengths of the straight robot (num_cables) [m].
@@ -45,6 +47,7 @@ class Model {
 
  private:
   Robot robot_;
+  std::vector<Cable> cables_;
   Formulation formulation_;
   std::vector<detail::ShapeTable> tables_;
   VectorXd stiffness_, damping_, straight_lengths_;

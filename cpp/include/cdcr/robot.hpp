@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -7,8 +8,21 @@
 
 namespace cdcr {
 
-/// One constant-curvature section: a backbone, equally spaced disks, and the cables that end
-/// at its last disk. Disk k of N sits at fraction k/N of the length.
+/// Largest number of sections of a robot.
+inline constexpr Index max_sections = 32;
+
+/// A thin rigid disk, centred on the backbone and square to it.
+struct Disk {
+  double position = 0.0;  ///< fraction of the section's length, 0 to 1
+  double mass = 0.0;      ///< [kg]
+  double diameter = 0.0;  ///< [m]
+};
+
+/// One constant-curvature section: a backbone, its disks, and the cables that end at its end.
+///
+/// Without disk_positions, disk k of num_disks sits at fraction k/num_disks of the length. The
+/// cables at cable_angles all have the section's cable_radius, cable_stiffness and cable_damping,
+/// and run through all sections before; Robot::cables takes what does not fit that.
 struct Section {
   double length = 0.0;               ///< arc length of the backbone [m], > 0
   double backbone_mass = 0.0;        ///< spread evenly along the length [kg], >= 0
@@ -20,16 +34,51 @@ struct Section {
   double cable_radius = 0.0;         ///< from backbone to cable [m], > 0 where there are cables
   std::vector<double> cable_angles;  ///< gamma_j about Z from X [rad], 0 to 16 of them
   double damping = 0.0;              ///< viscous, per bending component [N m s/rad], >= 0
+  std::vector<double> disk_positions;  ///< fractions of the length; empty: equally spaced disks
+  std::vector<double> disk_masses;     ///< one for each disk [kg]; empty: disk_mass for all
+  std::vector<double> disk_diameters;  ///< one for each disk [m]; empty: disk_diameter for all
+  double cable_stiffness = 0.0;        ///< see Cable::stiffness [N/m], >= 0
+  double cable_damping = 0.0;          ///< see Cable::damping [N s/m], >= 0
+  double cable_friction = 0.0;  ///< Coulomb's coefficient mu in this section's cable holes, >= 0
 
   /// Bending stiffness K = E I / length [N m/rad], paper eq. (23).
   [[nodiscard]] double stiffness() const noexcept;
+  /// The disks, base to tip in the order given.
+  [[nodiscard]] std::vector<Disk> disks() const;
+};
+
+/// One cable, from the base through the holes of all sections up to the end of the one it ends on.
+///
+/// A cable with a stiffness is driven by length: a spring of that stiffness, in parallel with the
+/// damping, between the cable and its drive, which pulls and never pushes. One without is driven by
+/// tension.
+struct Cable {
+  double radius = 0.0;     ///< from the backbone [m], > 0
+  double angle = 0.0;      ///< gamma about Z from X [rad]
+  int end_section = 0;     ///< index of the section whose end disk holds it
+  double stiffness = 0.0;  ///< of the cable and its drive [N/m]; 0: driven by tension
+  double damping = 0.0;    ///< along with the stiffness [N s/m], >= 0
+  std::optional<double> friction;  ///< mu in all its holes, in place of Section::cable_friction
+
+  [[nodiscard]] bool length_driven() const noexcept { return stiffness > 0.0; }
 };
 
 /// Sections from base to tip, and what acts on all of them.
+///
+/// The base frame is fixed, its origin at the base. The straight robot points along its Z, or along
+/// the third column of base_orientation.
 struct Robot {
   std::vector<Section> sections;        ///< 1 to 32
   Vector3d gravity = Vector3d::Zero();  ///< in the base frame [m/s^2]
-  double payload = 0.0;                 ///< point mass at the tip [kg], >= 0
+  double payload = 0.0;                 ///< mass carried by the tip [kg], >= 0
+  std::vector<Cable> cables;            ///< beside those of the sections, after them in order
+  Matrix3d base_orientation = Matrix3d::Identity();  ///< of the first section, in the base frame
+  Vector3d payload_position = Vector3d::Zero();  ///< its centre of mass, in the tip frame [m]
+  Matrix3d payload_inertia = Matrix3d::Zero();   ///< about that, in the tip frame [kg m^2]
+  double sliding_speed = 1e-3;  ///< cable speed that friction takes for sliding [m/s], > 0
+
+  /// Every cable: section by section those at cable_angles, then `cables`.
+  [[nodiscard]] std::vector<Cable> all_cables() const;
 };
 
 /// One sentence for each field that is out of its range, empty when all is sound. A robot's
