@@ -1,136 +1,80 @@
 #include "cdcr/dynamics.hpp"
 
+#include "chain_forward.hpp"
+#include "chain_functions.hpp"
+#include "chain_inverse.hpp"
+#include "closed_form.hpp"
+#include "dual.hpp"
+
 namespace cdcr {
-namespace {
 
-using Group = detail::ShapeTable::Group;
-using Values = detail::ShapeTable::Values;
-
-/// Adds the weight's part of dU/dq = -l [g_xy G_A + 2 (g_xy.q) G_A' q + 2 g_z G_S' q], eq. (15).
-inline void add_weight(const Model& model, double x, double y, double sigma, double& out_x,
-                       double& out_y) noexcept {
-  const auto [G_A, G_S, dG_A, dG_S] = model.table(0)(Group::gravity, sigma);
-  const Vector3d& g = model.robot().gravity;
-  const double l = model.robot().sections[0].length;
-  const double along_q = 2.0 * ((g[0] * x + g[1] * y) * dG_A + g[2] * dG_S);
-  out_x -= l * (g[0] * G_A + along_q * x);
-  out_y -= l * (g[1] * G_A + along_q * y);
-}
-
-/// h = (2 a' p + c) qd + (b' p^2 + (b - a') w) q + dU/dq, eq. (16).
-inline void section_bias(const Model& model, const Values& inertia, double x, double y, double xd,
-                         double yd, double& h_x, double& h_y) noexcept {
-  const auto [a, b, da, db] = inertia;
-  const double p = x * xd + y * yd;
-  const double w = xd * xd + yd * yd;
-  const double on_qd = 2.0 * da * p + model.damping()[0];
-  const double on_q = db * p * p + (b - da) * w + model.stiffness()[0];
-  h_x = on_qd * xd + on_q * x;
-  h_y = on_qd * yd + on_q * y;
-  if (model.has_gravity()) add_weight(model, x, y, x * x + y * y, h_x, h_y);
-}
-
-}  // namespace
-
-void actuation_force(const Model& model, const ConstVectorRef& tension, VectorRef force) noexcept {
-  // A plain loop: for so few numbers a general matrix product costs more than the dynamics.
-  const MatrixXd& B = model.actuation_matrix();
-  for (Index i = 0; i < B.rows(); ++i) {
-    double sum = 0.0;
-    for (Index j = 0; j < B.cols(); ++j) sum += B(i, j) * tension[j];
-    force[i] = sum;
-  }
-}
+namespace closed_form = detail::closed_form;
 
 void mass_matrix(const Model& model, Data& /*data*/, const ConstVectorRef& q,
                  MatrixRef M) noexcept {
-  const double x = q[0], y = q[1];
-  const Values v = model.table(0)(Group::inertia, x * x + y * y);
-  M(0, 0) = v[0] + v[1] * x * x;
-  M(0, 1) = M(1, 0) = v[1] * x * y;
-  M(1, 1) = v[0] + v[1] * y * y;
+  if (model.has_closed_form()) return closed_form::mass_matrix(model, q, M);
+  detail::mass_matrix(model.chain(), q.data(), M);
 }
 
 void bias(const Model& model, Data& /*data*/, const ConstVectorRef& q, const ConstVectorRef& qd,
           VectorRef h) noexcept {
-  const double x = q[0], y = q[1];
-  const Values v = model.table(0)(Group::inertia, x * x + y * y);
-  section_bias(model, v, x, y, qd[0], qd[1], h[0], h[1]);
+  if (model.has_closed_form()) return closed_form::bias(model, q, qd, h);
+  detail::inverse_dynamics<double>(model.chain(), q.data(), qd.data(), nullptr, h.data());
 }
 
 void forward_dynamics_force(const Model& model, Data& /*data*/, const ConstVectorRef& q,
                             const ConstVectorRef& qd, const ConstVectorRef& force,
                             VectorRef qdd) noexcept {
-  const double x = q[0], y = q[1];
-  const double sigma = x * x + y * y;
-  const Values v = model.table(0)(Group::inertia, sigma);
-  double h_x = 0.0, h_y = 0.0;
-  section_bias(model, v, x, y, qd[0], qd[1], h_x, h_y);
-  const double r_x = force[0] - h_x, r_y = force[1] - h_y;
-  // M^-1 r = (r - b/(a + b sigma) (q.r) q)/a, eq. (12), with one division for both quotients.
-  const double a = v[0], b = v[1], along = a + b * sigma;
-  const double inverse = 1.0 / (a * along);
-  const double q_r = b * (x * r_x + y * r_y);
-  qdd[0] = (along * r_x - q_r * x) * inverse;
-  qdd[1] = (along * r_y - q_r * y) * inverse;
+  if (model.has_closed_form()) return closed_form::forward_dynamics(model, q, qd, force, qdd);
+  detail::forward_dynamics(model.chain(), q.data(), qd.data(), force.data(), qdd.data());
 }
 
 void forward_dynamics(const Model& model, Data& data, const ConstVectorRef& q,
                       const ConstVectorRef& qd, const ConstVectorRef& tension,
                       VectorRef qdd) noexcept {
-  actuation_force(model, tension, data.force);
+  cable_force(model, q, qd, tension, data.force);
+  forward_dynamics_force(model, data, q, qd, data.force, qdd);
+}
+
+void forward_dynamics(const Model& model, Data& data, const ConstVectorRef& q,
+                      const ConstVectorRef& qd, const ConstVectorRef& tension,
+                      const Wrenches& wrenches, VectorRef qdd) noexcept {
+  cable_force(model, q, qd, tension, data.force);
+  add_wrench_force(model, q, wrenches, data.force);
   forward_dynamics_force(model, data, q, qd, data.force, qdd);
 }
 
 void inverse_dynamics(const Model& model, Data& /*data*/, const ConstVectorRef& q,
                       const ConstVectorRef& qd, const ConstVectorRef& qdd,
                       VectorRef force) noexcept {
-  const double x = q[0], y = q[1];
-  const Values v = model.table(0)(Group::inertia, x * x + y * y);
-  double h_x = 0.0, h_y = 0.0;
-  section_bias(model, v, x, y, qd[0], qd[1], h_x, h_y);
-  const double q_a = v[1] * (x * qdd[0] + y * qdd[1]);
-  force[0] = v[0] * qdd[0] + q_a * x + h_x;
-  force[1] = v[0] * qdd[1] + q_a * y + h_y;
+  if (model.has_closed_form()) return closed_form::inverse_dynamics(model, q, qd, qdd, force);
+  detail::inverse_dynamics(model.chain(), q.data(), qd.data(), qdd.data(), force.data());
 }
 
 double kinetic_energy(const Model& model, Data& /*data*/, const ConstVectorRef& q,
                       const ConstVectorRef& qd) noexcept {
-  const Values v = model.table(0)(Group::inertia, q.squaredNorm());
-  const double p = q.dot(qd);
-  return 0.5 * (v[0] * qd.squaredNorm() + v[1] * p * p);
+  if (model.has_closed_form()) return closed_form::kinetic_energy(model, q, qd);
+  return detail::kinetic_energy(model.chain(), q.data(), qd.data());
 }
 
 double potential_energy(const Model& model, Data& /*data*/, const ConstVectorRef& q) noexcept {
-  const double sigma = q.squaredNorm();
-  const Values v = model.table(0)(Group::gravity, sigma);
-  const Vector3d& g = model.robot().gravity;
-  const double l = model.robot().sections[0].length;
-  return 0.5 * model.stiffness()[0] * sigma - l * (g.head<2>().dot(q) * v[0] + g[2] * v[1]);
+  if (model.has_closed_form()) return closed_form::potential_energy(model, q);
+  return detail::potential_energy(model.chain(), q.data());
 }
 
 void potential_gradient(const Model& model, Data& /*data*/, const ConstVectorRef& q,
                         VectorRef gradient) noexcept {
-  const double x = q[0], y = q[1];
-  gradient = model.stiffness()[0] * q;
-  // Without gravity too, for the NaN beyond the bending limit.
-  add_weight(model, x, y, x * x + y * y, gradient[0], gradient[1]);
+  if (model.has_closed_form()) return closed_form::potential_gradient(model, q, gradient);
+  detail::inverse_dynamics<double>(model.chain(), q.data(), nullptr, nullptr, gradient.data());
 }
 
 void potential_hessian(const Model& model, Data& /*data*/, const ConstVectorRef& q,
                        MatrixRef H) noexcept {
-  const double x = q[0], y = q[1], sigma = x * x + y * y;
-  const auto [G_A, G_S, dG_A, dG_S] = model.table(0)(Group::gravity, sigma);
-  const auto second = model.table(0)(Group::second, sigma);
-  const Vector3d& g = model.robot().gravity;
-  const double l = model.robot().sections[0].length;
-  const double g_q = g[0] * x + g[1] * y;
-  const double on_identity = model.stiffness()[0] - 2.0 * l * (g_q * dG_A + g[2] * dG_S);
-  const double on_q_q = -4.0 * l * (g_q * second[2] + g[2] * second[3]);
-  const double cross = -2.0 * l * dG_A;  // (g_xy q^T + q g_xy^T) G_A'
-  H(0, 0) = on_identity + on_q_q * x * x + 2.0 * cross * g[0] * x;
-  H(1, 1) = on_identity + on_q_q * y * y + 2.0 * cross * g[1] * y;
-  H(0, 1) = H(1, 0) = on_q_q * x * y + cross * (g[0] * y + g[1] * x);
+  if (model.has_closed_form()) return closed_form::potential_hessian(model, q, H);
+  const auto m = static_cast<int>(model.num_coordinates());
+  detail::differentiate(m, m, q.data(), H, [&model](const detail::Dual* x, detail::Dual* y) {
+    detail::inverse_dynamics<detail::Dual>(model.chain(), x, nullptr, nullptr, y);
+  });
 }
 
 }  // namespace cdcr

@@ -1,67 +1,84 @@
 #include "cdcr/linearization.hpp"
 
+#include "cable_force.hpp"
 #include "cdcr/dynamics.hpp"
+#include "chain_forward.hpp"
+#include "closed_form.hpp"
+#include "dual.hpp"
+#include "wrench_force.hpp"
 
 namespace cdcr {
 namespace {
 
-using Group = detail::ShapeTable::Group;
-using Eigen::Matrix2d;
-using Eigen::Vector2d;
+using detail::Dual;
 
-/// M^-1 X for M = a I + b q q^T.
-Matrix2d solve_mass(double a, double b, const Vector2d& q, const Matrix2d& X) noexcept {
-  const double factor = b / (a + b * q.squaredNorm());
-  return (X - factor * q * (q.transpose() * X)) / a;
+// 16 cables at most end on each section, and a robot has at most 64 beside those.
+constexpr int max_commands = 16 * max_sections + 64;
+
+/// The rows of A that say d(q)/dt = qd.
+void set_upper_rows(Index m, MatrixRef A) noexcept {
+  A.topRows(m).setZero();
+  A.topRightCorner(m, m).setIdentity();
+}
+
+/// Rows d(qdd)/d(q, qd) of A, and d(qdd)/d(command) where B is wanted, under all forces.
+void differentiate_motion(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
+                          const ConstVectorRef& command, const Wrenches& wrenches, MatrixRef A,
+                          MatrixRef* B) noexcept {
+  const auto m = static_cast<int>(model.num_coordinates());
+  const auto cables = static_cast<int>(model.num_cables());
+  Dual x[4 * max_sections], qdd[2 * max_sections], force[2 * max_sections];
+  Dual commands[max_commands];
+  for (int i = 0; i < m; ++i) {
+    x[i] = Dual(q[i]);
+    x[m + i] = Dual(qd[i]);
+  }
+  for (int j = 0; j < cables; ++j) commands[j] = Dual(command[j]);
+  const auto sweep = [&](Dual* inputs, int num_inputs, MatrixRef out) {
+    for (int first = 0; first < num_inputs; first += detail::dual_width) {
+      const int count = std::min(detail::dual_width, num_inputs - first);
+      for (int k = 0; k < count; ++k) inputs[first + k].derivatives()[k] = 1.0;
+      detail::cable_force<Dual>(model, x, x + m, commands, force);
+      detail::add_wrench_force<Dual>(model.chain(), x, wrenches, force);
+      detail::forward_dynamics<Dual>(model.chain(), x, x + m, force, qdd);
+      for (int i = 0; i < m; ++i) {
+        out.row(i).segment(first, count) = qdd[i].derivatives().head(count).transpose();
+      }
+      for (int k = 0; k < count; ++k) inputs[first + k].derivatives().setZero();
+    }
+  };
+  sweep(x, 2 * m, A.bottomRows(m));
+  if (B != nullptr) sweep(commands, cables, B->bottomRows(m));
 }
 
 }  // namespace
 
-void state_jacobian(const Model& model, Data& data, const ConstVectorRef& q_in,
-                    const ConstVectorRef& qd_in, const ConstVectorRef& force,
-                    MatrixRef A) noexcept {
-  const Vector2d q = q_in, qd = qd_in;
-  forward_dynamics_force(model, data, q_in, qd_in, force, data.acceleration);
-  const Vector2d qdd = data.acceleration;
-
-  const double sigma = q.squaredNorm();
-  const auto [a, b, da, db] = model.table(0)(Group::inertia, sigma);
-  const auto second = model.table(0)(Group::second, sigma);
-  const double dda = second[0], ddb = second[1];
-  const double p = q.dot(qd), w = qd.squaredNorm(), q_qdd = q.dot(qdd);
-  const Matrix2d identity = Matrix2d::Identity();
-
-  // With N(q, qd) = M(q) qdd + h(q, qd) at fixed qdd:  d qdd = -M^-1 dN.
-  Matrix2d stiffness;
-  potential_hessian(model, data, q_in, stiffness);
-  const Matrix2d dN_q = stiffness + 2.0 * da * qdd * q.transpose()  // a qdd
-                        + b * q_qdd * identity +
-                        q * (b * qdd + 2.0 * db * q_qdd * q).transpose()        // b q (q.qdd)
-                        + 2.0 * qd * (da * qd + 2.0 * dda * p * q).transpose()  // 2 a' p qd
-                        + (db * p * p + (b - da) * w) * identity +
-                        2.0 * q * (db * p * qd + (ddb * p * p + (db - dda) * w) * q).transpose();
-  const Matrix2d dN_qd = (2.0 * da * p + model.damping()[0]) * identity +
-                         2.0 * da * qd * q.transpose() +
-                         2.0 * q * (db * p * q + (b - da) * qd).transpose();
-
-  A.topLeftCorner<2, 2>().setZero();
-  A.topRightCorner<2, 2>().setIdentity();
-  A.bottomLeftCorner<2, 2>() = -solve_mass(a, b, q, dN_q);
-  A.bottomRightCorner<2, 2>() = -solve_mass(a, b, q, dN_qd);
+void state_jacobian(const Model& model, Data& data, const ConstVectorRef& q,
+                    const ConstVectorRef& qd, const ConstVectorRef& command,
+                    const Wrenches& wrenches, MatrixRef A) noexcept {
+  const Index m = model.num_coordinates();
+  set_upper_rows(m, A);
+  if (model.has_closed_form() && model.has_plain_cables() && wrenches.empty()) {
+    actuation_force(model, command, data.force);
+    detail::closed_form::acceleration_jacobians(model, q, qd, data.force, A.bottomLeftCorner(m, m),
+                                                A.bottomRightCorner(m, m));
+    return;
+  }
+  differentiate_motion(model, q, qd, command, wrenches, A, nullptr);
 }
 
 void linearize(const Model& model, Data& data, const ConstVectorRef& q, const ConstVectorRef& qd,
-               const ConstVectorRef& tension, MatrixRef A, MatrixRef B) noexcept {
-  actuation_force(model, tension, data.force);
-  state_jacobian(model, data, q, qd, data.force, A);
-
-  const Vector2d bending = q;
-  const auto inertia = model.table(0)(Group::inertia, bending.squaredNorm());
-  const Matrix2d inverse_mass = solve_mass(inertia[0], inertia[1], bending, Matrix2d::Identity());
-  B.topRows<2>().setZero();
-  for (Index j = 0; j < model.num_cables(); ++j) {
-    B.col(j).tail<2>().noalias() = inverse_mass * model.actuation_matrix().col(j).head<2>();
+               const ConstVectorRef& command, const Wrenches& wrenches, MatrixRef A,
+               MatrixRef B) noexcept {
+  const Index m = model.num_coordinates();
+  B.topRows(m).setZero();
+  if (model.has_closed_form() && model.has_plain_cables() && wrenches.empty()) {
+    state_jacobian(model, data, q, qd, command, wrenches, A);
+    detail::closed_form::solve_mass(model, q, model.actuation_matrix(), B.bottomRows(m));
+    return;
   }
+  set_upper_rows(m, A);
+  differentiate_motion(model, q, qd, command, wrenches, A, &B);
 }
 
 }  // namespace cdcr

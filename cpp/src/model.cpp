@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "chain.hpp"
+#include "chain_functions.hpp"
 #include "section_series.hpp"
 
 namespace cdcr {
@@ -36,7 +38,6 @@ Model::Model(Robot robot, Formulation formulation)
   damping_.resize(n);
   for (Index i = 0; i < n; ++i) {
     const Section& section = robot_.sections[i];
-    tables_.emplace_back(series_of(section, robot_.payload, formulation));
     stiffness_[i] = section.stiffness();
     damping_[i] = section.damping;
   }
@@ -54,16 +55,39 @@ Model::Model(Robot robot, Formulation formulation)
     }
   }
 
-  has_inertia_ = tables_[0](detail::ShapeTable::Group::inertia, 0.0)[0] > 0.0;
+  friction_.setZero(n, num_cables);
+  for (Index j = 0; j < num_cables; ++j) {
+    const Cable& cable = cables_[j];
+    for (Index k = 0; k <= cable.end_section; ++k) {
+      friction_(k, j) = cable.friction.value_or(robot_.sections[k].cable_friction);
+    }
+    if (cable.length_driven()) has_plain_cables_ = false;
+  }
+  has_friction_ = (friction_.array() > 0.0).any();
+  has_plain_cables_ = has_plain_cables_ && !has_friction_;
+  root_gravity_ = robot_.base_orientation.transpose() * robot_.gravity;
   has_gravity_ = robot_.gravity != Vector3d::Zero();
+
+  chain_ = std::make_shared<const detail::Chain>(robot_);
+  const bool point = robot_.payload_position.isZero(0.0) && robot_.payload_inertia.isZero(0.0);
+  if (n == 1 && point) {
+    const auto series = series_of(robot_.sections[0], robot_.payload, formulation);
+    table_ = std::make_shared<const detail::ShapeTable>(series);
+  } else if (formulation != Formulation::exact) {
+    throw std::invalid_argument(
+        std::string("formulation must be exact for this robot, got ") + name(formulation) +
+        ": the paper's inertia is that of one section with nothing but a point on its tip");
+  }
+  singular_section_ = detail::find_singular_section(*chain_);
 }
 
 void require_inertia(const Model& model) {
-  if (!model.has_inertia()) {
-    throw std::invalid_argument(
-        "the robot has no inertia, so it has no dynamics: give sections[0] a backbone_mass or "
-        "disks with a disk_mass, or the robot a payload");
-  }
+  if (model.has_inertia()) return;
+  const std::string section = "sections[" + std::to_string(model.singular_section()) + "]";
+  throw std::invalid_argument(
+      "the robot has no dynamics, because " + section +
+      " can bend without moving any mass: give it a backbone_mass or disks with a disk_mass, or "
+      "the robot a payload");
 }
 
 Data::Data(const Model& model)

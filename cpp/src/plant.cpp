@@ -91,7 +91,7 @@ void Plant::jacobian(double t, const double* y, double* J) {
   const Eigen::Map<const VectorXd> q(y, m), qd(y + m, m);
   if (!force_holds_) update_force(t, q, qd);
   Eigen::Map<MatrixXd> A(J, 2 * m, 2 * m);
-  state_jacobian(*model_, data_, q, qd, force_, A);
+  state_jacobian(*model_, data_, q, qd, tension_, no_wrenches(), A);
 }
 
 void Plant::tension(double t, const VectorXd& y, VectorRef tension) {

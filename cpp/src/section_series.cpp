@@ -11,32 +11,10 @@
 // elements touches only the moments sum m x^p.
 #include "section_series.hpp"
 
+#include "moments.hpp"
+
 namespace cdcr::detail {
 namespace {
-
-// (2 y)^(2k)/(2k)! at y = 3 pi falls below 1e-21 at k = 45.
-constexpr int num_terms = 46;
-
-/// sum over elements of (weight per element) x^p, for all p needed.
-class Moments {
- public:
-  Moments(const Section& s, long double rod, long double disk, long double tip) {
-    for (int p = 0; p < 2 * num_terms + 5; ++p) sums_.push_back(rod / (p + 1) + tip);
-    for (int k = 1; k <= s.num_disks; ++k) {
-      const long double x = static_cast<long double>(k) / s.num_disks;
-      long double term = disk;
-      for (long double& sum : sums_) {
-        sum += term;
-        term *= x;
-      }
-    }
-  }
-
-  long double operator()(int p) const { return sums_[p]; }
-
- private:
-  Series sums_;
-};
 
 /// 1/n!, 4^k/(2k)! and the brackets of (9) and (10), each as the coefficient of (y^2)^j.
 struct Brackets {
@@ -64,13 +42,9 @@ Brackets brackets() {
 
 SectionSeries exact_series(const Section& s, double payload) {
   const long double l2 = static_cast<long double>(s.length) * s.length;
-  const long double rod_t =
-      static_cast<long double>(s.backbone_mass) * s.backbone_diameter * s.backbone_diameter / 16.0L;
-  const long double disk_t =
-      static_cast<long double>(s.disk_mass) * s.disk_diameter * s.disk_diameter / 16.0L;
-  const Moments mass(s, s.backbone_mass, s.disk_mass, payload);
-  const Moments transverse(s, rod_t, disk_t, 0.0L);
-  const Moments axial(s, 2.0L * rod_t, 2.0L * disk_t, 0.0L);  // a thin disk: I_a = 2 I_t
+  const Moments mass = Moments::of_mass(s, payload);
+  const Moments transverse = Moments::of_inertia(s);
+  const auto axial = [&transverse](int p) { return 2.0L * transverse(p); };  // thin disks
 
   const Brackets c = brackets();
   SectionSeries series;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "cdcr/model.hpp"
+#include "recentred.hpp"
 #include "section_series.hpp"
 
 namespace cdcr::detail {
@@ -26,23 +27,6 @@ Series derivative(const Series& f, long double half_width) {
   return d;
 }
 
-/// Coefficients in t of f(centre + half_width t), by repeated synthetic division: as many as the
-/// table keeps of f, f' and f''.
-Series recentred(Series f, long double centre, long double half_width) {
-  constexpr std::size_t kept = num_powers + 2;
-  if (f.size() < kept) f.resize(kept, 0.0L);  // a cut series is short
-  for (std::size_t i = 0; i < kept; ++i) {
-    for (std::size_t k = f.size() - 1; k-- > i;) f[k] += centre * f[k + 1];
-  }
-  f.resize(kept);
-  long double scale = 1.0L;
-  for (long double& c : f) {
-    c *= scale;
-    scale *= half_width;
-  }
-  return f;
-}
-
 }  // namespace
 
 ShapeTable::ShapeTable(const SectionSeries& s)
@@ -57,7 +41,8 @@ ShapeTable::ShapeTable(const SectionSeries& s)
     };
     for (int f = 0; f < 4; ++f) {
       const Group group = f < 2 ? Group::inertia : Group::gravity;
-      const Series c = recentred(*functions[f], centre, half_width);
+      // Two more than the table keeps, for f''.
+      const Series c = recentred(*functions[f], centre, half_width, num_powers + 2);
       const Series first = derivative(c, half_width);
       put(group, f % 2, c);
       put(group, f % 2 + 2, first);

@@ -2,6 +2,7 @@
 
 // Everything of target cdcr::cdcr. cdcr/cvode.hpp belongs to cdcr::cvode.
 #include "cdcr/allocation.hpp"
+#include "cdcr/cables.hpp"
 #include "cdcr/controller.hpp"
 #include "cdcr/coordinates.hpp"
 #include "cdcr/dynamics.hpp"

@@ -1,19 +1,20 @@
 #pragma once
 
+#include "cdcr/cables.hpp"
 #include "cdcr/model.hpp"
 #include "cdcr/types.hpp"
+#include "cdcr/wrench.hpp"
 
-// Equations of motion  M(q) qdd + h(q, qd) = B F,  cpp/README.md eqs. (8) to (16).
+// Equations of motion  M(q) qdd + h(q, qd) = Q,  cpp/README.md eqs. (8) to (16) for one section,
+// (23) to (34) for several: O(n), the mass matrix O(n^2).
 //
 // q, qd, qdd: bending vectors and their rates, base to tip (2n) [rad], [rad/s], [rad/s^2].
-// tension: one for each cable (num_cables) [N]. Outputs are written to caller-owned storage.
+// tension: one command for each cable (num_cables): its tension [N], or its length [m] where it is
+// driven by length (cdcr/cables.hpp). Outputs are written to caller-owned storage.
 // Every function here is real-time safe: no allocation, no exception, no I/O. Sizes are the
 // caller's duty; a non-finite input, or a section bent beyond max_bending, gives NaN.
 
 namespace cdcr {
-
-/// Generalised force Q = B F (2n) [N m] of the tensions.
-void actuation_force(const Model& model, const ConstVectorRef& tension, VectorRef force) noexcept;
 
 /// Mass matrix M(q) (2n, 2n) [kg m^2].
 void mass_matrix(const Model& model, Data& data, const ConstVectorRef& q, MatrixRef M) noexcept;
@@ -22,10 +23,13 @@ void mass_matrix(const Model& model, Data& data, const ConstVectorRef& q, Matrix
 void bias(const Model& model, Data& data, const ConstVectorRef& q, const ConstVectorRef& qd,
           VectorRef h) noexcept;
 
-/// Accelerations under the given tensions.
+/// Accelerations under the given tensions, and wrenches that validate() accepts.
 void forward_dynamics(const Model& model, Data& data, const ConstVectorRef& q,
                       const ConstVectorRef& qd, const ConstVectorRef& tension,
                       VectorRef qdd) noexcept;
+void forward_dynamics(const Model& model, Data& data, const ConstVectorRef& q,
+                      const ConstVectorRef& qd, const ConstVectorRef& tension,
+                      const Wrenches& wrenches, VectorRef qdd) noexcept;
 
 /// Accelerations under a generalised force (2n) [N m].
 void forward_dynamics_force(const Model& model, Data& data, const ConstVectorRef& q,

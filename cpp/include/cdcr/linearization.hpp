@@ -2,18 +2,28 @@
 
 #include "cdcr/model.hpp"
 #include "cdcr/types.hpp"
+#include "cdcr/wrench.hpp"
 
 namespace cdcr {
 
-/// State (q, qd) and tension to state rate, about one point: d(state)/dt = A state + B tension.
+/// State (q, qd) and command to state rate, about one point: d(state)/dt = A state + B command.
 ///
 /// A (4n, 4n) and B (4n, num_cables) are the exact derivatives of forward_dynamics
-/// (cpp/README.md eq. (19)), at any state, at rest or moving. Real-time safe.
+/// (cpp/README.md eq. (19)), at any state, at rest or moving, through cables and wrenches too. At
+/// the kinks of a cable (just slack; rubbing at a straight section) one side is taken. Real-time
+/// safe.
 void linearize(const Model& model, Data& data, const ConstVectorRef& q, const ConstVectorRef& qd,
-               const ConstVectorRef& tension, MatrixRef A, MatrixRef B) noexcept;
+               const ConstVectorRef& command, const Wrenches& wrenches, MatrixRef A,
+               MatrixRef B) noexcept;
+inline void linearize(const Model& model, Data& data, const ConstVectorRef& q,
+                      const ConstVectorRef& qd, const ConstVectorRef& command, MatrixRef A,
+                      MatrixRef B) noexcept {
+  linearize(model, data, q, qd, command, no_wrenches(), A, B);
+}
 
-/// A alone, under a generalised force (2n) [N m]: the Jacobian of the equations of motion.
+/// A alone: the Jacobian of the equations of motion.
 void state_jacobian(const Model& model, Data& data, const ConstVectorRef& q,
-                    const ConstVectorRef& qd, const ConstVectorRef& force, MatrixRef A) noexcept;
+                    const ConstVectorRef& qd, const ConstVectorRef& command,
+                    const Wrenches& wrenches, MatrixRef A) noexcept;
 
 }  // namespace cdcr

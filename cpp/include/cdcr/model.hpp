@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "cdcr/formulation.hpp"
@@ -8,6 +9,10 @@
 #include "cdcr/types.hpp"
 
 namespace cdcr {
+
+namespace detail {
+struct Chain;
+}
 
 /// Largest bending angle of a section [rad]: one and a half turns. The section's polynomials end
 /// there, and functions of the shape return NaN beyond it.
@@ -37,23 +42,35 @@ class Model {
   [[nodiscard]] const VectorXd& stiffness() const noexcept { return stiffness_; }
   /// Viscous damping of each section (n) [N m s/rad].
   [[nodiscard]] const VectorXd& damping() const noexcept { return damping_; }
-  /// False when nothing resists acceleration: such a robot has statics but no dynamics.
-  [[nodiscard]] bool has_inertia() const noexcept { return has_inertia_; }
+  /// Coulomb's coefficient of each cable in the holes of each section (n, num_cables).
+  [[nodiscard]] const MatrixXd& friction() const noexcept { return friction_; }
+  [[nodiscard]] bool has_friction() const noexcept { return has_friction_; }
+  /// Whether every cable is driven by tension and free of friction: then Q = B F.
+  [[nodiscard]] bool has_plain_cables() const noexcept { return has_plain_cables_; }
+  /// False when nothing resists some acceleration: such a robot has statics but no dynamics.
+  [[nodiscard]] bool has_inertia() const noexcept { return singular_section_ < 0; }
+  /// The section, nearest the tip, that moves no mass of its own; -1 when there is none.
+  [[nodiscard]] Index singular_section() const noexcept { return singular_section_; }
+  /// Gravity as the first section sees it, R^T g with the base orientation R [m/s^2].
+  [[nodiscard]] const Vector3d& root_gravity() const noexcept { return root_gravity_; }
   [[nodiscard]] bool has_gravity() const noexcept { return has_gravity_; }
 
-  [[nodiscard]] const detail::ShapeTable& table(Index section) const noexcept {
-    return tables_[static_cast<std::size_t>(section)];
-  }
+  /// One section with nothing but a point on its tip; such a robot has a table().
+  [[nodiscard]] bool has_closed_form() const noexcept { return table_ != nullptr; }
+  [[nodiscard]] const detail::ShapeTable& table() const noexcept { return *table_; }
+  [[nodiscard]] const detail::Chain& chain() const noexcept { return *chain_; }
 
  private:
   Robot robot_;
   std::vector<Cable> cables_;
   Formulation formulation_;
-  std::vector<detail::ShapeTable> tables_;
+  std::shared_ptr<const detail::ShapeTable> table_;
+  std::shared_ptr<const detail::Chain> chain_;
   VectorXd stiffness_, damping_, straight_lengths_;
-  MatrixXd actuation_;
-  bool has_inertia_ = false;
-  bool has_gravity_ = false;
+  MatrixXd actuation_, friction_;
+  Vector3d root_gravity_ = Vector3d::Zero();
+  Index singular_section_ = -1;
+  bool has_gravity_ = false, has_friction_ = false, has_plain_cables_ = true;
 };
 
 /// Throws std::invalid_argument with a sentence when the model cannot be accelerated.

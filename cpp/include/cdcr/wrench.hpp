@@ -21,6 +21,9 @@ struct Wrench {
 
 using Wrenches = std::vector<Wrench>;
 
+/// An empty list.
+[[nodiscard]] const Wrenches& no_wrenches() noexcept;
+
 /// Throws std::invalid_argument with a sentence that names the wrench, what is wrong with it and
 /// what is allowed.
 void validate(const Model& model, const Wrenches& wrenches);

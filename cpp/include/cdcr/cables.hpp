@@ -1,0 +1,33 @@
+#pragma once
+
+#include "cdcr/model.hpp"
+#include "cdcr/types.hpp"
+
+// What cables do to the robot, cpp/README.md eqs. (6), (36) to (39).
+//
+// command: one for each cable (num_cables): its tension [N] when it is driven by tension, its
+// length [m] when it is driven by length. All functions are real-time safe; sizes are the caller's
+// duty.
+
+namespace cdcr {
+
+/// Generalised force Q = B F (2n) [N m] of the tensions, were there no friction.
+void actuation_force(const Model& model, const ConstVectorRef& tension, VectorRef force) noexcept;
+
+/// Tensions at the base (num_cables) [N]: the command itself, or the pull of the cable's spring,
+/// F = max(0, k (l - l_commanded) + d dl/dt).
+void cable_tensions(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
+                    const ConstVectorRef& command, VectorRef tension) noexcept;
+
+/// Generalised force (2n) [N m] of the cables, friction in their holes included.
+void cable_force(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
+                 const ConstVectorRef& command, VectorRef force) noexcept;
+
+/// Energy in the springs of length-driven cables, sum k max(0, l - l_commanded)^2 / 2 [J].
+[[nodiscard]] double cable_energy(const Model& model, const ConstVectorRef& q,
+                                  const ConstVectorRef& command) noexcept;
+
+/// Command that leaves the straight robot alone: no tension, straight lengths (num_cables).
+void rest_command(const Model& model, VectorRef command) noexcept;
+
+}  // namespace cdcr

@@ -1,0 +1,123 @@
+// From the elements of a section to the power series of everything it adds to a chain.
+//
+// An element at fraction x has mass m, transverse inertia I and axial inertia 2 I. With
+// y = x theta its place is r = l x^2 A q + l x S z, its tangent t = x S q + cos(y) z, and it turns
+// at  omega = x z x qd + x^2 A c z + x^3 G c q,  c = (q x qd).z,  beside the section's base. Then
+// (cpp/README.md eqs. (26) to (28)), with ' = d/d(y^2):
+//   h0 = sum m l x S                       h1 = sum m l x^2 A
+//   c0 = sum 2 m l^2 x^2 A + I             c1 = sum -m l^2 x^4 A^2 + I x^2 S^2
+//   c2 = sum -m l^2 x^3 A S + I x S cos y  c3 = sum -m l^2 x^2 S^2 + I cos^2 y
+//   k0 = sum m l^2 x^3 A S + I x           k1 = sum I x^3 (G - A S)
+//   k2 = sum m l^2 x^4 A^2 + I x^2 y^2 A^2 k3 = sum 2 m l^2 x^5 (A S' - S A')
+//   C1 = -2 k0' + 3 k1 + 2 sigma k1' - k3  C0 = 2 k2 + 2 sigma k2'
+#include <cstddef>
+
+#include "body_table.hpp"
+#include "moments.hpp"
+
+namespace cdcr::detail {
+namespace {
+
+/// sum over j of (-s)^j / (2j + offset)!: cos y, S, A, G of y^2 = s for offsets 0 to 3.
+Series even_function(int offset) {
+  Series f;
+  long double term = 1.0L;
+  for (int k = 2; k <= offset; ++k) term /= k;
+  for (int j = 0; j < num_terms; ++j) {
+    f.push_back(term);
+    const long double n = 2.0L * j + offset;
+    term *= -1.0L / ((n + 1.0L) * (n + 2.0L));
+  }
+  return f;
+}
+
+Series operator*(const Series& f, const Series& g) {
+  Series product(f.size(), 0.0L);
+  for (std::size_t i = 0; i < f.size(); ++i) {
+    for (std::size_t j = 0; i + j < f.size(); ++j) product[i + j] += f[i] * g[j];
+  }
+  return product;
+}
+
+Series operator+(Series f, const Series& g) {
+  for (std::size_t j = 0; j < f.size(); ++j) f[j] += g[j];
+  return f;
+}
+
+Series operator*(long double factor, Series f) {
+  for (long double& c : f) c *= factor;
+  return f;
+}
+
+Series operator-(const Series& f, const Series& g) { return f + (-1.0L) * g; }
+
+Series times_argument(Series f) {
+  f.insert(f.begin(), 0.0L);
+  f.pop_back();
+  return f;
+}
+
+Series derivative(const Series& f) {
+  Series d(f.size(), 0.0L);
+  for (std::size_t j = 0; j + 1 < f.size(); ++j) d[j] = static_cast<long double>(j + 1) * f[j + 1];
+  return d;
+}
+
+/// sum over elements of weight x^p f(x^2 sigma), as a series in sigma.
+Series sum(const Moments& weight, int p, Series f) {
+  for (std::size_t j = 0; j < f.size(); ++j) f[j] *= weight(p + 2 * static_cast<int>(j));
+  return f;
+}
+
+}  // namespace
+
+std::vector<Series> body_series(const Section& section) {
+  const Moments mass = Moments::of_mass(section, 0.0L);
+  const Moments inertia = Moments::of_inertia(section);
+  const long double l = section.length, l2 = l * l;
+  const Series cosine = even_function(0), S = even_function(1), A = even_function(2),
+               G = even_function(3);
+  Series one(S.size(), 0.0L);
+  one[0] = 1.0L;
+  const Series A2 = A * A, S2 = S * S, AS = A * S;
+
+  std::vector<Series> f(num_shape_functions);
+  f[h0] = l * sum(mass, 1, S);
+  f[h1] = l * sum(mass, 2, A);
+  f[c0] = 2.0L * l2 * sum(mass, 2, A) + sum(inertia, 0, one);
+  f[c1] = sum(inertia, 2, S2) - l2 * sum(mass, 4, A2);
+  f[c2] = sum(inertia, 1, S * cosine) - l2 * sum(mass, 3, AS);
+  f[c3] = sum(inertia, 0, cosine * cosine) - l2 * sum(mass, 2, S2);
+  f[k0] = l2 * sum(mass, 3, AS) + sum(inertia, 1, one);
+  f[k1] = sum(inertia, 3, G - AS);
+  f[k2] = l2 * sum(mass, 4, A2) + sum(inertia, 2, times_argument(A2));
+  f[k3] = 2.0L * l2 * sum(mass, 5, A * derivative(S) - S * derivative(A));
+  const SectionSeries alone = exact_series(section, 0.0);
+  f[in_a] = alone.a;
+  f[in_b] = alone.b;
+  const int derivatives[][2] = {
+      {dh0, h0}, {dh1, h1}, {ddh0, dh0}, {ddh1, dh1}, {dc0, c0}, {dc1, c1}, {dc2, c2}, {dc3, c3},
+      {dk0, k0}, {dk1, k1}, {dk2, k2}, {dk3, k3}, {d_a, in_a}, {d_b, in_b}};
+  for (const auto& [to, from] : derivatives) f[to] = derivative(f[from]);
+  f[C1] = 3.0L * f[k1] - 2.0L * f[dk0] + 2.0L * times_argument(f[dk1]) - f[k3];
+  f[C0] = 2.0L * f[k2] + 2.0L * times_argument(f[dk2]);
+  return f;
+}
+
+const ArcTable& arc_table() {
+  static const ArcTable table = [] {
+    std::vector<Series> f(num_arc_functions);
+    f[arc_S] = even_function(1);
+    f[arc_A] = even_function(2);
+    f[arc_G] = even_function(3);
+    f[arc_dA] = derivative(f[arc_A]);
+    f[arc_dS] = derivative(f[arc_S]);
+    f[arc_dG] = derivative(f[arc_G]);
+    f[arc_ddA] = derivative(f[arc_dA]);
+    f[arc_ddS] = derivative(f[arc_dS]);
+    return ArcTable(f);
+  }();
+  return table;
+}
+
+}  // namespace cdcr::detail

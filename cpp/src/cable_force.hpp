@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cmath>
+
+#include "cdcr/model.hpp"
+
+// Forces of cables, cpp/README.md eqs. (36) to (39), on any scalar.
+
+namespace cdcr::detail {
+
+template <class S>
+[[nodiscard]] S dot_rows(const MatrixXd& B, Index cable, Index section, const S* rows) {
+  return B(2 * section, cable) * rows[2 * section] + B(2 * section + 1, cable) * rows[2 * section + 1];
+}
+
+/// Tension at the base, eq. (36).
+template <class S>
+[[nodiscard]] S base_tension(const Model& model, Index j, const S* q, const S* qd,
+                             const S& command) {
+  const Cable& cable = model.cables()[static_cast<std::size_t>(j)];
+  if (!cable.length_driven()) return command;
+  S length(model.straight_lengths()[j]), rate(0.0);
+  for (Index k = 0; k <= cable.end_section; ++k) {
+    length -= dot_rows(model.actuation_matrix(), j, k, q);
+    rate -= dot_rows(model.actuation_matrix(), j, k, qd);
+  }
+  const S pull = cable.stiffness * (length - command) + cable.damping * rate;
+  return pull > 0.0 ? pull : S(0.0);
+}
+
+/// (1 - e^-z)/z, and the shift of the centre of weights e^-zx on [0, 1], coth(z/2)/2 - 1/z.
+template <class S>
+[[nodiscard]] S mean_decay(const S& z) {
+  using std::abs;
+  using std::exp;
+  if (abs(z) < 1e-2) return 1.0 - z * (0.5 - z * (1.0 / 6.0 - z * (1.0 / 24.0 - z / 120.0)));
+  return (1.0 - exp(-z)) / z;
+}
+template <class S>
+[[nodiscard]] S centre_shift(const S& z) {
+  using std::abs;
+  using std::exp;
+  if (abs(z) < 1e-2) return z * (1.0 / 12.0 - z * z / 720.0);
+  return 0.5 - 1.0 / z + 1.0 / (exp(z) - 1.0);
+}
+
+template <class S>
+[[nodiscard]] const S& larger(const S& a, const S& b) {
+  return a < b ? b : a;
+}
+template <class S>
+[[nodiscard]] const S& smaller(const S& a, const S& b) {
+  return b < a ? b : a;
+}
+
+/// Adds the generalised force of one cable that rubs in its holes, eqs. (37) to (39).
+///
+/// Within section k the tension falls as e^-zx with z = mu theta_k s. The direction s comes from
+/// the cable's speed v(x) through the holes, which is linear in x. What friction takes is
+/// mu theta_k s times the integral of e^-zx v; so s follows the mean of v where that has the sign
+/// of the weighted mean, and is zero in the small gap where it has not: friction never gives work.
+template <class S>
+void add_rubbing_cable(const Model& model, Index j, const S* q, const S* qd, S tension, S* force) {
+  using std::sqrt;
+  using std::tanh;
+  const MatrixXd& B = model.actuation_matrix();
+  const auto end = static_cast<Index>(model.cables()[static_cast<std::size_t>(j)].end_section);
+  S beyond(0.0);  // rate of the length from here to the cable's end
+  for (Index k = 0; k <= end; ++k) beyond -= dot_rows(B, j, k, qd);
+  for (Index k = 0; k <= end; ++k) {
+    const S rate = -dot_rows(B, j, k, qd);
+    const S sigma = q[2 * k] * q[2 * k] + q[2 * k + 1] * q[2 * k + 1];
+    const double mu = model.friction()(k, j);
+    S felt = tension;
+    if (mu > 0.0 && sigma > 0.0) {
+      const S turn = mu * sqrt(sigma);
+      const S mean = beyond - 0.5 * rate;
+      const S shift = rate * centre_shift(turn);
+      const S none(0.0), forward = mean + shift, backward = mean - shift;
+      const S speed = smaller(larger(mean, forward), none) + larger(smaller(mean, backward), none);
+      const S z = turn * tanh(S(speed * (-1.0 / model.robot().sliding_speed)));
+      felt = tension * mean_decay(z);
+      using std::exp;
+      tension = tension * exp(S(-z));
+    }
+    force[2 * k] += B(2 * k, j) * felt;
+    force[2 * k + 1] += B(2 * k + 1, j) * felt;
+    beyond -= rate;
+  }
+}
+
+/// Generalised force of all cables.
+template <class S>
+void cable_force(const Model& model, const S* q, const S* qd, const S* command, S* force) {
+  for (Index i = 0; i < model.num_coordinates(); ++i) force[i] = S(0.0);
+  const MatrixXd& B = model.actuation_matrix();
+  for (Index j = 0; j < model.num_cables(); ++j) {
+    const S tension = base_tension(model, j, q, qd, command[j]);
+    if (model.has_friction()) {
+      add_rubbing_cable(model, j, q, qd, tension, force);
+      continue;
+    }
+    const auto rows = 2 * (static_cast<Index>(model.cables()[static_cast<std::size_t>(j)].end_section) + 1);
+    for (Index i = 0; i < rows; ++i) force[i] += B(i, j) * tension;
+  }
+}
+
+}  // namespace cdcr::detail

@@ -1,0 +1,49 @@
+#include "cdcr/cables.hpp"
+
+#include "cable_force.hpp"
+
+namespace cdcr {
+
+void actuation_force(const Model& model, const ConstVectorRef& tension, VectorRef force) noexcept {
+  // A plain loop: for so few numbers a general matrix product costs more than the dynamics.
+  const MatrixXd& B = model.actuation_matrix();
+  for (Index i = 0; i < B.rows(); ++i) {
+    double sum = 0.0;
+    for (Index j = 0; j < B.cols(); ++j) sum += B(i, j) * tension[j];
+    force[i] = sum;
+  }
+}
+
+void cable_tensions(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
+                    const ConstVectorRef& command, VectorRef tension) noexcept {
+  for (Index j = 0; j < model.num_cables(); ++j) {
+    tension[j] = detail::base_tension(model, j, q.data(), qd.data(), command[j]);
+  }
+}
+
+void cable_force(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
+                 const ConstVectorRef& command, VectorRef force) noexcept {
+  detail::cable_force(model, q.data(), qd.data(), command.data(), force.data());
+}
+
+double cable_energy(const Model& model, const ConstVectorRef& q,
+                    const ConstVectorRef& command) noexcept {
+  double energy = 0.0;
+  for (Index j = 0; j < model.num_cables(); ++j) {
+    const Cable& cable = model.cables()[static_cast<std::size_t>(j)];
+    if (!cable.length_driven()) continue;
+    const double stretch =
+        model.straight_lengths()[j] - model.actuation_matrix().col(j).dot(q) - command[j];
+    if (stretch > 0.0) energy += 0.5 * cable.stiffness * stretch * stretch;
+  }
+  return energy;
+}
+
+void rest_command(const Model& model, VectorRef command) noexcept {
+  for (Index j = 0; j < model.num_cables(); ++j) {
+    const bool by_length = model.cables()[static_cast<std::size_t>(j)].length_driven();
+    command[j] = by_length ? model.straight_lengths()[j] : 0.0;
+  }
+}
+
+}  // namespace cdcr

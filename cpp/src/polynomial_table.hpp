@@ -1,0 +1,93 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "cdcr/model.hpp"
+#include "recentred.hpp"
+
+namespace cdcr::detail {
+
+/// N functions of sigma = theta^2 as piecewise polynomials, one piece for each pi^2, fixed at
+/// construction: reading them costs 15 N multiply-adds and no trigonometric function.
+template <int N>
+class PolynomialTable {
+ public:
+  static constexpr int num_pieces = 9;   // sigma up to (3 pi)^2 = max_bending^2
+  static constexpr int num_powers = 16;  // the next is below 1e-17 of the value in every piece
+  static constexpr double piece_width = max_bending * max_bending / num_pieces;
+  using Values = Eigen::Array<double, N, 1>;
+
+  /// From N power series about sigma = 0.
+  explicit PolynomialTable(const std::vector<Series>& functions)
+      : coefficients_(static_cast<std::size_t>(num_pieces * block)) {
+    const long double half_width = piece_width / 2.0L;
+    for (int piece = 0; piece < num_pieces; ++piece) {
+      for (std::size_t f = 0; f < N; ++f) {
+        const Series c =
+            recentred(functions[f], (2 * piece + 1) * half_width, half_width, num_powers);
+        double* to = coefficients_.data() + piece * block + f;
+        for (std::size_t k = 0; k < num_powers; ++k) to[k * N] = static_cast<double>(c[k]);
+      }
+    }
+  }
+
+  /// NaN beyond the largest bending angle and for NaN. Real-time safe.
+  void operator()(double sigma, Values& values) const noexcept {
+    if (!(sigma <= max_bending * max_bending)) {
+      values.setConstant(std::numeric_limits<double>::quiet_NaN());
+      return;
+    }
+    double t = 0.0;
+    const double* c = find(sigma, t);
+    // So few at a time that their sums stay in registers through all powers.
+    constexpr int width = N % 14 == 0 ? 14 : N % 8 == 0 ? 8 : N;
+    using Few = Eigen::Array<double, width, 1>;
+    for (int first = 0; first < N; first += width) {
+      const double* row = c + (num_powers - 1) * N + first;
+      Few sum = Eigen::Map<const Few>(row);
+      for (int k = 1; k < num_powers; ++k) {
+        row -= N;
+        sum = sum * t + Eigen::Map<const Few>(row);
+      }
+      values.template segment<width>(first) = sum;
+    }
+  }
+
+  /// Values and their derivatives with respect to sigma.
+  void operator()(double sigma, Values& values, Values& slopes) const noexcept {
+    if (!(sigma <= max_bending * max_bending)) {
+      values.setConstant(std::numeric_limits<double>::quiet_NaN());
+      slopes = values;
+      return;
+    }
+    double t = 0.0;
+    const double* c = find(sigma, t);
+    using Row = Eigen::Map<const Values>;
+    values = Row(c + (num_powers - 1) * N);
+    slopes.setZero();
+    for (int k = num_powers - 2; k >= 0; --k) {
+      slopes = slopes * t + values;
+      values = values * t + Row(c + k * N);
+    }
+    slopes *= 2.0 / piece_width;
+  }
+
+ private:
+  static constexpr std::ptrdiff_t block = std::ptrdiff_t{num_powers} * N;
+
+  /// Coefficients of the piece that sigma lies in; t in [-1, 1] is its place there.
+  const double* find(double sigma, double& t) const noexcept {
+    const double position = sigma * (1.0 / piece_width);
+    int piece = static_cast<int>(position);
+    if (piece == num_pieces) piece = num_pieces - 1;
+    t = 2.0 * (position - piece) - 1.0;
+    return coefficients_.data() + piece * block;
+  }
+
+  std::vector<double> coefficients_;  // [piece][power][function]
+};
+
+}  // namespace cdcr::detail

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+
+#include "section_series.hpp"
+
+namespace cdcr::detail {
+
+/// Coefficients in t of f(centre + half_width t), by repeated synthetic division: as many as are
+/// kept.
+inline Series recentred(Series f, long double centre, long double half_width, std::size_t kept) {
+  if (f.size() < kept) f.resize(kept, 0.0L);  // a cut series is short
+  for (std::size_t i = 0; i < kept; ++i) {
+    for (std::size_t k = f.size() - 1; k-- > i;) f[k] += centre * f[k + 1];
+  }
+  f.resize(kept);
+  long double scale = 1.0L;
+  for (long double& c : f) {
+    c *= scale;
+    scale *= half_width;
+  }
+  return f;
+}
+
+}  // namespace cdcr::detail

@@ -1,0 +1,217 @@
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "cdcr/robot.hpp"
+
+namespace cdcr {
+namespace {
+
+constexpr int max_disks = 64;
+constexpr int max_section_cables = 16;
+constexpr int max_cables = 64;
+// Of a rotation's columns, and of an inertia relative to its largest entry.
+constexpr double tolerance = 1e-9;
+
+const Eigen::IOFormat rows(12, Eigen::DontAlignCols, ", ", ", ", "[", "]", "[", "]");
+const Eigen::IOFormat row(12, Eigen::DontAlignCols, ", ", ", ", "", "", "[", "]");
+
+std::string indexed(const std::string& item, std::size_t k) {
+  return item + "[" + std::to_string(k) + "]";
+}
+
+/// Collects sentences of the form "sections[0].length must be > 0 m and finite, got -1".
+class Check {
+ public:
+  void positive(const std::string& item, double value, const char* unit) {
+    if (!(value > 0.0) || !std::isfinite(value)) refuse(item, range("> 0", unit), value);
+  }
+  void not_negative(const std::string& item, double value, const char* unit) {
+    if (!(value >= 0.0) || !std::isfinite(value)) refuse(item, range(">= 0", unit), value);
+  }
+  void fraction(const std::string& item, double value) {
+    if (!(value >= 0.0 && value <= 1.0)) refuse(item, "0 to 1", value);
+  }
+  void finite(const std::string& item, double value, const char* unit) {
+    const std::string of_unit = *unit != '\0' ? std::string(" of ") + unit : "";
+    if (!std::isfinite(value)) refuse(item, "a finite number" + of_unit, value);
+  }
+  void count(const std::string& item, long long value, long long low, long long high) {
+    if (value < low || value > high) {
+      refuse(item, std::to_string(low) + " to " + std::to_string(high), value);
+    }
+  }
+  template <typename Value>
+  void refuse(const std::string& item, const std::string& wanted, const Value& value) {
+    std::ostringstream text;
+    text.precision(12);
+    text << item << " must be " << wanted << ", got " << value;
+    found.push_back(text.str());
+  }
+
+  std::vector<std::string> found;
+
+ private:
+  static std::string range(const char* range, const char* unit) {
+    return std::string(range) + (*unit != '\0' ? " " : "") + unit + " and finite";
+  }
+};
+
+/// The disks of a section; `in` is "sections[0]." or empty, as below.
+void check_disks(const Section& s, const std::string& in, Check& check) {
+  check.not_negative(in + "disk_mass", s.disk_mass, "kg");
+  check.not_negative(in + "disk_diameter", s.disk_diameter, "m");
+  check.count(in + "num_disks", s.num_disks, 0, max_disks);
+  const auto num_positions = static_cast<long long>(s.disk_positions.size());
+  check.count("the number of " + in + "disk_positions", num_positions, 0, max_disks);
+  if (num_positions > 0 && s.num_disks != 0 && s.num_disks != num_positions) {
+    check.refuse(in + "num_disks",
+                 "0 or the number of disk_positions, " + std::to_string(num_positions),
+                 s.num_disks);
+  }
+  const long long num_disks = num_positions > 0 ? num_positions : s.num_disks;
+  const auto one_each = [&](const char* name, std::size_t size) {
+    if (size != 0 && static_cast<long long>(size) != num_disks) {
+      check.refuse("the number of " + in + name,
+                   "0 or the number of disks, " + std::to_string(num_disks), size);
+    }
+  };
+  one_each("disk_masses", s.disk_masses.size());
+  one_each("disk_diameters", s.disk_diameters.size());
+  for (std::size_t k = 0; k < s.disk_positions.size(); ++k) {
+    check.fraction(indexed(in + "disk_positions", k), s.disk_positions[k]);
+  }
+  for (std::size_t k = 0; k < s.disk_masses.size(); ++k) {
+    check.not_negative(indexed(in + "disk_masses", k), s.disk_masses[k], "kg");
+  }
+  for (std::size_t k = 0; k < s.disk_diameters.size(); ++k) {
+    check.not_negative(indexed(in + "disk_diameters", k), s.disk_diameters[k], "m");
+  }
+}
+
+void check_section_cables(const Section& s, const std::string& in, Check& check) {
+  const auto num_cables = static_cast<long long>(s.cable_angles.size());
+  check.count("the number of " + in + "cable_angles", num_cables, 0, max_section_cables);
+  if (num_cables > 0) {
+    check.positive(in + "cable_radius", s.cable_radius, "m");
+  } else {
+    check.not_negative(in + "cable_radius", s.cable_radius, "m");
+  }
+  for (std::size_t j = 0; j < s.cable_angles.size(); ++j) {
+    check.finite(indexed(in + "cable_angles", j), s.cable_angles[j], "rad");
+  }
+  check.not_negative(in + "cable_stiffness", s.cable_stiffness, "N/m");
+  check.not_negative(in + "cable_damping", s.cable_damping, "N s/m");
+  check.not_negative(in + "cable_friction", s.cable_friction, "");
+}
+
+void check_section(const Section& s, const std::string& in, Check& check) {
+  check.positive(in + "length", s.length, "m");
+  check.not_negative(in + "backbone_mass", s.backbone_mass, "kg");
+  check.positive(in + "backbone_diameter", s.backbone_diameter, "m");
+  check.positive(in + "youngs_modulus", s.youngs_modulus, "Pa");
+  check_disks(s, in, check);
+  check_section_cables(s, in, check);
+  check.not_negative(in + "damping", s.damping, "N m s/rad");
+}
+
+/// `last` is the index of the robot's last section, negative for a robot without any.
+void check_cable(const Cable& cable, const std::string& in, long long last, Check& check) {
+  check.positive(in + "radius", cable.radius, "m");
+  check.finite(in + "angle", cable.angle, "rad");
+  if (last >= 0) check.count(in + "end_section", cable.end_section, 0, last);
+  check.not_negative(in + "stiffness", cable.stiffness, "N/m");
+  check.not_negative(in + "damping", cable.damping, "N s/m");
+  if (cable.friction) check.not_negative(in + "friction", *cable.friction, "");
+}
+
+void check_vector(const std::string& item, const Vector3d& v, const char* unit, Check& check) {
+  for (Index k = 0; k < 3; ++k) check.finite(indexed(item, k), v[k], unit);
+}
+
+/// Whether all entries are finite; each that is not has its sentence.
+bool check_matrix(const std::string& item, const Matrix3d& m, const char* unit, Check& check) {
+  for (Index i = 0; i < 3; ++i) check_vector(indexed(item, i), m.row(i), unit, check);
+  return m.allFinite();
+}
+
+void check_base_orientation(const Matrix3d& R, Check& check) {
+  if (!check_matrix("base_orientation", R, "", check)) return;
+  const Matrix3d excess = R.transpose() * R - Matrix3d::Identity();  // NaN where it overflows
+  const bool orthonormal = (excess.array().abs() <= tolerance).all();
+  if (!orthonormal || R.determinant() < 0.0) {
+    check.refuse("base_orientation", "a right-handed rotation matrix, to 1e-9", R.format(rows));
+  }
+}
+
+void check_payload_inertia(const Matrix3d& inertia, Check& check) {
+  if (!check_matrix("payload_inertia", inertia, "kg m^2", check)) return;
+  const double largest = inertia.cwiseAbs().maxCoeff();
+  if (largest == 0.0) return;
+  const Matrix3d relative = inertia / largest;
+  if ((relative - relative.transpose()).cwiseAbs().maxCoeff() > tolerance) {
+    check.refuse("payload_inertia", "symmetric, to 1e-9 of its largest entry",
+                 inertia.format(rows));
+    return;
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(relative, Eigen::EigenvaluesOnly);
+  const Vector3d moments = solver.eigenvalues();  // increasing
+  if (moments[0] < -tolerance || moments[2] > moments[0] + moments[1] + tolerance) {
+    check.refuse("payload_inertia",
+                 "that of a body: principal moments >= 0, none above the sum of the others",
+                 Vector3d(largest * moments).transpose().format(row));
+  }
+}
+
+void check_payload(const Robot& robot, Check& check) {
+  check.not_negative("payload", robot.payload, "kg");
+  check_vector("payload_position", robot.payload_position, "m", check);
+  check_payload_inertia(robot.payload_inertia, check);
+  if (robot.payload != 0.0) return;
+  if (robot.payload_position.allFinite() && !robot.payload_position.isZero(0.0)) {
+    check.refuse("payload_position", "zero where the payload is zero",
+                 robot.payload_position.transpose().format(row));
+  }
+  if (robot.payload_inertia.allFinite() && !robot.payload_inertia.isZero(0.0)) {
+    check.refuse("payload_inertia", "zero where the payload is zero",
+                 robot.payload_inertia.format(rows));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> violations(const Section& section) {
+  Check check;
+  check_section(section, "", check);
+  return check.found;
+}
+
+std::vector<std::string> violations(const Robot& robot) {
+  Check check;
+  const auto num_sections = static_cast<long long>(robot.sections.size());
+  check.count("the number of sections", num_sections, 1, max_sections);
+  for (std::size_t i = 0; i < robot.sections.size(); ++i) {
+    check_section(robot.sections[i], indexed("sections", i) + ".", check);
+  }
+  check.count("the number of cables", static_cast<long long>(robot.cables.size()), 0, max_cables);
+  for (std::size_t j = 0; j < robot.cables.size(); ++j) {
+    check_cable(robot.cables[j], indexed("cables", j) + ".", num_sections - 1, check);
+  }
+  check_vector("gravity", robot.gravity, "m/s^2", check);
+  check_payload(robot, check);
+  check_base_orientation(robot.base_orientation, check);
+  check.positive("sliding_speed", robot.sliding_speed, "m/s");
+  return check.found;
+}
+
+void validate(const Robot& robot) {
+  std::string text;
+  for (const std::string& sentence : violations(robot)) {
+    text += (text.empty() ? "" : "\n") + sentence;
+  }
+  if (!text.empty()) throw std::invalid_argument(text);
+}
+
+}  // namespace cdcr
