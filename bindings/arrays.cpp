@@ -91,7 +91,13 @@ VectorArgument read_tension(const Model& model, const py::handle& object) {
   for (Index j = 0; j < model.num_cables(); ++j) {
     if ((*tension)[j] >= 0.0) continue;
     std::ostringstream text;
-    text << "tension[" << j << "] must be >= 0 N (a cable cannot push), got " << (*tension)[j];
+    text << "tension[" << j << "] must be >= 0 ";
+    if (model.cables()[static_cast<std::size_t>(j)].length_driven()) {
+      text << "m (the length commanded of a length-driven cable)";
+    } else {
+      text << "N (a cable cannot push)";
+    }
+    text << ", got " << (*tension)[j];
     refuse(text);
   }
   return tension;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cdcr/model.hpp"
+#include "cdcr/wrench.hpp"
 
 namespace cdcr::python {
 
@@ -35,8 +36,11 @@ class VectorArgument {
 [[nodiscard]] VectorArgument read_bending(const Model& model, const py::handle& object,
                                           const char* name);
 
-/// Tensions (num_cables): also refuses a negative one.
+/// Commands of the cables (num_cables), tensions or lengths: also refuses a negative one.
 [[nodiscard]] VectorArgument read_tension(const Model& model, const py::handle& object);
+
+/// A sequence of cdcr.Wrench, or one, each constant and in its range.
+[[nodiscard]] Wrenches read_wrenches(const Model& model, const py::object& object);
 
 [[nodiscard]] py::array_t<double> to_array(const Eigen::Ref<const VectorXd>& vector);
 [[nodiscard]] py::array_t<double> to_rows(const RowMatrixXd& matrix);

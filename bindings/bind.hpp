@@ -12,7 +12,9 @@ using PyModel = pybind11::class_<Model>;
 void bind_status(pybind11::module_& m);
 void bind_robot(pybind11::module_& m);
 void bind_coordinates(pybind11::module_& m);
+void bind_wrench(pybind11::module_& m);
 void bind_model(pybind11::module_& m);
+void bind_cables(PyModel& model);                         ///< called by bind_model
 void bind_kinematics(PyModel& model);                     ///< called by bind_model
 void bind_dynamics(PyModel& model);                       ///< called by bind_model
 void bind_statics(pybind11::module_& m, PyModel& model);  ///< called by bind_model

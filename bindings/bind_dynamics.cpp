@@ -58,16 +58,16 @@ void bind_dynamics(PyModel& model) {
       .def(
           "forward_dynamics",
           [](const Model& self, const py::object& q, const py::object& qd,
-             const py::object& tension) {
+             const py::object& tension, const py::object& wrenches) {
             require_inertia(self);
             Data data(self);
             py::array_t<double> qdd(self.num_coordinates());
             forward_dynamics(self, data, *read_bending(self, q, "q"), *read_rate(self, qd, "qd"),
-                             *read_tension(self, tension),
+                             *read_tension(self, tension), read_wrenches(self, wrenches),
                              Eigen::Map<VectorXd>(qdd.mutable_data(), qdd.size()));
             return qdd;
           },
-          "q"_a, "qd"_a, "tension"_a)
+          "q"_a, "qd"_a, "tension"_a, "wrenches"_a = py::tuple())
       .def(
           "inverse_dynamics",
           [](const Model& self, const py::object& q, const py::object& qd, const py::object& qdd) {
@@ -113,16 +113,25 @@ void bind_dynamics(PyModel& model) {
       .def(
           "linearize",
           [](const Model& self, const py::object& q, const py::object& qd,
-             const py::object& tension) {
+             const py::object& tension, const py::object& wrenches) {
             require_inertia(self);
             Data data(self);
             const Index num_states = 2 * self.num_coordinates();
             MatrixXd A(num_states, num_states), B(num_states, self.num_cables());
             linearize(self, data, *read_bending(self, q, "q"), *read_rate(self, qd, "qd"),
-                      *read_tension(self, tension), A, B);
+                      *read_tension(self, tension), read_wrenches(self, wrenches), A, B);
             return py::make_tuple(to_rows(A), to_rows(B));
           },
-          "q"_a, "qd"_a, "tension"_a);
+          "q"_a, "qd"_a, "tension"_a, "wrenches"_a = py::tuple())
+      .def(
+          "wrench_force",
+          [](const Model& self, const py::object& q, const py::object& wrenches) {
+            VectorXd force = VectorXd::Zero(self.num_coordinates());
+            add_wrench_force(self, *read_bending(self, q, "q"), read_wrenches(self, wrenches),
+                             force);
+            return to_array(force);
+          },
+          "q"_a, "wrenches"_a);
 }
 
 }  // namespace cdcr::python

@@ -21,7 +21,9 @@ void bind_model(py::module_& m) {
       .def_property_readonly("num_coordinates", &Model::num_coordinates)
       .def_property_readonly("num_cables", &Model::num_cables)
       .def_property_readonly("has_inertia", &Model::has_inertia)
+      .def_property_readonly("has_friction", &Model::has_friction)
       .def("actuation_matrix", [](const Model& self) { return to_rows(self.actuation_matrix()); });
+  bind_cables(model);
   bind_kinematics(model);
   bind_dynamics(model);
   bind_statics(m, model);

@@ -34,7 +34,8 @@ TensionInput call_python(py::function function, Index num_cables,
 /// `source` is a const TensionInput or a Controller.
 template <class Source>
 Trajectory run(const Model& model, const py::object& q0, const py::object& qd0, const py::object& t,
-               Source& source, Method method, const Options& options, const py::object& progress) {
+               Source& source, Method method, const Options& options, const py::object& progress,
+               const Loads& loads) {
   const VectorXd q = *read_bending(model, q0, "q0");
   const VectorXd qd = *VectorArgument(qd0, "qd0", model.num_coordinates());
   const VectorXd times = *VectorArgument(t, "t", -1);
@@ -45,7 +46,8 @@ Trajectory run(const Model& model, const py::object& q0, const py::object& qd0, 
     return true;
   };
   const py::gil_scoped_release unlocked;
-  return simulate(model, q, qd, times, source, method, options, make_cvode_integrator, report);
+  return simulate(model, q, qd, times, source, method, options, make_cvode_integrator, report,
+                  loads);
 }
 
 }  // namespace
@@ -134,14 +136,25 @@ void bind_simulate(py::module_& m) {
       .def_property_readonly("qd", [](const Trajectory& self) { return to_rows(self.qd); })
       .def_property_readonly("tension",
                              [](const Trajectory& self) { return to_rows(self.tension); })
+      .def_property_readonly("command",
+                             [](const Trajectory& self) { return to_rows(self.command); })
+      .def_property_readonly("slack_events",
+                             [](const Trajectory& self) {
+                               py::list events;
+                               for (const SlackEvent& event : self.slack_events) {
+                                 events.append(
+                                     py::make_tuple(event.time, event.cable, event.slack));
+                               }
+                               return events;
+                             })
       .def_readonly("status", &Trajectory::status)
       .def_readonly("message", &Trajectory::message)
       .def_readonly("stats", &Trajectory::stats);
 
   m.def("simulate", &run<const TensionInput>, "model"_a, "q0"_a, "qd0"_a, "t"_a, "input"_a,
-        "method"_a, "options"_a, "progress"_a);
+        "method"_a, "options"_a, "progress"_a, "loads"_a);
   m.def("simulate_controlled", &run<Controller>, "model"_a, "q0"_a, "qd0"_a, "t"_a, "controller"_a,
-        "method"_a, "options"_a, "progress"_a);
+        "method"_a, "options"_a, "progress"_a, "loads"_a);
 }
 
 }  // namespace cdcr::python

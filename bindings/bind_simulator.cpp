@@ -20,10 +20,11 @@ void bind_simulator(py::module_& m) {
           "q"_a, "qd"_a, "time"_a = 0.0)
       .def(
           "step",
-          [](Simulator& self, const py::object& tension) {
-            return self.step(*read_tension(self.model(), tension));
+          [](Simulator& self, const py::object& tension, const py::object& wrenches) {
+            return self.step(*read_tension(self.model(), tension),
+                             read_wrenches(self.model(), wrenches));
           },
-          "tension"_a)
+          "tension"_a, "wrenches"_a = py::tuple())
       .def_property_readonly("q", [](const Simulator& self) { return to_array(self.q()); })
       .def_property_readonly("qd", [](const Simulator& self) { return to_array(self.qd()); })
       .def_property_readonly("time", &Simulator::time)

@@ -11,6 +11,7 @@ PYBIND11_MODULE(_core, m) {
   cdcr::python::bind_status(m);
   cdcr::python::bind_robot(m);
   cdcr::python::bind_coordinates(m);
+  cdcr::python::bind_wrench(m);
   cdcr::python::bind_model(m);
   cdcr::python::bind_control(m);
   cdcr::python::bind_simulate(m);

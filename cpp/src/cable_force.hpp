@@ -13,18 +13,25 @@ template <class S>
   return B(2 * section, cable) * rows[2 * section] + B(2 * section + 1, cable) * rows[2 * section + 1];
 }
 
-/// Tension at the base, eq. (36).
+/// Pull of a length-driven cable's spring and damper; negative where it would have to push.
 template <class S>
-[[nodiscard]] S base_tension(const Model& model, Index j, const S* q, const S* qd,
-                             const S& command) {
+[[nodiscard]] S spring_pull(const Model& model, Index j, const S* q, const S* qd,
+                            const S& command) {
   const Cable& cable = model.cables()[static_cast<std::size_t>(j)];
-  if (!cable.length_driven()) return command;
   S length(model.straight_lengths()[j]), rate(0.0);
   for (Index k = 0; k <= cable.end_section; ++k) {
     length -= dot_rows(model.actuation_matrix(), j, k, q);
     rate -= dot_rows(model.actuation_matrix(), j, k, qd);
   }
-  const S pull = cable.stiffness * (length - command) + cable.damping * rate;
+  return cable.stiffness * (length - command) + cable.damping * rate;
+}
+
+/// Tension at the base, eq. (36).
+template <class S>
+[[nodiscard]] S base_tension(const Model& model, Index j, const S* q, const S* qd,
+                             const S& command) {
+  if (!model.cables()[static_cast<std::size_t>(j)].length_driven()) return command;
+  const S pull = spring_pull(model, j, q, qd, command);
   return pull > 0.0 ? pull : S(0.0);
 }
 
@@ -58,9 +65,11 @@ template <class S>
 /// Within section k the tension falls as e^-zx with z = mu theta_k s. The direction s comes from
 /// the cable's speed v(x) through the holes, which is linear in x. What friction takes is
 /// mu theta_k s times the integral of e^-zx v; so s follows the mean of v where that has the sign
-/// of the weighted mean, and is zero in the small gap where it has not: friction never gives work.
+/// of the weighted mean, and is zero in the small gap where it has not: friction never gives work. The tension that is left
+/// beyond each section goes to `beyond_sections` where that is wanted.
 template <class S>
-void add_rubbing_cable(const Model& model, Index j, const S* q, const S* qd, S tension, S* force) {
+void add_rubbing_cable(const Model& model, Index j, const S* q, const S* qd, S tension, S* force,
+                       S* beyond_sections = nullptr) {
   using std::sqrt;
   using std::tanh;
   const MatrixXd& B = model.actuation_matrix();
@@ -86,6 +95,7 @@ void add_rubbing_cable(const Model& model, Index j, const S* q, const S* qd, S t
     force[2 * k] += B(2 * k, j) * felt;
     force[2 * k + 1] += B(2 * k + 1, j) * felt;
     beyond -= rate;
+    if (beyond_sections != nullptr) beyond_sections[k] = tension;
   }
 }
 

@@ -26,6 +26,33 @@ void cable_force(const Model& model, const ConstVectorRef& q, const ConstVectorR
   detail::cable_force(model, q.data(), qd.data(), command.data(), force.data());
 }
 
+double cable_pull(const Model& model, Index cable, const ConstVectorRef& q,
+                  const ConstVectorRef& qd, double command) noexcept {
+  return detail::spring_pull(model, cable, q.data(), qd.data(), command);
+}
+
+void tensions_along(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
+                    const ConstVectorRef& command, MatrixRef tension) noexcept {
+  double unused[2 * max_sections] = {};
+  tension.setZero();
+  for (Index j = 0; j < model.num_cables(); ++j) {
+    tension(0, j) = detail::base_tension(model, j, q.data(), qd.data(), command[j]);
+    detail::add_rubbing_cable(model, j, q.data(), qd.data(), double{tension(0, j)}, unused,
+                              &tension(1, j));
+  }
+}
+
+double friction_power(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
+                      const ConstVectorRef& command) noexcept {
+  double lost = 0.0, force[2 * max_sections] = {};
+  for (Index j = 0; j < model.num_cables(); ++j) {
+    const double tension = detail::base_tension(model, j, q.data(), qd.data(), command[j]);
+    lost += tension * model.actuation_matrix().col(j).dot(qd);
+    detail::add_rubbing_cable(model, j, q.data(), qd.data(), tension, force);
+  }
+  return lost - Eigen::Map<const VectorXd>(force, qd.size()).dot(qd);
+}
+
 double cable_energy(const Model& model, const ConstVectorRef& q,
                     const ConstVectorRef& command) noexcept {
   double energy = 0.0;

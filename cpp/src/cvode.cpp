@@ -61,16 +61,20 @@ class Cvode final : public Integrator {
   [[nodiscard]] double time() const noexcept override { return time_; }
   [[nodiscard]] const VectorXd& state() const noexcept override { return state_; }
   [[nodiscard]] Stats stats() const noexcept override;
+  [[nodiscard]] std::vector<SlackEvent> slack_events() const override { return slack_events_; }
 
  private:
   // What CVODE calls: 0 means done, 1 try a smaller step, -1 give up.
   static int derivative(double t, N_Vector y, N_Vector dydt, void* self) noexcept;
   static int jacobian(double t, N_Vector y, N_Vector dydt, SUNMatrix J, void* self, N_Vector,
                       N_Vector, N_Vector) noexcept;
+  static int pulls(double t, N_Vector y, double* pull, void* self) noexcept;
   template <typename Function>
   int guarded(Function function) noexcept;
 
   Status begin(double t, const VectorXd& y, double t_stop);
+  void reinitialise();
+  void note_slack();
   Status evaluate(double t, const double* y, VectorRef slope);
   [[nodiscard]] double norm(const VectorXd& v) const noexcept;
   double first_step();
@@ -87,6 +91,8 @@ class Cvode final : public Integrator {
   double time_ = 0.0, stop_ = 0.0;
   VectorXd state_, slope_, moved_, slope_there_;
   Status status_ = Status::not_started;
+  bool at_event_ = false;         // the last step ended where a cable turned slack or taut
+  std::vector<SlackEvent> slack_events_;
   Status obstacle_ = Status::ok;  // why a derivative wanted for the step at hand does not exist
   std::exception_ptr exception_;  // thrown during a call of CVODE
   Stats stats_;  // without the failures that CVODE has counted since the last restart
@@ -118,6 +124,10 @@ Cvode::Cvode(Plant& plant, Method method, const Options& options)
   require(CVodeSetJacFn(cvode, jacobian), "CVodeSetJacFn");
   require(CVodeSetMaxStep(cvode, options.max_step), "CVodeSetMaxStep");
   require(CVodeSetMaxHnilWarns(cvode, -1), "CVodeSetMaxHnilWarns");
+  const auto num_events = static_cast<int>(plant.length_driven().size());
+  if (num_events == 0) return;
+  require(CVodeRootInit(cvode, num_events, pulls), "CVodeRootInit");
+  require(CVodeSetNoInactiveRootWarn(cvode), "CVodeSetNoInactiveRootWarn");
 }
 
 /// Keeps exceptions out of CVODE, which is C and could not pass them on.
@@ -151,6 +161,14 @@ int Cvode::jacobian(double t, N_Vector y, N_Vector /*dydt*/, SUNMatrix J, void* 
   });
 }
 
+int Cvode::pulls(double t, N_Vector y, double* pull, void* self) noexcept {
+  Cvode& me = *static_cast<Cvode*>(self);
+  return me.guarded([&] {
+    me.plant_.pulls(t, NV_DATA_S(y), pull);
+    return true;
+  });
+}
+
 Status Cvode::restart(double t, const VectorXd& y, double t_stop) {
   if (y.size() != state_.size() || !(t_stop > t)) {
     std::ostringstream text;
@@ -169,6 +187,12 @@ Status Cvode::begin(double t, const VectorXd& y, double t_stop) {
   const Status status = evaluate(time_, state_.data(), slope_);
   if (status != Status::ok) return status;
 
+  reinitialise();
+  return Status::ok;
+}
+
+/// Starts from state_, whose slope is slope_, and forgets what came before.
+void Cvode::reinitialise() {
   void* const cvode = cvode_.get();
   const double h = first_step();
   stats_ = stats();  // CVodeReInit sets CVODE's counts to zero
@@ -176,7 +200,7 @@ Status Cvode::begin(double t, const VectorXd& y, double t_stop) {
   require(CVodeReInit(cvode, time_, trial_.get()), "CVodeReInit");
   require(CVodeSetInitStep(cvode, h), "CVodeSetInitStep");
   require(CVodeSetStopTime(cvode, stop_), "CVodeSetStopTime");
-  return Status::ok;
+  at_event_ = false;
 }
 
 /// y' at (t, y), which the tension function gets to see only where the model holds.
@@ -229,12 +253,21 @@ Status Cvode::step() {
 Status Cvode::advance() {
   double t = time_;
   obstacle_ = Status::ok;
+  if (at_event_) {
+    // Tensions bend there, so what the method remembers would mislead it.
+    const Status status = evaluate(time_, state_.data(), slope_);
+    if (status != Status::ok) return status;
+    reinitialise();
+  }
   const auto too_small = [this] {  // with the cause, where it is known
     return obstacle_ == Status::ok ? Status::step_too_small : obstacle_;
   };
   switch (CVode(cvode_.get(), stop_, trial_.get(), &t, CV_ONE_STEP)) {
     case CV_SUCCESS:
     case CV_TSTOP_RETURN:
+      break;
+    case CV_ROOT_RETURN:
+      at_event_ = true;
       break;
     case CV_ERR_FAILURE:
     case CV_REPTD_RHSFUNC_ERR:
@@ -249,7 +282,17 @@ Status Cvode::advance() {
   state_ = view(trial_);
   time_ = t;
   ++stats_.steps;
+  if (at_event_) note_slack();
   return Status::ok;
+}
+
+void Cvode::note_slack() {
+  const auto& cables = plant_.length_driven();
+  std::vector<int> found(cables.size());
+  require(CVodeGetRootInfo(cvode_.get(), found.data()), "CVodeGetRootInfo");
+  for (std::size_t i = 0; i < cables.size(); ++i) {
+    if (found[i] != 0) slack_events_.push_back({time_, cables[i], found[i] < 0});
+  }
 }
 
 void Cvode::interpolate(double t, VectorXd& y) {

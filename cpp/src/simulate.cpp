@@ -36,7 +36,9 @@ class Recorder {
     out_.q.resize(times.size(), m);
     out_.qd.resize(times.size(), m);
     out_.tension.resize(times.size(), plant.model().num_cables());
+    out_.command.resize(times.size(), plant.model().num_cables());
     tension_.resize(plant.model().num_cables());
+    command_.resize(plant.model().num_cables());
   }
 
   [[nodiscard]] bool done() const { return next_ == out_.t.size(); }
@@ -47,8 +49,9 @@ class Recorder {
     const Index m = out_.q.cols();
     out_.q.row(next_) = y.head(m).transpose();
     out_.qd.row(next_) = y.tail(m).transpose();
-    plant_.tension(out_.t[next_], y, tension_);
+    plant_.cables(out_.t[next_], y, command_, tension_);
     out_.tension.row(next_) = tension_.transpose();
+    out_.command.row(next_) = command_.transpose();
     ++next_;
   }
 
@@ -72,12 +75,13 @@ class Recorder {
     out_.q.conservativeResize(next_, Eigen::NoChange);
     out_.qd.conservativeResize(next_, Eigen::NoChange);
     out_.tension.conservativeResize(next_, Eigen::NoChange);
+    out_.command.conservativeResize(next_, Eigen::NoChange);
   }
 
  private:
   Plant& plant_;
   Trajectory& out_;
-  VectorXd y_, tension_;
+  VectorXd y_, tension_, command_;
   Index next_ = 0;
 };
 
@@ -127,6 +131,7 @@ Trajectory run(Plant& plant, const VectorXd& q0, const VectorXd& qd0, const Vect
   }
   recorder.finish();
   out.stats = integrator.stats();
+  out.slack_events = integrator.slack_events();
   if (out.status != Status::ok) {
     std::ostringstream text;
     text << "Stopped at t = " << t << " s (" << name(out.status) << "). " << message(out.status);
@@ -146,17 +151,19 @@ void check_arguments(const Model& model, const VectorXd& q0, const VectorXd& qd0
 
 Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
                     const VectorXd& times, const TensionInput& input, Method method,
-                    const Options& options, IntegratorFactory factory, const Progress& progress) {
+                    const Options& options, IntegratorFactory factory, const Progress& progress,
+                    const Loads& loads) {
   check_arguments(model, q0, qd0, times);
-  Plant plant(model, input);
+  Plant plant(model, input, loads);
   return run(plant, q0, qd0, times, *factory(plant, method, options), options, progress);
 }
 
 Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
                     const VectorXd& times, Controller& controller, Method method,
-                    const Options& options, IntegratorFactory factory, const Progress& progress) {
+                    const Options& options, IntegratorFactory factory, const Progress& progress,
+                    const Loads& loads) {
   check_arguments(model, q0, qd0, times);
-  Plant plant(model, controller);
+  Plant plant(model, controller, loads);
   controller.reset();
   return run(plant, q0, qd0, times, *factory(plant, method, options), options, progress);
 }

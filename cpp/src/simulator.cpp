@@ -66,16 +66,25 @@ void Simulator::reset(const VectorXd& q, const VectorXd& qd, double time) {
 }
 
 Status Simulator::step(const ConstVectorRef& tension) noexcept {
+  return step(tension, no_wrenches());
+}
+
+Status Simulator::step(const ConstVectorRef& tension, const Wrenches& wrenches) noexcept {
   if (!started_) return Status::not_started;
   const Status tension_status = check_tension(model_, tension);
   if (tension_status != Status::ok) return tension_status;
 
   const Index m = model_.num_coordinates();
-  actuation_force(model_, tension, force_);
-  const auto f = [this, m](double /*t*/, const double* y, double* dydt) {
+  const bool force_holds = model_.has_plain_cables() && wrenches.empty();
+  if (force_holds) cable_force(model_, q_, qd_, tension, force_);
+  const auto f = [&](double /*t*/, const double* y, double* dydt) {
     const Eigen::Map<const VectorXd> q(y, m), qd(y + m, m);
     Eigen::Map<VectorXd> rate(dydt, m), qdd(dydt + m, m);
     rate = qd;
+    if (!force_holds) {
+      cable_force(model_, q, qd, tension, force_);
+      add_wrench_force(model_, q, wrenches, force_);
+    }
     forward_dynamics_force(model_, data_, q, qd, force_, qdd);
   };
   const double h = period_ / substeps_;

@@ -19,13 +19,16 @@ from cdcr._core import Controller, Equilibrium, Simulator, Stats, Status, max_be
 from cdcr._inverse import InverseRun, inverse_run
 from cdcr._model import ConvergenceError, InfeasibleError, InverseKinematics, Model
 from cdcr._reference import Reference
-from cdcr._robot import Robot, Section
+from cdcr._robot import Cable, Robot, Section
 from cdcr._simulate import TensionTable, simulate
-from cdcr._trajectory import Trajectory
+from cdcr._subdivide import merge_state, subdivide_state
+from cdcr._trajectory import SlackEvent, Trajectory
+from cdcr._wrench import Wrench
 
 __version__: str = _core.__version__
 
 __all__ = [
+    "Cable",
     "Controller",
     "ConvergenceError",
     "Equilibrium",
@@ -38,19 +41,23 @@ __all__ = [
     "Robot",
     "Section",
     "Simulator",
+    "SlackEvent",
     "Stats",
     "Status",
     "TensionTable",
     "Trajectory",
+    "Wrench",
     "__version__",
     "bending",
     "inverse_run",
     "max_bending",
+    "merge_state",
     "paper",
     "polar",
     "robots",
     "scenarios",
     "simulate",
+    "subdivide_state",
     "taylor_range",
 ]
 

@@ -58,11 +58,14 @@ def print_robot(console: Console, name: str, robot: Robot) -> None:
     numbers = [str(i + 1) for i in range(len(robot.sections))]
     table = _table("Sections, base to tip", "", *numbers)
     for item in fields(Section):
+        values = [getattr(section, item.name) for section in robot.sections]
+        if item.metadata["rare"] and all(value == item.default for value in values):
+            continue
         unit = item.metadata["unit"]
         label = _LABELS.get(item.name, item.name.replace("_", " "))
         if item.name == "cable_angles":
-            unit = "deg"
-        _add_row(table, label, unit, [_text(getattr(s, item.name)) for s in robot.sections])
+            unit, values = "deg", [tuple(map(math.degrees, angles)) for angles in values]
+        _add_row(table, label, unit, list(map(_text, values)))
     stiffness = [_text(section.stiffness) for section in robot.sections]
     _add_row(table, "bending stiffness E I / l", "N m/rad", stiffness)
     _add_row(table, "mass", "kg", [_text(section.mass) for section in robot.sections])
@@ -84,7 +87,7 @@ def _add_row(table: Table, label: str, unit: str, values: list[str]) -> None:
 
 def _text(value: float | tuple[float, ...]) -> str:
     if isinstance(value, tuple):
-        return "\n".join(f"{math.degrees(angle):.6g}" for angle in value) or "none"
+        return "\n".join(map(_text, value)) or "none"
     return f"{value:.6g}"
 
 

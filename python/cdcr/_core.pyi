@@ -7,6 +7,8 @@ from typing import final, type_check_only
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from cdcr._wrench import Wrench
+
 _FloatArray = NDArray[np.float64]
 
 @type_check_only
@@ -15,6 +17,7 @@ class _Bound(type):
 
 __version__: str
 max_bending: float
+max_sections: int
 taylor_range: float
 
 class Status(enum.Enum):
@@ -61,19 +64,60 @@ class Section(metaclass=_Bound):
         disk_mass: float,
         disk_diameter: float,
         num_disks: int,
+        disk_positions: Sequence[float],
+        disk_masses: Sequence[float],
+        disk_diameters: Sequence[float],
         cable_radius: float,
         cable_angles: Sequence[float],
+        cable_stiffness: float,
+        cable_damping: float,
+        cable_friction: float,
         damping: float,
     ) -> None: ...
     def violations(self) -> list[str]: ...
+    def disks(self) -> list[tuple[float, float, float]]: ...
     @property
     def stiffness(self) -> float: ...
 
+class Cable(metaclass=_Bound):
+    def __init__(
+        self,
+        *,
+        radius: float,
+        angle: float,
+        end_section: int,
+        stiffness: float,
+        damping: float,
+        friction: float | None,
+    ) -> None: ...
+    @property
+    def radius(self) -> float: ...
+    @property
+    def angle(self) -> float: ...
+    @property
+    def end_section(self) -> int: ...
+    @property
+    def stiffness(self) -> float: ...
+    @property
+    def damping(self) -> float: ...
+    @property
+    def friction(self) -> float | None: ...
+
 class Robot(metaclass=_Bound):
     def __init__(
-        self, *, sections: Sequence[Section], gravity: ArrayLike, payload: float
+        self,
+        *,
+        sections: Sequence[Section],
+        gravity: ArrayLike,
+        payload: float,
+        cables: Sequence[Cable],
+        base_orientation: ArrayLike,
+        payload_position: ArrayLike,
+        payload_inertia: ArrayLike,
+        sliding_speed: float,
     ) -> None: ...
     def violations(self) -> list[str]: ...
+    def all_cables(self) -> list[Cable]: ...
 
 @final
 class Equilibrium(metaclass=_Bound):
@@ -105,6 +149,33 @@ class Allocation(metaclass=_Bound):
     @property
     def limiting(self) -> list[int]: ...
 
+@final
+class CoreWrench(metaclass=_Bound):
+    """A wrench as the core sees it; not validated."""
+
+    def __init__(
+        self, section: int, fraction: float, force: ArrayLike, moment: ArrayLike, local: bool
+    ) -> None: ...
+    @property
+    def force(self) -> _FloatArray: ...
+    @property
+    def moment(self) -> _FloatArray: ...
+
+@final
+class Loads(metaclass=_Bound):
+    """Wrenches over time."""
+
+    def __init__(self) -> None: ...
+    def add(self, wrench: CoreWrench) -> None: ...
+    def add_table(
+        self, wrench: CoreWrench, times: ArrayLike, factors: ArrayLike, linear: bool
+    ) -> None: ...
+    def add_function(
+        self, wrench: CoreWrench, function: Callable[[float], float], break_points: list[float]
+    ) -> None: ...
+    def at(self, t: float) -> list[CoreWrench]: ...
+
+
 class Model(metaclass=_Bound):
     def __init__(self, robot: Robot, formulation: Formulation) -> None: ...
     @property
@@ -115,6 +186,8 @@ class Model(metaclass=_Bound):
     def num_cables(self) -> int: ...
     @property
     def has_inertia(self) -> bool: ...
+    @property
+    def has_friction(self) -> bool: ...
     def actuation_matrix(self) -> _FloatArray: ...
     def pose(
         self, q: ArrayLike, section: int, fraction: float
@@ -125,15 +198,45 @@ class Model(metaclass=_Bound):
     def cable_lengths(self, q: ArrayLike) -> _FloatArray: ...
     def mass_matrix(self, q: ArrayLike) -> _FloatArray: ...
     def bias(self, q: ArrayLike, qd: ArrayLike) -> _FloatArray: ...
-    def forward_dynamics(self, q: ArrayLike, qd: ArrayLike, tension: ArrayLike) -> _FloatArray: ...
+    def forward_dynamics(
+        self,
+        q: ArrayLike,
+        qd: ArrayLike,
+        tension: ArrayLike,
+        wrenches: Wrench | Sequence[Wrench] = (),
+    ) -> _FloatArray: ...
     def inverse_dynamics(self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> _FloatArray: ...
     def kinetic_energy(self, q: ArrayLike, qd: ArrayLike) -> float: ...
     def potential_energy(self, q: ArrayLike) -> float: ...
     def kinetic_energies(self, q: ArrayLike, qd: ArrayLike) -> _FloatArray: ...
     def potential_energies(self, q: ArrayLike) -> _FloatArray: ...
     def linearize(
-        self, q: ArrayLike, qd: ArrayLike, tension: ArrayLike
+        self,
+        q: ArrayLike,
+        qd: ArrayLike,
+        tension: ArrayLike,
+        wrenches: Wrench | Sequence[Wrench] = (),
     ) -> tuple[_FloatArray, _FloatArray]: ...
+    def wrench_force(self, q: ArrayLike, wrenches: Wrench | Sequence[Wrench]) -> _FloatArray:
+        """Generalised force (2n,) [N m] of wrenches, J^T w."""
+
+    def cable_tensions(self, q: ArrayLike, qd: ArrayLike, tension: ArrayLike) -> _FloatArray:
+        """Tensions at the base (num_cables,) [N], also of cables driven by length."""
+
+    def tensions_along(self, q: ArrayLike, qd: ArrayLike, tension: ArrayLike) -> _FloatArray:
+        """Tensions at the base and beyond each section (n + 1, num_cables) [N]."""
+
+    def cable_force(self, q: ArrayLike, qd: ArrayLike, tension: ArrayLike) -> _FloatArray:
+        """Generalised force (2n,) [N m] of the cables, friction included."""
+
+    def friction_power(self, q: ArrayLike, qd: ArrayLike, tension: ArrayLike) -> float:
+        """What friction of the cables turns into heat [W], never negative."""
+
+    def cable_energy(self, q: ArrayLike, tension: ArrayLike) -> float:
+        """Energy in the springs of cables driven by length [J]."""
+
+    def rest_command(self) -> _FloatArray:
+        """No tension, and straight lengths [m] of cables driven by length (num_cables,)."""
     def find_equilibrium(self, tension: ArrayLike, q0: ArrayLike | None = None) -> Equilibrium: ...
     def find_tension(
         self, force: ArrayLike, min_tension: float, max_tension: float
@@ -200,6 +303,10 @@ class Trajectory(metaclass=_Bound):
     @property
     def tension(self) -> _FloatArray: ...
     @property
+    def command(self) -> _FloatArray: ...
+    @property
+    def slack_events(self) -> list[tuple[float, int, bool]]: ...
+    @property
     def status(self) -> Status: ...
     @property
     def message(self) -> str: ...
@@ -215,6 +322,7 @@ def simulate(
     method: Method,
     options: Options,
     progress: Callable[[float], object] | None,
+    loads: Loads,
 ) -> Trajectory: ...
 def simulate_controlled(
     model: Model,
@@ -225,6 +333,7 @@ def simulate_controlled(
     method: Method,
     options: Options,
     progress: Callable[[float], object] | None,
+    loads: Loads,
 ) -> Trajectory: ...
 
 class Controller(metaclass=_Bound):
@@ -262,7 +371,9 @@ class Simulator(metaclass=_Bound):
 
     def __init__(self, model: Model, *, step: float = 0.001, substeps: int = 1) -> None: ...
     def reset(self, q: ArrayLike, qd: ArrayLike, time: float = 0.0) -> None: ...
-    def step(self, tension: ArrayLike) -> Status: ...
+    def step(
+        self, tension: ArrayLike, wrenches: Wrench | Sequence[Wrench] = ()
+    ) -> Status: ...
     @property
     def q(self) -> _FloatArray: ...
     @property

@@ -2,147 +2,26 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, fields
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from cdcr import _core
+from cdcr._cable import Cable
 from cdcr._fields import Check
+from cdcr._quantity import quantity
+from cdcr._section import Section
 
+__all__ = ["Cable", "Robot", "Section"]
 
-def _quantity(about: str, unit: str, wanted: str) -> dict[str, str]:
-    """Say what a field is, for refusals and for the comments in robot files."""
-    return {"about": about, "unit": unit, "wanted": wanted}
+Vector = tuple[float, float, float]
+Matrix = tuple[Vector, Vector, Vector]  # three rows
 
-
-@dataclass(frozen=True, kw_only=True)
-class Section:
-    """One constant-curvature section: a backbone, equally spaced disks and its cables.
-
-    Disk k of N sits at fraction k/N of the length. The cables end at the last disk. Numbers may be
-    of any real type and the angles any sequence; they are kept as floats and a tuple.
-
-    Parameters
-    ----------
-    length : float
-        Arc length of the backbone [m], > 0.
-    backbone_mass : float
-        Mass spread evenly along the length [kg], >= 0.
-    backbone_diameter : float
-        Diameter of the round, solid backbone [m], > 0.
-    youngs_modulus : float
-        Young's modulus of the backbone [Pa], > 0.
-    disk_mass : float, default 0
-        Mass of each disk [kg], >= 0.
-    disk_diameter : float, default 0
-        Diameter of each disk [m], >= 0.
-    num_disks : int, default 0
-        Number of disks, 0 to 64.
-    cable_radius : float, default 0
-        Distance from backbone to cable [m], > 0 where there are cables.
-    cable_angles : sequence of float, default ()
-        Angle of each cable about Z, from X [rad]; 0 to 16 of them.
-    damping : float, default 0
-        Viscous damping of each bending component [N m s/rad], >= 0.
-
-    Raises
-    ------
-    ValueError
-        With one sentence for each field that is out of its range, one a line.
-    """
-
-    length: float = field(
-        metadata=_quantity("arc length of the backbone", "m", "a number > 0 m and finite")
-    )
-    backbone_mass: float = field(
-        metadata=_quantity("spread evenly along the length", "kg", "a number >= 0 kg and finite")
-    )
-    backbone_diameter: float = field(
-        metadata=_quantity("of the round, solid backbone", "m", "a number > 0 m and finite")
-    )
-    youngs_modulus: float = field(
-        metadata=_quantity("of the backbone", "Pa", "a number > 0 Pa and finite")
-    )
-    disk_mass: float = field(
-        default=0.0, metadata=_quantity("of each disk", "kg", "a number >= 0 kg and finite")
-    )
-    disk_diameter: float = field(
-        default=0.0, metadata=_quantity("of each disk", "m", "a number >= 0 m and finite")
-    )
-    num_disks: int = field(
-        default=0,
-        metadata=_quantity("equally spaced, the last at the end", "", "a whole number 0 to 64"),
-    )
-    cable_radius: float = field(
-        default=0.0,
-        metadata=_quantity("from backbone to cable", "m", "a number > 0 m and finite"),
-    )
-    cable_angles: tuple[float, ...] = field(
-        default=(),
-        metadata=_quantity("about Z, from X", "rad", "a sequence of 0 to 16 numbers in rad"),
-    )
-    damping: float = field(
-        default=0.0,
-        metadata=_quantity(
-            "viscous, per bending component", "N m s/rad", "a number >= 0 N m s/rad and finite"
-        ),
-    )
-
-    if TYPE_CHECKING:  # any sequence goes in, a tuple comes out
-
-        def __init__(
-            self,
-            *,
-            length: float,
-            backbone_mass: float,
-            backbone_diameter: float,
-            youngs_modulus: float,
-            disk_mass: float = ...,
-            disk_diameter: float = ...,
-            num_disks: int = ...,
-            cable_radius: float = ...,
-            cable_angles: Sequence[float] | NDArray[np.floating[Any]] = ...,
-            damping: float = ...,
-        ) -> None: ...
-
-    def __post_init__(self) -> None:
-        """Keep every value as a plain float, int or tuple, or refuse it."""
-        check = Check()
-        for item in fields(self):
-            name, wanted, value = item.name, item.metadata["wanted"], getattr(self, item.name)
-            plain: object
-            if name == "num_disks":
-                plain = check.whole(name, value, wanted)
-            elif name == "cable_angles":
-                plain = check.numbers(name, value, wanted, each="a finite number of rad")
-            else:
-                plain = check.number(name, value, wanted)
-            object.__setattr__(self, name, plain)
-        check.done()
-        check.done(self._to_core().violations())
-
-    @property
-    def second_moment_of_area(self) -> float:
-        """Second moment of area of the backbone, I = pi d^4 / 64 [m^4]."""
-        return math.pi / 64.0 * self.backbone_diameter**4
-
-    @property
-    def stiffness(self) -> float:
-        """Bending stiffness K = E I / length [N m/rad], paper eq. (23)."""
-        return self.youngs_modulus * self.second_moment_of_area / self.length
-
-    @property
-    def mass(self) -> float:
-        """Mass of backbone and disks [kg]."""
-        return self.backbone_mass + self.num_disks * self.disk_mass
-
-    def _to_core(self) -> _core.Section:
-        return _core.Section(**{item.name: getattr(self, item.name) for item in fields(self)})
+_ZERO: Vector = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -156,7 +35,18 @@ class Robot:
     gravity : sequence of float, default (0, 0, 0)
         Gravity in the base frame [m/s^2]; (0, 0, -9.81) for a robot that stands upright.
     payload : float, default 0
-        Point mass at the tip [kg], >= 0.
+        Mass at the tip [kg], >= 0.
+    cables : sequence of Cable, default ()
+        Up to 64 cables beside those of the sections, which come first in every command.
+    base_orientation : (3, 3) array_like, default identity
+        Rotation matrix of the first section in the base frame, in which gravity and all results
+        are told. The straight robot points along its third column.
+    payload_position : sequence of float, default (0, 0, 0)
+        Centre of mass of the payload in the frame of the tip [m].
+    payload_inertia : (3, 3) array_like, default zero
+        Of the payload about its centre of mass, in the frame of the tip [kg m^2].
+    sliding_speed : float, default 1e-3
+        Speed at which a cable counts as sliding, for friction [m/s], > 0.
 
     Raises
     ------
@@ -175,15 +65,41 @@ class Robot:
     """
 
     sections: tuple[Section, ...] = field(
-        metadata=_quantity("base to tip", "", "a sequence of 1 to 32 cdcr.Section")
+        metadata=quantity("base to tip", "", "a sequence of 1 to 32 cdcr.Section")
     )
-    gravity: tuple[float, float, float] = field(
-        default=(0.0, 0.0, 0.0),
-        metadata=_quantity("in the base frame", "m/s^2", "three numbers in m/s^2"),
+    gravity: Vector = field(
+        default=_ZERO, metadata=quantity("in the base frame", "m/s^2", "three numbers in m/s^2")
     )
     payload: float = field(
-        default=0.0,
-        metadata=_quantity("point mass at the tip", "kg", "a number >= 0 kg and finite"),
+        default=0.0, metadata=quantity("mass at the tip", "kg", "a number >= 0 kg and finite")
+    )
+    cables: tuple[Cable, ...] = field(
+        default=(),
+        metadata=quantity(
+            "beside those of the sections", "", "a sequence of 0 to 64 cdcr.Cable", rare=True
+        ),
+    )
+    base_orientation: Matrix = field(
+        default=((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
+        metadata=quantity(
+            "rotation of the first section, by rows", "", "three rows of three numbers", rare=True
+        ),
+    )
+    payload_position: Vector = field(
+        default=_ZERO,
+        metadata=quantity("centre of mass, in the tip frame", "m", "three numbers in m", rare=True),
+    )
+    payload_inertia: Matrix = field(
+        default=(_ZERO, _ZERO, _ZERO),
+        metadata=quantity(
+            "about its centre of mass", "kg m^2", "three rows of three numbers in kg m^2", rare=True
+        ),
+    )
+    sliding_speed: float = field(
+        default=1e-3,
+        metadata=quantity(
+            "of a cable, for friction", "m/s", "a number > 0 m/s and finite", rare=True
+        ),
     )
 
     if TYPE_CHECKING:  # any sequence goes in, a tuple comes out
@@ -194,23 +110,31 @@ class Robot:
             sections: Sequence[Section],
             gravity: Sequence[float] | NDArray[np.floating[Any]] = ...,
             payload: float = ...,
+            cables: Sequence[Cable] = ...,
+            base_orientation: ArrayLike = ...,
+            payload_position: Sequence[float] | NDArray[np.floating[Any]] = ...,
+            payload_inertia: ArrayLike = ...,
+            sliding_speed: float = ...,
         ) -> None: ...
 
     def __post_init__(self) -> None:
         """Keep every value as a plain float or tuple, or refuse it."""
         check = Check()
-        wanted = {item.name: item.metadata["wanted"] for item in fields(self)}
-        sections = check.items("sections", self.sections, wanted["sections"])
-        for i, section in enumerate(sections):
-            if not isinstance(section, Section):
-                check.refuse(f"sections[{i}]", "a cdcr.Section", section)
-        gravity = check.numbers("gravity", self.gravity, wanted["gravity"], "a number in m/s^2")
-        if len(gravity) != 3 and not check.sentences:
-            check.refuse("gravity", wanted["gravity"], self.gravity)
-        payload = check.number("payload", self.payload, wanted["payload"])
-        check.done()
-        for name, plain in (("sections", sections), ("gravity", gravity), ("payload", payload)):
+        for item in fields(self):
+            name, wanted, value = item.name, item.metadata["wanted"], getattr(self, item.name)
+            unit = item.metadata["unit"]
+            plain: object
+            if name in ("sections", "cables"):
+                kind = Section if name == "sections" else Cable
+                plain = _things(check, name, value, wanted, kind)
+            elif name in ("gravity", "payload_position"):
+                plain = _vector(check, name, value, wanted, f"a number in {unit}")
+            elif name in ("base_orientation", "payload_inertia"):
+                plain = _matrix(check, name, value, wanted)
+            else:
+                plain = check.number(name, value, wanted)
             object.__setattr__(self, name, plain)
+        check.done()
         check.done(self._to_core().violations())
 
     @property
@@ -225,8 +149,50 @@ class Robot:
 
     @property
     def num_cables(self) -> int:
-        """Number of cables of all sections together."""
-        return sum(len(section.cable_angles) for section in self.sections)
+        """Number of all cables."""
+        return sum(len(section.cable_angles) for section in self.sections) + len(self.cables)
+
+    @property
+    def all_cables(self) -> tuple[Cable, ...]:
+        """Every cable in the order of the commands: section by section, then `cables`."""
+        names = [item.name for item in fields(Cable)]
+        return tuple(
+            Cable(**{name: getattr(cable, name) for name in names})
+            for cable in self._to_core().all_cables()
+        )
+
+    def subdivide(self, parts: int | Sequence[int] | NDArray[np.integer[Any]]) -> Robot:
+        """Return the same robot with every section cut into equal constant-curvature parts.
+
+        Every disk stays where it is, and cables run through all parts of a section. The more
+        parts, the nearer the robot comes to a beam that bends freely. ``cdcr.subdivide_state`` and
+        ``cdcr.merge_state`` take states there and back.
+
+        Parameters
+        ----------
+        parts : int or sequence of int
+            Parts of every section, or of each one, base to tip; each 1 to 32, and no more than 32
+            of all together.
+
+        Returns
+        -------
+        Robot
+
+        Raises
+        ------
+        ValueError
+            Where `parts` is not that.
+
+        Examples
+        --------
+        >>> import cdcr
+        >>> robot = cdcr.robots.amouri2020().subdivide(5)
+        >>> len(robot.sections), robot.sections[0].num_disks, robot.num_cables
+        (5, 2, 3)
+        """
+        from cdcr._subdivide import subdivide
+
+        return subdivide(self, parts)
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Robot:
@@ -276,8 +242,40 @@ class Robot:
         save_robot(self, path, overwrite=overwrite)
 
     def _to_core(self) -> _core.Robot:
-        return _core.Robot(
-            sections=[section._to_core() for section in self.sections],
-            gravity=np.array(self.gravity),
-            payload=self.payload,
-        )
+        plain = {item.name: getattr(self, item.name) for item in fields(self)}
+        plain["sections"] = [section._to_core() for section in self.sections]
+        plain["cables"] = [cable._to_core() for cable in self.cables]
+        return _core.Robot(**plain)
+
+
+def _things(
+    check: Check, name: str, value: object, wanted: str, kind: type[Section | Cable]
+) -> tuple[Any, ...]:
+    """Return any sequence of sections or cables as a tuple."""
+    things = check.items(name, value, wanted)
+    for i, thing in enumerate(things):
+        if not isinstance(thing, kind):
+            check.refuse(f"{name}[{i}]", f"a cdcr.{kind.__name__}", thing)
+    return things
+
+
+def _vector(check: Check, name: str, value: object, wanted: str, each: str) -> tuple[float, ...]:
+    """Return any sequence of three numbers as a tuple."""
+    before = len(check.sentences)
+    vector = check.numbers(name, value, wanted, each)
+    if len(vector) != 3 and len(check.sentences) == before:
+        check.refuse(name, wanted, value)
+    return vector
+
+
+def _matrix(check: Check, name: str, value: object, wanted: str) -> tuple[tuple[float, ...], ...]:
+    """Return three rows of three numbers, in sequences of any kind or an array, as tuples."""
+    rows = list(value) if isinstance(value, np.ndarray) and value.ndim == 2 else value
+    before = len(check.sentences)
+    matrix = tuple(
+        _vector(check, f"{name}[{i}]", row, "three numbers", "a number")
+        for i, row in enumerate(check.items(name, rows, wanted))
+    )
+    if len(matrix) != 3 and len(check.sentences) == before:
+        check.refuse(name, wanted, value)
+    return matrix

@@ -1,17 +1,17 @@
-"""Robot files: TOML with the fields of Robot and Section, units in comments."""
+"""Robot files: TOML with the fields of Robot, Section and Cable, units in comments."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import MISSING, fields
+from dataclasses import MISSING, Field, fields
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
 from cdcr import _core
 from cdcr._export import new_file
-from cdcr._robot import Robot, Section
+from cdcr._robot import Cable, Robot, Section
 from cdcr._toml import complaints, read_toml, refuse
 
 _HEAD = """\
@@ -35,51 +35,81 @@ def save_robot(robot: Robot, path: str | PathLike[str], *, overwrite: bool) -> N
 
 def robot_from_table(table: Mapping[str, Any], where: str) -> Robot:
     """Return the robot a TOML table describes; refusals begin with `where` it stands."""
-    from cdcr._robot_schema import RobotTable, SectionTable
+    from cdcr._robot_schema import CableTable, RobotTable, SectionTable
 
     refuse(where, complaints(RobotTable, table))
     found: list[str] = []
     for i, section in enumerate(table["sections"]):
         found += complaints(SectionTable, section, f"sections[{i}]")
-        if "cable_angles" in section and "cable_angles_deg" in section:
-            found.append(f"sections[{i}] must have cable_angles or cable_angles_deg, not both")
+        found += _doubled(section, f"sections[{i}]", "cable_angles")
+    for j, cable in enumerate(table.get("cables", [])):
+        found += complaints(CableTable, cable, f"cables[{j}]")
+        found += _doubled(cable, f"cables[{j}]", "angle")
+        if not {"angle", "angle_deg"} & cable.keys():
+            found.append(f"cables[{j}] must have angle [rad] or angle_deg [deg]")
     refuse(where, found)
 
-    sections = [_section_fields(section) for section in table["sections"]]
-    robot = _defaults(Robot) | {**table, "sections": sections}
-    core = _core.Robot(**{**robot, "sections": [_core.Section(**one) for one in sections]})
-    refuse(where, core.violations())
-    return Robot(**{**robot, "sections": [Section(**one) for one in sections]})
+    sections = [_fields_of(Section, one) for one in table["sections"]]
+    cables = [_fields_of(Cable, one) for one in table.get("cables", [])]
+    robot = _defaults(Robot) | dict(table)
+    core = {
+        "sections": [_core.Section(**one) for one in sections],
+        "cables": [_core.Cable(**one) for one in cables],
+    }
+    refuse(where, _core.Robot(**robot | core).violations())
+    described = {
+        "sections": [Section(**one) for one in sections],
+        "cables": [Cable(**one) for one in cables],
+    }
+    return Robot(**robot | described)
 
 
-def _section_fields(table: Mapping[str, Any]) -> dict[str, Any]:
-    section = _defaults(Section) | dict(table)
-    if "cable_angles_deg" in section:
-        section["cable_angles"] = [math.radians(a) for a in section.pop("cable_angles_deg")]
-    return section
+def _doubled(table: Mapping[str, Any], at: str, name: str) -> list[str]:
+    both = name in table and f"{name}_deg" in table
+    return [f"{at} must have {name} or {name}_deg, not both"] if both else []
 
 
-def _defaults(kind: type[Robot | Section]) -> dict[str, Any]:
+def _fields_of(kind: type[Section | Cable], table: Mapping[str, Any]) -> dict[str, Any]:
+    """Return all fields of a description, angles in radians."""
+    values = _defaults(kind) | dict(table)
+    if "cable_angles_deg" in values:
+        values["cable_angles"] = [math.radians(a) for a in values.pop("cable_angles_deg")]
+    if "angle_deg" in values:
+        values["angle"] = math.radians(values.pop("angle_deg"))
+    return values
+
+
+def _defaults(kind: type[Robot | Section | Cable]) -> dict[str, Any]:
     return {item.name: item.default for item in fields(kind) if item.default is not MISSING}
 
 
 def robot_text(robot: Robot) -> str:
     """Return the robot as TOML; repr gives every float the digits it needs to come back exactly."""
-    lines = list(_lines(robot, ("gravity", "payload")))
+    lines = list(_lines(robot))
     for section in robot.sections:
-        lines += ["", "[[sections]]", *_lines(section, [item.name for item in fields(section)])]
+        lines += ["", "[[sections]]", *_lines(section)]
+    for cable in robot.cables:
+        lines += ["", "[[cables]]", *_lines(cable)]
     return _HEAD + "\n" + "\n".join(lines) + "\n"
 
 
-def _lines(thing: Robot | Section, names: list[str] | tuple[str, ...]) -> Iterator[str]:
+def _lines(thing: Robot | Section | Cable) -> Iterator[str]:
     """Yield 'key = value  # about [unit]' with the comments in one column."""
-    metadata = {item.name: item.metadata for item in fields(thing)}
-    pairs = {name: f"{name} = {_toml_value(getattr(thing, name))}" for name in names}
+    written = {item.name: item.metadata for item in fields(thing) if _is_written(thing, item)}
+    pairs = {name: f"{name} = {_toml_value(getattr(thing, name))}" for name in written}
     short = [len(pair) for pair in pairs.values() if len(pair) <= 40]
     for name, pair in pairs.items():
-        about, unit = metadata[name]["about"], metadata[name]["unit"]
+        about, unit = written[name]["about"], written[name]["unit"]
         comment = f"{about} [{unit}]" if unit else about
         yield f"{pair:<{max(short, default=0)}}  # {comment}"
+
+
+def _is_written(thing: Robot | Section | Cable, item: Field[Any]) -> bool:
+    """Whether a field has a line of its own: sections and cables are tables."""
+    if item.name in ("sections", "cables"):
+        return False
+    # repr tells -0.0 from 0.0, which are equal.
+    return not item.metadata["rare"] or repr(getattr(thing, item.name)) != repr(item.default)
 
 
 def _toml_value(value: object) -> str:

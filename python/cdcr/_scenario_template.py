@@ -53,6 +53,10 @@ tension = [5.0, 0.0, 0.0]
 #[robot]
 #gravity = [0.0, 0.0, 0.0]       # [m/s^2]
 #payload = 0.0                   # at the tip [kg]
+#payload_position = [0.0, 0.0, 0.0]  # its centre of mass, in the tip frame [m]
+#payload_inertia = [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]  # about it [kg m^2]
+#base_orientation = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]  # rotation, by rows
+#sliding_speed = 1e-3            # of a cable, for friction [m/s]
 #[[robot.sections]]              # one for each section, base to tip; example
 #length = 0.8                    # [m]
 #backbone_mass = 0.03            # [kg]
@@ -60,10 +64,23 @@ tension = [5.0, 0.0, 0.0]
 #youngs_modulus = 9.5e9          # [Pa]
 #disk_mass = 0.01                # of each disk [kg]
 #disk_diameter = 0.08            # [m]
-#num_disks = 10
+#num_disks = 10                  # equally spaced, the last at the end
+#disk_positions = []             # or where they are, fractions of the length
+#disk_masses = []                # one for each disk, in place of disk_mass [kg]
+#disk_diameters = []             # one for each disk, in place of disk_diameter [m]
 #cable_radius = 0.035            # of the circle of cables [m]
-#cable_angles_deg = [0.0, 120.0, 240.0]
+#cable_angles_deg = [0.0, 120.0] # or cable_angles [rad]
+#cable_stiffness = 0.0           # [N/m]; above 0 the cables are driven by length
+#cable_damping = 0.0             # of that drive [N s/m]
+#cable_friction = 0.0            # coefficient in the holes of this section
 #damping = 1e-3                  # against bending [N m s/rad]
+#[[robot.cables]]                # one for each further cable, after those of the sections; example
+#radius = 0.035                  # [m]
+#angle_deg = 240.0               # or angle [rad]
+#end_section = 0                 # index of the section where it ends, from 0
+#stiffness = 0.0                 # [N/m]; above 0 it is driven by length
+#damping = 0.0                   # of that drive [N s/m]
+#friction = 0.0                  # coefficient in all its holes, in place of cable_friction
 
 # Tensions over time, in place of `tension` above. As rows:
 #[tension]

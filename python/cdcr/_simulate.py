@@ -13,7 +13,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from cdcr import _core
 from cdcr._model import Model
-from cdcr._trajectory import Trajectory
+from cdcr._trajectory import SlackEvent, Trajectory
+from cdcr._wrench import Wrench, loads
 
 FloatArray = NDArray[np.float64]
 Interpolation = Literal["linear", "previous"]
@@ -76,7 +77,7 @@ def tension_input(
 ) -> _core.TensionInput:
     """Turn what a user gives as tension into the core's input."""
     if tension is None:
-        tension = np.zeros(model.num_cables)
+        tension = model.rest_command()
     if callable(tension):
         function = tension
         if not _takes_state(function):
@@ -119,6 +120,7 @@ def simulate(
     t: ArrayLike,
     tension: Tension = None,
     controller: _core.Controller | None = None,
+    wrenches: Wrench | Sequence[Wrench] = (),
     method: MethodName = "bdf",
     rtol: float | None = None,
     atol: float | None = None,
@@ -142,10 +144,13 @@ def simulate(
     tension : optional
         None (no tension), (num_cables,) constant tensions [N], a `TensionTable` or a pair
         ``(times, tensions)`` read as one, or a callable ``f(t)`` or ``f(t, q, qd)`` returning
-        tensions. A callable is the slow path: Python is called at every evaluation.
+        tensions. A callable is the slow path: Python is called at every evaluation. For a cable
+        driven by length the number is its commanded length [m]; None leaves it straight.
     controller : Controller, optional
         In place of `tension`, such as a `Pid`: reset, then asked at the first time and each period
         after, its tensions held in between.
+    wrenches : Wrench or sequence of Wrench, optional
+        Forces and moments on the robot; their profiles say how they change in time.
     method : {"bdf", "adams", "dopri5", "rk4"}, optional
         bdf and adams: CVODE. dopri5: Dormand-Prince 5(4), the quickest where nothing is stiff.
         rk4: fixed step.
@@ -188,10 +193,14 @@ def simulate(
     if controller is not None:
         if tension is not None or len(break_points) > 0:
             raise ValueError("give either tension or controller, not both")
-        raw = _core.simulate_controlled(model, q0, qd0, t, controller, chosen, options, progress)
+        raw = _core.simulate_controlled(
+            model, q0, qd0, t, controller, chosen, options, progress, loads(wrenches)
+        )
     else:
         source = tension_input(model, tension, break_points)
-        raw = _core.simulate(model, q0, qd0, t, source, chosen, options, progress)
+        raw = _core.simulate(
+            model, q0, qd0, t, source, chosen, options, progress, loads(wrenches)
+        )
     run = Trajectory(
         model=model,
         t=raw.t,
@@ -202,6 +211,8 @@ def simulate(
         message=raw.message,
         stats=raw.stats,
         method=method,
+        command=raw.command,
+        slack_events=tuple(SlackEvent(*event) for event in raw.slack_events),
     )
     warn_beyond_taylor_range(model, run.q)
     if throw and not run.success:

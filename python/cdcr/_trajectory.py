@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -22,7 +22,15 @@ if TYPE_CHECKING:
 
     from cdcr import Model, Stats, Status
 
-__all__ = ["Trajectory"]
+__all__ = ["SlackEvent", "Trajectory"]
+
+
+class SlackEvent(NamedTuple):
+    """A length-driven cable turned slack or taut."""
+
+    time: float  #: [s]
+    cable: int  #: index of the cable
+    slack: bool  #: slack from here on, or taut again
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -38,7 +46,7 @@ class Trajectory:
     q, qd : ndarray, shape (N, 2n)
         Bending vectors [rad] and their rates [rad/s], base to tip.
     tension : ndarray, shape (N, num_cables)
-        Cable tensions [N]; at a jump, the value after it.
+        Cable tensions at the base [N]; at a jump, the value after it.
     status : Status
         How the run ended; anything but ``ok`` leaves the samples up to there.
     message : str
@@ -47,6 +55,10 @@ class Trajectory:
         What the run cost.
     method : str
         The integration method, where known.
+    command : ndarray, shape (N, num_cables), optional
+        What was asked of the cables: tensions [N], lengths [m] of those driven by length.
+    slack_events : tuple of SlackEvent
+        When length-driven cables turned slack or taut; located by bdf and adams.
     """
 
     model: Model
@@ -58,15 +70,20 @@ class Trajectory:
     message: str
     stats: Stats
     method: str = ""
+    command: NDArray[np.float64] | None = None
+    slack_events: tuple[SlackEvent, ...] = ()
 
     def __post_init__(self) -> None:
         """Take copies nobody else can write to, and check that they fit together."""
         num_samples, num_coordinates = np.size(self.t), self.model.num_coordinates
+        if self.command is None:
+            object.__setattr__(self, "command", self.tension)
         shapes = {
             "t": (num_samples,),
             "q": (num_samples, num_coordinates),
             "qd": (num_samples, num_coordinates),
             "tension": (num_samples, self.model.num_cables),
+            "command": (num_samples, self.model.num_cables),
         }
         for name, shape in shapes.items():
             array = np.array(getattr(self, name), dtype=np.float64)

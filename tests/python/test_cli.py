@@ -83,7 +83,8 @@ def test_info_by_name_and_by_file(tmp_path: Path) -> None:
 
 
 def test_info_of_what_does_not_exist(tmp_path: Path) -> None:
-    assert refused(cdcr_("info", "x")) == "there is no robot 'x'. Known: amouri2020"
+    known = ", ".join(cdcr.robots.names())
+    assert refused(cdcr_("info", "x")) == f"there is no robot 'x'. Known: {known}"
     path = tmp_path / "x.toml"
     assert refused(cdcr_("info", path)) == f"there is no robot file {path}"
 
@@ -103,7 +104,7 @@ def test_modes_that_do_not_vibrate() -> None:
     assert straight_modes(top_heavy) == ["none: it does not stay straight"]
     weightless = cdcr.Robot(sections=[cdcr.Section(**SECTION | {"backbone_mass": 0.0})])
     (sentence,) = straight_modes(weightless)
-    assert "inertia" in sentence
+    assert sentence.startswith("the robot has no dynamics")
 
 
 @pytest.mark.parametrize(

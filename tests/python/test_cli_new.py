@@ -108,7 +108,7 @@ def test_every_key_is_shown() -> None:
     )
     for schema in schemas:
         assert set(schema.model_fields) - said == set(), schema.__name__
-    for item in (*fields(cdcr.Robot), *fields(cdcr.Section)):
+    for item in (*fields(cdcr.Robot), *fields(cdcr.Section), *fields(cdcr.Cable)):
         assert {item.name, f"{item.name}_deg"} & said, item.name
 
 

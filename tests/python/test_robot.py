@@ -13,6 +13,7 @@ import pytest
 
 import cdcr
 from cdcr import _core
+from description import refusal
 
 # Products of five factors, each rounded once.
 REL = 4e-15
@@ -27,17 +28,17 @@ FULL: dict[str, Any] = REQUIRED | {
     "disk_mass": 0.008,
     "disk_diameter": 0.04,
     "num_disks": 10,
+    "disk_positions": (),
+    "disk_masses": (),
+    "disk_diameters": (),
     "cable_radius": 0.019,
     "cable_angles": (0.0, 2.0, 4.0),
+    "cable_stiffness": 1e4,
+    "cable_damping": 2.0,
+    "cable_friction": 0.1,
     "damping": 1e-3,
 }
-NUMBERS = [name for name in FULL if name not in ("num_disks", "cable_angles")]
-
-
-def refusal(kind: Any, **fields: Any) -> list[str]:
-    with pytest.raises(ValueError) as caught:  # noqa: PT011 - the text is what the caller asserts
-        kind(**fields)
-    return str(caught.value).split("\n")
+NUMBERS = [name for name in FULL if isinstance(FULL[name], float)]
 
 
 def test_defaults() -> None:
@@ -46,12 +47,22 @@ def test_defaults() -> None:
         "disk_mass": 0.0,
         "disk_diameter": 0.0,
         "num_disks": 0,
+        "disk_positions": (),
+        "disk_masses": (),
+        "disk_diameters": (),
         "cable_radius": 0.0,
         "cable_angles": (),
+        "cable_stiffness": 0.0,
+        "cable_damping": 0.0,
+        "cable_friction": 0.0,
         "damping": 0.0,
     }
     robot = cdcr.Robot(sections=[section])
     assert (robot.gravity, robot.payload) == ((0.0, 0.0, 0.0), 0.0)
+    assert (robot.cables, robot.sliding_speed) == ((), 1e-3)
+    assert robot.base_orientation == ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+    assert robot.payload_position == (0.0, 0.0, 0.0)
+    assert robot.payload_inertia == ((0.0, 0.0, 0.0),) * 3
 
 
 @pytest.mark.parametrize(
@@ -177,7 +188,18 @@ def test_zero_is_refused_where_it_makes_no_sense(name: str) -> None:
     assert sentence.endswith(", got 0")
 
 
-@pytest.mark.parametrize("name", ["backbone_mass", "disk_mass", "disk_diameter", "damping"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "backbone_mass",
+        "disk_mass",
+        "disk_diameter",
+        "damping",
+        "cable_stiffness",
+        "cable_damping",
+        "cable_friction",
+    ],
+)
 def test_zero_is_taken_where_it_makes_sense(name: str) -> None:
     assert getattr(cdcr.Section(**FULL | {name: 0}), name) == 0.0
 
@@ -278,6 +300,7 @@ def test_the_core_has_the_same_fields_and_stiffness() -> None:
     section = cdcr.Section(**FULL)
     assert section._to_core().stiffness == pytest.approx(section.stiffness, rel=REL)
     assert _core.Section(**FULL).violations() == []
+    assert [item.name for item in dataclasses.fields(section)] == list(FULL)
 
 
 def test_masses_and_counts() -> None:
@@ -287,41 +310,3 @@ def test_masses_and_counts() -> None:
     assert robot.mass == pytest.approx(0.03 + 10 * 0.008 + 0.03 + 0.5, rel=REL)
     assert robot.length == pytest.approx(1.6, rel=REL)
     assert robot.num_cables == 3
-
-
-def test_table_1() -> None:
-    robot = cdcr.robots.amouri2020()
-    assert dataclasses.asdict(robot) == {
-        "sections": (
-            {
-                "length": 0.802,
-                "backbone_mass": 0.0326,
-                "backbone_diameter": 0.005,
-                "youngs_modulus": 9.5e9,
-                "disk_mass": 0.0082,
-                "disk_diameter": 0.04,
-                "num_disks": 10,
-                "cable_radius": 0.019,
-                "cable_angles": (0.0, 2 * math.pi / 3, 4 * math.pi / 3),
-                "damping": 0.0,
-            },
-        ),
-        "gravity": (0.0, 0.0, 0.0),
-        "payload": 0.0,
-    }
-
-
-def test_options_of_the_papers_robot() -> None:
-    robot = cdcr.robots.amouri2020(gravity=[0, 0, -9.81], payload=0.2, damping=1e-3)
-    assert robot.gravity == (0.0, 0.0, -9.81)
-    assert robot.payload == 0.2
-    assert robot.sections[0].damping == 1e-3
-
-
-def test_robots_by_name() -> None:
-    assert cdcr.robots.names() == ("amouri2020",)
-    assert cdcr.robots.get("amouri2020") == cdcr.robots.amouri2020()
-    with pytest.raises(ValueError, match=r"^there is no robot 'x'\. Known: amouri2020$"):
-        cdcr.robots.get("x")
-    with pytest.raises(ValueError, match=r"Did you mean 'amouri2020'\?"):
-        cdcr.robots.get("amouri")

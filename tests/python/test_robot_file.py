@@ -9,36 +9,117 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 import cdcr
 from cdcr._robot_file import robot_text
-from cdcr._robot_schema import RobotTable, SectionTable
+from cdcr._robot_schema import CableTable, RobotTable, SectionTable
 from robot_file import FILE, load, replaced
 
 not_negative = st.floats(min_value=0.0, allow_infinity=False)
 positive = st.floats(min_value=0.0, exclude_min=True, allow_infinity=False)
 finite = st.floats(allow_nan=False, allow_infinity=False)
-sections = st.builds(
-    cdcr.Section,
-    length=positive,
-    backbone_mass=not_negative,
-    backbone_diameter=positive,
-    youngs_modulus=positive,
-    disk_mass=not_negative,
-    disk_diameter=not_negative,
-    num_disks=st.integers(0, 64),
-    cable_radius=positive,
-    cable_angles=st.lists(finite, max_size=16),
-    damping=not_negative,
-)
-robots = st.builds(
-    cdcr.Robot,
-    sections=st.lists(sections, min_size=1, max_size=3),
-    gravity=st.tuples(finite, finite, finite),
-    payload=not_negative,
+fractions = st.floats(0.0, 1.0)
+
+
+@st.composite
+def sections(draw: st.DrawFn) -> cdcr.Section:
+    """Any section; disks equally spaced or not, alike or not."""
+    positions = draw(st.lists(fractions, max_size=8))
+    count = len(positions) or draw(st.integers(0, 64))
+    one_each = st.lists(not_negative, min_size=count, max_size=count)
+    return cdcr.Section(
+        length=draw(positive),
+        backbone_mass=draw(not_negative),
+        backbone_diameter=draw(positive),
+        youngs_modulus=draw(positive),
+        disk_mass=draw(not_negative),
+        disk_diameter=draw(not_negative),
+        num_disks=count,
+        disk_positions=positions,
+        disk_masses=draw(one_each) if draw(st.booleans()) else (),
+        disk_diameters=draw(one_each) if draw(st.booleans()) else (),
+        cable_radius=draw(positive),
+        cable_angles=draw(st.lists(finite, max_size=16)),
+        cable_stiffness=draw(not_negative),
+        cable_damping=draw(not_negative),
+        cable_friction=draw(not_negative),
+        damping=draw(not_negative),
+    )
+
+
+def rotation(quaternion: tuple[int, int, int, int]) -> NDArray[np.float64]:
+    w, *v = np.array(quaternion) / np.linalg.norm(quaternion)
+    x, y, z = v
+    hat = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return np.array(np.eye(3) + 2 * w * hat + 2 * hat @ hat)
+
+
+whole = st.integers(-9, 9)
+rotations = st.tuples(whole, whole, whole, whole).filter(any).map(rotation)
+
+
+@st.composite
+def robots(draw: st.DrawFn) -> cdcr.Robot:
+    several = draw(st.lists(sections(), min_size=1, max_size=3))
+    cable = st.builds(
+        cdcr.Cable,
+        radius=positive,
+        angle=finite,
+        end_section=st.integers(0, len(several) - 1),
+        stiffness=not_negative,
+        damping=not_negative,
+        friction=st.none() | not_negative,
+    )
+    body: dict[str, Any] = {}
+    if draw(st.booleans()):  # one of points on the axes, turned: any moments they have are sound
+        x, y, z = draw(st.tuples(*[st.floats(0.0, 1e6)] * 3))
+        turn = draw(rotations)
+        inertia = turn @ np.diag([y + z, z + x, x + y]) @ turn.T
+        body = {
+            "payload": draw(positive),
+            "payload_position": draw(st.tuples(finite, finite, finite)),
+            "payload_inertia": inertia,
+        }
+    return cdcr.Robot(
+        sections=several,
+        gravity=draw(st.tuples(finite, finite, finite)),
+        cables=draw(st.lists(cable, max_size=3)),
+        base_orientation=draw(rotations),
+        sliding_speed=draw(positive),
+        **body,
+    )
+
+
+FULL = cdcr.Robot(
+    sections=[
+        cdcr.Section(
+            length=0.8,
+            backbone_mass=0.03,
+            backbone_diameter=0.005,
+            youngs_modulus=9.5e9,
+            disk_positions=[0.5],
+            disk_masses=[0.01],
+            disk_diameters=[0.04],
+            cable_radius=0.019,
+            cable_angles=[1.0],
+            cable_stiffness=1e4,
+            cable_damping=1.0,
+            cable_friction=0.1,
+        )
+    ],
+    payload=0.1,
+    cables=[
+        cdcr.Cable(radius=0.01, angle=0.5, end_section=0, stiffness=1e4, damping=1, friction=0.2)
+    ],
+    base_orientation=[[0, 0, 1], [1, 0, 0], [0, 1, 0]],
+    payload_position=[0, 0, 0.02],
+    payload_inertia=[[2e-5, 0, 0], [0, 2e-5, 0], [0, 0, 3e-5]],
+    sliding_speed=2e-3,
 )
 
 
@@ -73,7 +154,7 @@ def test_what_may_be_left_out_has_the_defaults(tmp_path: Path) -> None:
     )
 
 
-@given(robot=robots)
+@given(robot=robots())
 def test_round_trip_is_exact(robot: cdcr.Robot, tmp_path_factory: Any) -> None:
     path = tmp_path_factory.mktemp("robot") / "robot.toml"
     robot.save(path)
@@ -90,21 +171,43 @@ def test_the_papers_robot_comes_back(tmp_path: Path) -> None:
 
 
 def test_the_text_names_every_field_with_its_unit() -> None:
-    lines = robot_text(cdcr.robots.amouri2020()).splitlines()
-    for kind in (cdcr.Section, cdcr.Robot):
+    lines = robot_text(FULL).splitlines()
+    for kind in (cdcr.Section, cdcr.Robot, cdcr.Cable):
         for item in dataclasses.fields(kind):
-            if item.name == "sections":
-                assert "[[sections]]" in lines
+            if item.name in ("sections", "cables"):
+                assert f"[[{item.name}]]" in lines
                 continue
-            (line,) = (line for line in lines if line.startswith(f"{item.name} = "))
-            assert item.metadata["about"] in line
-            if item.metadata["unit"]:
-                assert line.endswith(f"[{item.metadata['unit']}]")
+            about, unit = item.metadata["about"], item.metadata["unit"]
+            comment = f"  # {about} [{unit}]" if unit else f"  # {about}"
+            assert any(
+                line.startswith(f"{item.name} = ") and line.endswith(comment) for line in lines
+            ), item.name
+
+
+def test_the_text_of_a_plain_robot_has_the_plain_fields_alone() -> None:
+    lines = robot_text(cdcr.robots.amouri2020()).splitlines()
+    keys = [line.split(" = ")[0] for line in lines if " = " in line]
+    assert keys == [
+        "gravity",
+        "payload",
+        "length",
+        "backbone_mass",
+        "backbone_diameter",
+        "youngs_modulus",
+        "disk_mass",
+        "disk_diameter",
+        "num_disks",
+        "cable_radius",
+        "cable_angles",
+        "damping",
+    ]
 
 
 def test_the_schema_has_the_fields_of_the_descriptions() -> None:
     section = {item.name for item in dataclasses.fields(cdcr.Section)}
     assert set(SectionTable.model_fields) == section | {"cable_angles_deg"}
+    cable = {item.name for item in dataclasses.fields(cdcr.Cable)}
+    assert set(CableTable.model_fields) == cable | {"angle_deg"}
     assert set(RobotTable.model_fields) == {item.name for item in dataclasses.fields(cdcr.Robot)}
 
 
@@ -113,6 +216,30 @@ def test_angles_in_degrees(tmp_path: Path) -> None:
         tmp_path, replaced("cable_angles = [0.0, 2.0, 4.0]", "cable_angles_deg = [0, 120]")
     )
     assert robot.sections[0].cable_angles == (0.0, math.radians(120.0))
+
+
+def test_cables_as_people_write_them(tmp_path: Path) -> None:
+    text = (
+        "base_orientation = [[1, 0, 0], [0, -1, 0], [0, 0, -1]]\n" + FILE + "[[cables]]\n"
+        "radius = 0.01\nangle_deg = 90\nend_section = 0\n[[cables]]\n"
+        "radius = 0.02\nangle = 1\nend_section = 0\nstiffness = 5000\n"
+    )
+    robot = load(tmp_path, text)
+    assert robot.base_orientation == ((1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, -1.0))
+    assert robot.cables == (
+        cdcr.Cable(radius=0.01, angle=math.radians(90), end_section=0),
+        cdcr.Cable(radius=0.02, angle=1, end_section=0, stiffness=5000),
+    )
+
+
+@pytest.mark.parametrize(
+    "robot",
+    [FULL, cdcr.robots.three_sections().subdivide([3, 2, 7])],
+    ids=["all fields", "subdivided"],
+)
+def test_robots_with_everything_come_back(robot: cdcr.Robot, tmp_path: Path) -> None:
+    robot.save(tmp_path / "robot.toml")
+    assert cdcr.Robot.load(tmp_path / "robot.toml") == robot
 
 
 @pytest.mark.parametrize(

@@ -5,8 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from cdcr._robot_schema import SectionTable
+from cdcr._robot_schema import CableTable, RobotTable, SectionTable
 from robot_file import FILE, load, replaced
+
+CABLE = "[[cables]]\nradius = 0.01\nangle = 0.5\nend_section = 0\n"
 
 
 def refusal(folder: Path, text: str) -> list[str]:
@@ -30,8 +32,13 @@ def test_an_unknown_key_is_named_with_the_nearest_and_all_known_ones(tmp_path: P
     assert refusal(tmp_path, replaced("damping", "dampign")) == [
         f"sections[0].dampign is not a known key. Did you mean 'damping'? Known keys: {known}"
     ]
+    known = ", ".join(RobotTable.model_fields)
     assert refusal(tmp_path, "colour = 1\n" + FILE) == [
-        "colour is not a known key. Known keys: gravity, payload, sections"
+        f"colour is not a known key. Known keys: {known}"
+    ]
+    known = ", ".join(CableTable.model_fields)
+    assert refusal(tmp_path, FILE + CABLE + "raduis = 1\n") == [
+        f"cables[0].raduis is not a known key. Did you mean 'radius'? Known keys: {known}"
     ]
 
 
@@ -110,6 +117,44 @@ def test_sections_are_missed(tmp_path: Path) -> None:
         ),
         (
             "payload = 0.1",
+            "base_orientation = [[1, 0, 0], [0, 1], [0, 0, 1]]",
+            "base_orientation must be an array of 3 rows of 3 numbers, got [0, 1] (array) "
+            "at base_orientation[1]",
+        ),
+        (
+            "payload = 0.1",
+            "payload_inertia = [1, 1, 1]",
+            "payload_inertia must be an array of 3 rows of 3 numbers [kg m^2], got 1 (integer) "
+            "at payload_inertia[0]",
+        ),
+        (
+            "payload = 0.1",
+            "payload_position = [0, 0]",
+            "payload_position must be an array of 3 numbers [m], got [0, 0] (array)",
+        ),
+        (
+            "payload = 0.1",
+            "payload_position = [0, 0, 0.1]",
+            "payload_position must be zero where the payload is zero, got [0, 0, 0.1]",
+        ),
+        (
+            "payload = 0.1",
+            "cables = [1]",
+            "cables must be one [[cables]] table for each cable, got 1 (integer) at cables[0]",
+        ),
+        (
+            "num_disks = 10",
+            "num_disks = 10\ndisk_positions = [1.0]",
+            "sections[0].num_disks must be 0 or the number of disk_positions, 1, got 10",
+        ),
+        (
+            "num_disks = 10",
+            "disk_positions = [0.5, 'end']",
+            "sections[0].disk_positions must be an array of 0 to 64 numbers 0 to 1, "
+            "got 'end' (string) at sections[0].disk_positions[1]",
+        ),
+        (
+            "payload = 0.1",
             "payload = 2020-01-01",
             "payload must be a number >= 0 kg and finite, got datetime.date(2020, 1, 1) (date)",
         ),
@@ -131,6 +176,39 @@ def test_sections_are_missed(tmp_path: Path) -> None:
 )
 def test_wrong_types_and_values(tmp_path: Path, old: str, new: str, sentence: str) -> None:
     assert refusal(tmp_path, replaced(old, new)) == [sentence]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "sentence"),
+    [
+        (
+            "radius = 0.01\n",
+            "",
+            "cables[0].radius is missing; it must be a number > 0 m and finite",
+        ),
+        ("angle = 0.5\n", "", "cables[0] must have angle [rad] or angle_deg [deg]"),
+        (
+            "angle = 0.5\n",
+            "angle = 0.5\nangle_deg = 1\n",
+            "cables[0] must have angle or angle_deg, not both",
+        ),
+        ("angle = 0.5", "angle = nan", "cables[0].angle must be a finite number of rad, got nan"),
+        (
+            "angle = 0.5",
+            "angle_deg = '1'",
+            "cables[0].angle_deg must be a finite number [deg], got '1' (string)",
+        ),
+        ("end_section = 0", "end_section = 1", "cables[0].end_section must be 0 to 0, got 1"),
+        (
+            "end_section = 0",
+            "end_section = 0.0",
+            "cables[0].end_section must be the index of a section, from 0, got 0.0 (float)",
+        ),
+    ],
+)
+def test_wrong_cables(tmp_path: Path, old: str, new: str, sentence: str) -> None:
+    assert old in CABLE
+    assert refusal(tmp_path, FILE + CABLE.replace(old, new)) == [sentence]
 
 
 def test_an_integer_beyond_every_float_is_refused(tmp_path: Path) -> None:

@@ -23,6 +23,20 @@ void cable_tensions(const Model& model, const ConstVectorRef& q, const ConstVect
 void cable_force(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
                  const ConstVectorRef& command, VectorRef force) noexcept;
 
+/// Pull of one length-driven cable [N], k (l - l_commanded) + d dl/dt; slack where negative.
+[[nodiscard]] double cable_pull(const Model& model, Index cable, const ConstVectorRef& q,
+                                const ConstVectorRef& qd, double command) noexcept;
+
+/// Tensions along the cables (n + 1, num_cables) [N]: at the base, then beyond each section, where
+/// friction has left less or, when the cable slides out, added to it; zero beyond its own end.
+void tensions_along(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
+                    const ConstVectorRef& command, MatrixRef tension) noexcept;
+
+/// What friction turns into heat [W], never negative: -F.dl/dt - Q.qd.
+[[nodiscard]] double friction_power(const Model& model, const ConstVectorRef& q,
+                                    const ConstVectorRef& qd,
+                                    const ConstVectorRef& command) noexcept;
+
 /// Energy in the springs of length-driven cables, sum k max(0, l - l_commanded)^2 / 2 [J].
 [[nodiscard]] double cable_energy(const Model& model, const ConstVectorRef& q,
                                   const ConstVectorRef& command) noexcept;

@@ -10,6 +10,7 @@
 #include "cdcr/integrator.hpp"
 #include "cdcr/kinematics.hpp"
 #include "cdcr/linearization.hpp"
+#include "cdcr/loads.hpp"
 #include "cdcr/model.hpp"
 #include "cdcr/pid.hpp"
 #include "cdcr/robot.hpp"

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "cdcr/plant.hpp"
 #include "cdcr/status.hpp"
@@ -19,6 +20,13 @@ struct Options {
   double step = 1e-3;        ///< step of rk4 [s]
   double max_step = 0.0;     ///< largest step of adaptive methods [s]; 0: no limit
   long max_steps = 1000000;  ///< internal steps in one run
+};
+
+/// A length-driven cable turned slack or taut.
+struct SlackEvent {
+  double time = 0.0;   ///< [s]
+  Index cable = 0;
+  bool slack = false;  ///< slack from here on, or taut again
 };
 
 /// What a run cost.
@@ -48,6 +56,8 @@ class Integrator {
   [[nodiscard]] virtual double time() const noexcept = 0;
   [[nodiscard]] virtual const VectorXd& state() const noexcept = 0;
   [[nodiscard]] virtual Stats stats() const noexcept = 0;
+  /// Slack events located so far, where the method looks for them.
+  [[nodiscard]] virtual std::vector<SlackEvent> slack_events() const { return {}; }
 };
 
 /// Makes the integrator for a method; the plant must outlive it.

@@ -12,7 +12,9 @@ struct Trajectory {
   VectorXd t;           ///< (N) [s]
   RowMatrixXd q;        ///< (N, 2n) [rad]
   RowMatrixXd qd;       ///< (N, 2n) [rad/s]
-  RowMatrixXd tension;  ///< (N, num_cables) [N]; at a jump, the value after it
+  RowMatrixXd tension;  ///< at the base (N, num_cables) [N]; at a jump, the value after it
+  RowMatrixXd command;  ///< what was asked of the cables (N, num_cables), [N] or [m]
+  std::vector<SlackEvent> slack_events;  ///< located by bdf and adams, in the order of time
   Status status = Status::ok;
   std::string message;  ///< empty when ok; else when it stopped, why, and what to try
   Stats stats;
@@ -30,13 +32,13 @@ using Progress = std::function<bool(double t)>;
                                   const VectorXd& times, const TensionInput& input,
                                   Method method = Method::dopri5, const Options& options = {},
                                   IntegratorFactory factory = make_integrator,
-                                  const Progress& progress = {});
+                                  const Progress& progress = {}, const Loads& loads = {});
 
 /// The same under a controller, which is reset, then asked at times[0] and each period after.
 [[nodiscard]] Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
                                   const VectorXd& times, Controller& controller,
                                   Method method = Method::dopri5, const Options& options = {},
                                   IntegratorFactory factory = make_integrator,
-                                  const Progress& progress = {});
+                                  const Progress& progress = {}, const Loads& loads = {});
 
 }  // namespace cdcr

@@ -22,8 +22,10 @@ class Simulator {
   /// Sets the state (2n each) and the time [s].
   void reset(const VectorXd& q, const VectorXd& qd, double time = 0.0);
 
-  /// Advances one period under constant tensions (num_cables) [N], each >= 0. Real-time safe.
+  /// Advances one period under constant commands (num_cables), tensions [N] or lengths [m], each
+  /// >= 0, and constant wrenches that validate() accepts. Real-time safe.
   [[nodiscard]] Status step(const ConstVectorRef& tension) noexcept;
+  [[nodiscard]] Status step(const ConstVectorRef& tension, const Wrenches& wrenches) noexcept;
 
   [[nodiscard]] const Model& model() const noexcept { return model_; }
   [[nodiscard]] const VectorXd& q() const noexcept { return q_; }    ///< (2n) [rad]

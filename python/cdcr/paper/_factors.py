@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -210,11 +211,17 @@ def checked_angles(theta: ArrayLike) -> FloatArray:
 
 
 def only_section(robot: Robot) -> Section:
-    """Return the section of a one-section robot; the paper has no other."""
+    """Return the section of a one-section robot, or refuse what the paper's equations lack."""
     if not isinstance(robot, Robot):
         raise TypeError(f"robot must be a cdcr.Robot, got {type(robot).__name__}")
     if len(robot.sections) != 1:
         raise ValueError(
             f"the paper's equations are for one section, got a robot of {len(robot.sections)}"
         )
-    return robot.sections[0]
+    section = robot.sections[0]
+    for thing in (section, robot):
+        for item in fields(thing):
+            value = getattr(thing, item.name)
+            if item.metadata["rare"] and value != item.default:
+                raise ValueError(f"the paper's equations have no {item.name}, got {value!r}")
+    return section

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from cdcr import Model, Trajectory
+    from cdcr import Cable, Model, Trajectory
 
 __all__ = ["RobotShape", "base_plate", "robot_shape", "states_at"]
 
@@ -30,7 +30,8 @@ class RobotShape:
     disks : list of ndarray, shape (48, 3)
         Rim of each disk, base to tip.
     cables : list of ndarray, shape (M, 3)
-        From the base through the holes of the disks to the disk where the cable ends.
+        From the base through the holes of the disks to the end of the section it ends on, in the
+        order of the tensions.
     """
 
     backbone: Array
@@ -48,28 +49,43 @@ def robot_shape(model: Model, q: Array) -> RobotShape:
 
     A section without disks leads its cables parallel to the backbone, as the model takes them.
     """
-    backbone, disks, cables = [np.zeros(3)], [], []
-    guides = [(np.eye(3), np.zeros(3))]  # frames whose holes the cables run through
-    for i, section in enumerate(model.robot.sections):
-        count = section.num_disks
+    robot = model.robot
+    backbone, disks = [np.zeros(3)], []
+    # Frames whose holes the cables run through, up to the end of each section.
+    guides = [(np.array(robot.base_orientation), np.zeros(3))]
+    runs = []
+    for i, section in enumerate(robot.sections):
         fine = [model.pose(q, i, k / PIECES) for k in range(1, PIECES + 1)]
-        at_disks = [model.pose(q, i, k / count) for k in range(1, count + 1)]
         backbone += [p for _, p in fine]
-        disks += [_circle(section.disk_diameter / 2, R, p) for R, p in at_disks]
-        guides += at_disks or fine
-        for angle in section.cable_angles:
-            hole = section.cable_radius * np.array([np.cos(angle), np.sin(angle), 0.0])
-            cables.append(np.array([p + R @ hole for R, p in guides]))
+        inner = sorted(section.disks)  # by position
+        at_disks = [model.pose(q, i, disk.position) for disk in inner]
+        disks += [
+            _circle(disk.diameter / 2, R, p) for disk, (R, p) in zip(inner, at_disks, strict=True)
+        ]
+        guides = [*guides, *(at_disks or fine)]
+        ends_on_disk = not inner or inner[-1].position == 1.0
+        runs.append(guides if ends_on_disk else [*guides, fine[-1]])
+    cables = [
+        np.array([p + R @ _hole(cable) for R, p in runs[cable.end_section]])
+        for cable in robot.all_cables
+    ]
     return RobotShape(np.array(backbone), disks, cables)
+
+
+def _hole(cable: Cable) -> Array:
+    """Return where a cable passes a disk (3,), in the frame of the disk [m]."""
+    return cable.radius * np.array([np.cos(cable.angle), np.sin(cable.angle), 0.0])
 
 
 def base_plate(model: Model) -> Array:
     """Return the rim (48, 3) of a plate that is wider than anything that stands on it [m]."""
+    robot = model.robot
     widest = max(
-        max(section.disk_diameter / 2, section.cable_radius, section.length / 50)
-        for section in model.robot.sections
+        [section.length / 50 for section in robot.sections]
+        + [disk.diameter / 2 for section in robot.sections for disk in section.disks]
+        + [cable.radius for cable in robot.all_cables]
     )
-    return _circle(1.5 * widest, np.eye(3), np.zeros(3))
+    return _circle(1.5 * widest, np.array(robot.base_orientation), np.zeros(3))
 
 
 def _circle(radius: float, R: Array, p: Array) -> Array:

@@ -1,5 +1,7 @@
 #include "cases.hpp"
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 namespace cdcr::test {
@@ -24,6 +26,51 @@ std::vector<double> spread_angles(int count) {
   std::vector<double> angles;
   for (int j = 0; j < count; ++j) angles.push_back(2.0 * pi * j / count);
   return angles;
+}
+
+bool coin(Random& random) {
+  return random.uniform(0.0, 1.0) < 0.5;
+}
+
+Matrix3d random_rotation(Random& random) {
+  const Vector3d axis = random.vector(3, 1.0);
+  return Eigen::AngleAxisd(random.uniform(-pi, pi), axis.normalized()).toRotationMatrix();
+}
+
+/// A section about as long, heavy and stiff as the model one.
+Section varied(const Section& model, Random& random) {
+  const auto near = [&](double value) { return value * random.logarithmic(0.5, 2.0); };
+  Section s = model;
+  s.length = near(s.length);
+  s.backbone_mass = near(s.backbone_mass);
+  s.backbone_diameter = near(s.backbone_diameter);
+  s.youngs_modulus = near(s.youngs_modulus);
+  s.disk_mass = near(s.disk_mass);
+  s.disk_diameter = near(s.disk_diameter);
+  s.num_disks = random.integer(0, 8);
+  s.cable_radius = 0.4 * s.disk_diameter;
+  s.damping = near(s.damping);
+  for (int j = random.integer(0, 4); j > 0; --j) s.cable_angles.push_back(random.uniform(-7, 7));
+  if (coin(random)) return s;
+  s.num_disks = 0;
+  for (int k = random.integer(1, 6); k > 0; --k) {
+    s.disk_positions.push_back(random.uniform(0.0, 1.0));
+    s.disk_masses.push_back(near(s.disk_mass));
+    s.disk_diameters.push_back(near(s.disk_diameter));
+  }
+  std::sort(s.disk_positions.begin(), s.disk_positions.end());
+  return s;
+}
+
+/// A box of any size and attitude, its centre up to `reach` from the tip.
+void add_payload(Robot& robot, double mass, double reach, Random& random) {
+  robot.payload = mass;
+  robot.payload_position = random.vector(3, reach);
+  const Vector3d squares = random.vector(3, reach).cwiseAbs2();
+  const Vector3d inertia = mass / 12.0 * (Vector3d::Constant(squares.sum()) - squares);
+  const Matrix3d R = random_rotation(random);
+  const Matrix3d turned = R * inertia.asDiagonal() * R.transpose();
+  robot.payload_inertia = 0.5 * (turned + turned.transpose());
 }
 
 }  // namespace
@@ -58,6 +105,28 @@ Robot random_robot(Random& random) {
   robot.sections = {s};
   robot.gravity = random.vector(3, 10.0);
   robot.payload = random.uniform(0.0, 1.0) < 0.5 ? 0.0 : random.logarithmic(1e-3, 1.0);
+  return robot;
+}
+
+Robot random_chain(Random& random, int n) {
+  Section model;
+  model.length = random.logarithmic(0.05, 1.0);
+  model.backbone_mass = random.logarithmic(1e-3, 0.1);
+  model.backbone_diameter = model.length * random.logarithmic(5e-3, 0.05);
+  model.youngs_modulus = random.logarithmic(1e6, 2e11);
+  model.disk_mass = model.backbone_mass * random.logarithmic(0.1, 3.0);
+  model.disk_diameter = model.length * random.logarithmic(0.05, 0.4);
+  model.damping = coin(random) ? 0.0 : random.logarithmic(1e-5, 1e-2);
+  Robot robot;
+  for (int i = 0; i < n; ++i) robot.sections.push_back(varied(model, random));
+  robot.gravity = random.vector(3, 10.0);
+  robot.base_orientation = random_rotation(random);
+  const double mass = model.backbone_mass * random.logarithmic(0.1, 5.0);
+  if (coin(random)) add_payload(robot, mass, 0.3 * model.length, random);
+  for (int j = random.integer(0, 3); j > 0; --j) {
+    robot.cables.push_back({0.2 * model.disk_diameter, random.uniform(-7, 7),
+                            random.integer(0, n - 1), 0.0, 0.0, std::nullopt});
+  }
   return robot;
 }
 

@@ -41,6 +41,10 @@ struct NamedRobot {
 
 Robot random_robot(Random& random);
 
+/// n sections that differ, disks anywhere, cables that end anywhere, a payload with inertia, any
+/// base orientation and gravity; damped or not.
+Robot random_chain(Random& random, int n);
+
 /// Table 1 and its extremes, then CDCR_TEST_COUNT random robots; all have inertia.
 std::vector<NamedRobot> sample_robots(Random& random);
 

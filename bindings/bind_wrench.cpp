@@ -1,0 +1,99 @@
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <limits>
+#include <memory>
+
+#include "arrays.hpp"
+#include "bind.hpp"
+#include "cdcr/loads.hpp"
+
+namespace cdcr::python {
+
+namespace py = pybind11;
+using namespace py::literals;
+
+namespace {
+
+std::vector<double> to_list(const VectorXd& values) {
+  return {values.data(), values.data() + values.size()};
+}
+
+}  // namespace
+
+Wrenches read_wrenches(const Model& model, const py::object& object) {
+  Wrenches wrenches;
+  const auto add = [&wrenches](const py::handle& item) {
+    const std::string name = "wrenches[" + std::to_string(wrenches.size()) + "]";
+    if (!py::hasattr(item, "_to_core")) {
+      throw py::value_error(name + " must be a cdcr.Wrench, got " +
+                            std::string(py::str(py::type::of(item).attr("__name__"))));
+    }
+    if (!item.attr("profile").is_none()) {
+      throw py::value_error(name +
+                            " has a profile, which a run follows; here give a constant wrench, "
+                            "such as wrench.at(t)");
+    }
+    wrenches.push_back(item.attr("_to_core")().cast<Wrench>());
+  };
+  if (py::hasattr(object, "_to_core")) {
+    add(object);
+  } else if (!py::isinstance<py::iterable>(object)) {
+    throw py::value_error("wrenches must be a sequence of cdcr.Wrench, got " +
+                          std::string(py::str(py::type::of(object).attr("__name__"))));
+  } else {
+    for (const py::handle item : object) add(item);
+  }
+  validate(model, wrenches);
+  return wrenches;
+}
+
+void bind_wrench(py::module_& m) {
+  py::class_<Wrench>(m, "CoreWrench", "A wrench as the core sees it; not validated.")
+      .def(py::init([](Index section, double fraction, const Vector3d& force,
+                       const Vector3d& moment, bool local) {
+             return Wrench{section, fraction, force, moment,
+                           local ? Wrench::Frame::local : Wrench::Frame::base};
+           }),
+           "section"_a, "fraction"_a, "force"_a, "moment"_a, "local"_a)
+      .def_property_readonly("force", [](const Wrench& self) { return to_array(self.force); })
+      .def_property_readonly("moment", [](const Wrench& self) { return to_array(self.moment); });
+
+  py::class_<Loads>(m, "Loads", "Wrenches over time.")
+      .def(py::init<>())
+      .def(
+          "add", [](Loads& self, const Wrench& wrench) { self.add(wrench); }, "wrench"_a)
+      .def(
+          "add_table",
+          [](Loads& self, const Wrench& wrench, const py::object& times, const py::object& factors,
+             bool linear) {
+            const VectorArgument t(times, "the times of a wrench's profile", -1);
+            const VectorArgument f(factors, "the factors of a wrench's profile", (*t).size());
+            self.add(wrench, {to_list(*t), to_list(*f), linear, {}});
+          },
+          "wrench"_a, "times"_a, "factors"_a, "linear"_a)
+      .def(
+          "add_function",
+          [](Loads& self, const Wrench& wrench, py::function function,
+             std::vector<double> break_points) {
+            const auto shared = std::make_shared<py::function>(std::move(function));
+            const auto call = [shared](double t) {
+              const py::gil_scoped_acquire locked;
+              const VectorArgument value(py::make_tuple((*shared)(t)),
+                                         "the value of a wrench's profile", 1);
+              return (*value)[0];
+            };
+            self.add(wrench, {std::move(break_points), {}, false, call});
+          },
+          "wrench"_a, "function"_a, "break_points"_a)
+      .def(
+          "at",
+          [](const Loads& self, double t) {
+            Wrenches now = self.wrenches();
+            self.evaluate(t, t, std::numeric_limits<double>::infinity(), now);
+            return now;
+          },
+          "t"_a);
+}
+
+}  // namespace cdcr::python
