@@ -18,6 +18,7 @@ Row = dict[str, Any]
 TARGETS = {
     "forward_dynamics": 60.0,
     "Simulator.step": 300.0,
+    "inverse kinematics, 3 sections": 200.0,
     "free oscillation, dopri5 rtol 1e-8": 0.6,
     "free oscillation, adams rtol 1e-8": 3.0,
     "free oscillation, bdf rtol 1e-8": 3.0,

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from rows import Row
 
-EXECUTABLES = ("dynamics", "step", "statics", "startup", "runs")
+EXECUTABLES = ("dynamics", "step", "statics", "inverse_kinematics", "startup", "runs")
 
 
 def say(text: str) -> None:

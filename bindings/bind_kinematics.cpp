@@ -1,8 +1,11 @@
+#include <pybind11/stl.h>
+
+#include <optional>
 #include <sstream>
 
 #include "arrays.hpp"
 #include "bind.hpp"
-#include "cdcr/kinematics.hpp"
+#include "cdcr/inverse_kinematics.hpp"
 
 namespace cdcr::python {
 namespace {
@@ -24,6 +27,40 @@ void check_place(const Model& model, Index section, double fraction) {
     text << "fraction must be 0 to 1, got " << fraction;
     throw py::value_error(text.str());
   }
+}
+
+VectorXd read_max_theta(const Model& model, const py::object& max_theta) {
+  if (max_theta.is_none()) return {};
+  const bool one = !py::hasattr(max_theta, "__len__");
+  return one ? VectorXd(VectorXd::Constant(1, read_array(max_theta, "max_theta", {}).data()[0]))
+             : VectorXd(*VectorArgument(max_theta, "max_theta", model.num_sections()));
+}
+
+py::tuple find_bending(const Model& self, const py::object& p, const py::object& R,
+                       const py::object& q0, const py::object& max_theta,
+                       std::optional<double> orientation_weight, std::optional<double> tolerance,
+                       int seeds, int iterations) {
+  const Vector3d point(*VectorArgument(p, "p", 3));
+  std::optional<Matrix3d> rotation;
+  if (!R.is_none()) {
+    const Array rows = read_array(R, "R", {3, 3});
+    rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rows.data());
+  }
+  const VectorXd start = q0.is_none() ? VectorXd() : VectorXd(*read_bending(self, q0, "q0"));
+  InverseKinematicsOptions options;
+  options.max_theta = read_max_theta(self, max_theta);
+  options.orientation_weight = orientation_weight;
+  options.tolerance = tolerance;
+  options.seeds = seeds;
+  options.iterations = iterations;
+  InverseKinematics answer;
+  {
+    const py::gil_scoped_release unlocked;
+    answer = inverse_kinematics(self, point, rotation, start, options);
+  }
+  return py::make_tuple(to_array(answer.q), to_array(answer.position), to_rows(answer.rotation),
+                        answer.distance, answer.angle, answer.residual, answer.reachable,
+                        answer.seeds, answer.iterations, answer.message);
 }
 
 }  // namespace
@@ -77,16 +114,9 @@ void bind_kinematics(PyModel& model) {
             cable_lengths(self, *read_bending(self, q, "q"), lengths);
             return to_array(lengths);
           },
-          "q"_a)
-      .def(
-          "_inverse_kinematics",
-          [](const Model& self, const py::object& p) {
-            const VectorArgument point(p, "p", 3);
-            const InverseKinematics answer = inverse_kinematics(self, Vector3d(*point));
-            return py::make_tuple(to_array(answer.q), to_array(answer.position), answer.distance,
-                                  answer.reachable);
-          },
-          "p"_a);
+          "q"_a);
+  model.def("_inverse_kinematics", &find_bending, "p"_a, "R"_a, "q0"_a, py::kw_only(),
+            "max_theta"_a, "orientation_weight"_a, "tolerance"_a, "seeds"_a, "iterations"_a);
 }
 
 }  // namespace cdcr::python

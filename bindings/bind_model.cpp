@@ -27,6 +27,7 @@ void bind_model(py::module_& m) {
   bind_kinematics(model);
   bind_dynamics(model);
   bind_statics(m, model);
+  bind_modes(m, model);
 }
 
 }  // namespace cdcr::python

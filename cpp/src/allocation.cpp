@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "cdcr/dynamics.hpp"
+#include "cdcr/kinematics.hpp"
 
 namespace cdcr {
 namespace {
@@ -17,6 +17,8 @@ namespace {
 constexpr double epsilon = 1e-9;
 // Distance from Q, relative to the sizes at hand, that still counts as met.
 constexpr double met = 1e-10;
+// Share of the missing force along a cable that is zero but for rounding: it would not help.
+constexpr double indifferent = 1e-6;
 
 void check(const Model& model, const TensionLimits& limits) {
   std::ostringstream text;
@@ -52,16 +54,36 @@ Allocator::Allocator(const Model& model, const TensionLimits& limits)
   Q_ = rest_ = lambda_ = force_ = VectorXd::Zero(m);
   F_ = tension_ = VectorXd::Zero(c);
 
-  if (m == 2 && c == 3 && limits.cables.empty()) {
-    // The cross product of the rows of B spans its null space.
-    const Vector3d top = B_.row(0).transpose(), bottom = B_.row(1).transpose();
-    null_ = top.cross(bottom);
-    if (null_.minCoeff() * null_.maxCoeff() > 0.0) {
-      null_ *= (null_[0] > 0.0 ? 1.0 : -1.0) / null_.norm();
-      const Eigen::Matrix2d gram = B_ * B_.transpose();
-      pseudo_inverse_ = B_.transpose() * gram.inverse();
-      has_closed_form_ = true;
+  if (limits.method != AllocationMethod::search && limits.cables.empty()) find_triples(model);
+  if (limits.method == AllocationMethod::sections && triples_.empty()) {
+    throw std::invalid_argument(
+        "method sections needs three cables, not on one side of the backbone, that end at every "
+        "section, and all of them in use");
+  }
+}
+
+void Allocator::find_triples(const Model& model) {
+  for (Index k = 0; k < model.num_sections(); ++k) {
+    Triple triple{};
+    int count = 0;
+    for (Index j = 0; j < model.num_cables(); ++j) {
+      if (model.cables()[static_cast<std::size_t>(j)].end_section != k) continue;
+      if (count < 3) triple.cables[count] = j;
+      ++count;
     }
+    MatrixXd b(2, 3);
+    for (int i = 0; count == 3 && i < 3; ++i) b.col(i) = B_.col(triple.cables[i]).segment<2>(2 * k);
+    // The cross product of the rows of b spans its null space.
+    const Vector3d top = b.row(0).transpose(), bottom = b.row(1).transpose();
+    triple.null = top.cross(bottom);
+    if (count != 3 || !(triple.null.minCoeff() * triple.null.maxCoeff() > 0.0)) {
+      triples_.clear();
+      return;
+    }
+    triple.null *= (triple.null[0] > 0.0 ? 1.0 : -1.0) / triple.null.norm();
+    const Eigen::Matrix2d gram = b * b.transpose();
+    triple.pseudo_inverse = b.transpose() * gram.inverse();
+    triples_.push_back(triple);
   }
 }
 
@@ -69,22 +91,36 @@ bool Allocator::at_limit(Index cable) const noexcept {
   return place_[cable] == Place::lower || place_[cable] == Place::upper;
 }
 
-/// Q = pinv(B)-part plus a multiple of the null vector; the multiple nearest to zero is least-norm.
-bool Allocator::solve_in_closed_form() noexcept {
+/// The pseudo-inverse's part plus a multiple of the null vector; the multiple nearest to zero is
+/// least-norm.
+bool Allocator::solve_triple(const Triple& triple, double force_x, double force_y) noexcept {
   Vector3d base;
-  base.noalias() = pseudo_inverse_ * Q_;
+  base.noalias() = triple.pseudo_inverse * Eigen::Vector2d(force_x, force_y);
   double least = -HUGE_VAL, most = HUGE_VAL;
-  for (int j = 0; j < 3; ++j) {
-    least = std::fmax(least, (low_ - base[j]) / null_[j]);
-    most = std::fmin(most, (high_ - base[j]) / null_[j]);
+  for (int i = 0; i < 3; ++i) {
+    least = std::fmax(least, (low_ - base[i]) / triple.null[i]);
+    most = std::fmin(most, (high_ - base[i]) / triple.null[i]);
   }
   if (!(least <= most)) return false;
   const double common = std::clamp(0.0, least, most);
-  for (int j = 0; j < 3; ++j) {
-    F_[j] = std::fmin(std::fmax(base[j] + common * null_[j], low_), high_);
+  for (int i = 0; i < 3; ++i) {
+    const Index j = triple.cables[i];
+    F_[j] = std::fmin(std::fmax(base[i] + common * triple.null[i], low_), high_);
     place_[j] = F_[j] == low_ ? Place::lower : F_[j] == high_ ? Place::upper : Place::free;
   }
   return true;
+}
+
+/// Cables pull on all sections alike, so those that end at a section owe what the next does not get.
+bool Allocator::solve_in_closed_form() noexcept {
+  const auto n = static_cast<Index>(triples_.size());
+  for (Index k = 0; k < n; ++k) {
+    const bool last = k + 1 == n;
+    const double next_x = last ? 0.0 : Q_[2 * k + 2], next_y = last ? 0.0 : Q_[2 * k + 3];
+    const Triple& triple = triples_[static_cast<std::size_t>(k)];
+    if (!solve_triple(triple, Q_[2 * k] - next_x, Q_[2 * k + 1] - next_y)) return false;
+  }
+  return n > 0;
 }
 
 void Allocator::place_at_start() noexcept {
@@ -192,7 +228,7 @@ void Allocator::search() noexcept {
 
 bool Allocator::solve(const ConstVectorRef& force) noexcept {
   Q_ = force / scale_;
-  if (!has_closed_form_ || !solve_in_closed_form()) search();
+  if (!solve_in_closed_form()) search();
   tension_ = F_;
   rest_ = Q_;
   for (Index j = 0; j < F_.size(); ++j) rest_ -= B_.col(j) * F_[j];
@@ -214,11 +250,40 @@ Allocation allocate(const Model& model, const VectorXd& force, const TensionLimi
   result.feasible = allocator.solve(force);
   result.tension = allocator.tension();
   result.force = allocator.force();
-  result.distance = (result.force - force).norm();
+  const VectorXd missing = force - result.force;
+  result.distance = missing.norm();
   for (Index j = 0; j < model.num_cables() && !result.feasible; ++j) {
-    if (allocator.at_limit(j)) result.limiting.push_back(j);
+    if (!allocator.at_limit(j)) continue;
+    const double wanted = model.actuation_matrix().col(j).dot(missing);
+    const double tension = result.tension[j];
+    const bool lower = tension == limits.min_tension, upper = tension == limits.max_tension;
+    const double noise = indifferent * model.actuation_matrix().col(j).norm() * result.distance;
+    if (!(lower && wanted < -noise) && !(upper && wanted > noise)) continue;
+    result.limiting.push_back(j);
+    std::ostringstream text;
+    text << cable_name(model, j) << " at " << tension << " N (" << (wanted < 0.0 ? "min" : "max")
+         << ")";
+    result.limits.push_back(text.str());
   }
   return result;
+}
+
+std::string cable_name(const Model& model, Index cable) {
+  const int section = model.cables()[static_cast<std::size_t>(cable)].end_section;
+  int number = 0;
+  for (Index j = 0; j <= cable; ++j) {
+    if (model.cables()[static_cast<std::size_t>(j)].end_section == section) ++number;
+  }
+  return "cable " + std::to_string(number) + " of section " + std::to_string(section + 1);
+}
+
+void cable_commands(const Model& model, const ConstVectorRef& q, const ConstVectorRef& tension,
+                    VectorRef command) noexcept {
+  cable_lengths(model, q, command);
+  for (Index j = 0; j < model.num_cables(); ++j) {
+    const Cable& cable = model.cables()[static_cast<std::size_t>(j)];
+    command[j] = cable.length_driven() ? command[j] - tension[j] / cable.stiffness : tension[j];
+  }
 }
 
 }  // namespace cdcr

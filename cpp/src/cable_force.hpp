@@ -10,7 +10,8 @@ namespace cdcr::detail {
 
 template <class S>
 [[nodiscard]] S dot_rows(const MatrixXd& B, Index cable, Index section, const S* rows) {
-  return B(2 * section, cable) * rows[2 * section] + B(2 * section + 1, cable) * rows[2 * section + 1];
+  return B(2 * section, cable) * rows[2 * section] +
+         B(2 * section + 1, cable) * rows[2 * section + 1];
 }
 
 /// Pull of a length-driven cable's spring and damper; negative where it would have to push.
@@ -35,20 +36,24 @@ template <class S>
   return pull > 0.0 ? pull : S(0.0);
 }
 
-/// (1 - e^-z)/z, and the shift of the centre of weights e^-zx on [0, 1], coth(z/2)/2 - 1/z.
+/// (1 - e^-z)/z = e^-h sinh(h)/h with h = z/2, which loses no digits.
 template <class S>
 [[nodiscard]] S mean_decay(const S& z) {
   using std::abs;
   using std::exp;
-  if (abs(z) < 1e-2) return 1.0 - z * (0.5 - z * (1.0 / 6.0 - z * (1.0 / 24.0 - z / 120.0)));
-  return (1.0 - exp(-z)) / z;
+  using std::sinh;
+  const S h = 0.5 * z, decay = exp(S(-h));
+  if (abs(z) < 1e-2) return decay * (1.0 + h * h * (1.0 / 6.0 + h * h / 120.0));
+  return decay * sinh(h) / h;
 }
+
+/// Shift of the centre of weights e^-zx on [0, 1] from 1/2 towards 0, coth(h)/2 - 1/z.
 template <class S>
 [[nodiscard]] S centre_shift(const S& z) {
   using std::abs;
-  using std::exp;
-  if (abs(z) < 1e-2) return z * (1.0 / 12.0 - z * z / 720.0);
-  return 0.5 - 1.0 / z + 1.0 / (exp(z) - 1.0);
+  using std::tanh;
+  if (abs(z) < 1e-2) return z * (1.0 / 12.0 - z * z * (1.0 / 720.0 - z * z / 30240.0));
+  return 0.5 / tanh(S(0.5 * z)) - 1.0 / z;
 }
 
 template <class S>
@@ -65,8 +70,9 @@ template <class S>
 /// Within section k the tension falls as e^-zx with z = mu theta_k s. The direction s comes from
 /// the cable's speed v(x) through the holes, which is linear in x. What friction takes is
 /// mu theta_k s times the integral of e^-zx v; so s follows the mean of v where that has the sign
-/// of the weighted mean, and is zero in the small gap where it has not: friction never gives work. The tension that is left
-/// beyond each section goes to `beyond_sections` where that is wanted.
+/// of the weighted mean, and is zero in the small gap where it has not: friction never gives
+/// work. The tension that is left beyond each section goes to `beyond_sections` where that is
+/// wanted.
 template <class S>
 void add_rubbing_cable(const Model& model, Index j, const S* q, const S* qd, S tension, S* force,
                        S* beyond_sections = nullptr) {
@@ -110,7 +116,8 @@ void cable_force(const Model& model, const S* q, const S* qd, const S* command, 
       add_rubbing_cable(model, j, q, qd, tension, force);
       continue;
     }
-    const auto rows = 2 * (static_cast<Index>(model.cables()[static_cast<std::size_t>(j)].end_section) + 1);
+    const auto rows =
+        2 * (static_cast<Index>(model.cables()[static_cast<std::size_t>(j)].end_section) + 1);
     for (Index i = 0; i < rows; ++i) force[i] += B(i, j) * tension;
   }
 }

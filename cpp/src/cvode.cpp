@@ -75,6 +75,7 @@ class Cvode final : public Integrator {
   Status begin(double t, const VectorXd& y, double t_stop);
   void reinitialise();
   void note_slack();
+  void note_jump();
   Status evaluate(double t, const double* y, VectorRef slope);
   [[nodiscard]] double norm(const VectorXd& v) const noexcept;
   double first_step();
@@ -91,7 +92,8 @@ class Cvode final : public Integrator {
   double time_ = 0.0, stop_ = 0.0;
   VectorXd state_, slope_, moved_, slope_there_;
   Status status_ = Status::not_started;
-  bool at_event_ = false;         // the last step ended where a cable turned slack or taut
+  bool at_event_ = false;  // the last step ended where a cable turned slack or taut
+  VectorXd pulls_;         // of the length-driven cables, their signs at the last look
   std::vector<SlackEvent> slack_events_;
   Status obstacle_ = Status::ok;  // why a derivative wanted for the step at hand does not exist
   std::exception_ptr exception_;  // thrown during a call of CVODE
@@ -113,7 +115,9 @@ Cvode::Cvode(Plant& plant, Method method, const Options& options)
       state_(VectorXd::Zero(plant.num_states())),
       slope_(state_),
       moved_(state_),
-      slope_there_(state_) {
+      slope_there_(state_),
+      pulls_(VectorXd::Zero(static_cast<Index>(plant.length_driven().size()))),
+      signs_(pulls_) {
   void* const cvode = cvode_.get();
   const auto silent = [](int, const char*, const char*, char*, void*) {};
   require(CVodeSetErrHandlerFn(cvode, silent, nullptr), "CVodeSetErrHandlerFn");
@@ -186,7 +190,7 @@ Status Cvode::begin(double t, const VectorXd& y, double t_stop) {
   state_ = y;
   const Status status = evaluate(time_, state_.data(), slope_);
   if (status != Status::ok) return status;
-
+  note_jump();
   reinitialise();
   return Status::ok;
 }
@@ -291,7 +295,21 @@ void Cvode::note_slack() {
   std::vector<int> found(cables.size());
   require(CVodeGetRootInfo(cvode_.get(), found.data()), "CVodeGetRootInfo");
   for (std::size_t i = 0; i < cables.size(); ++i) {
-    if (found[i] != 0) slack_events_.push_back({time_, cables[i], found[i] < 0});
+    if (found[i] == 0) continue;
+    slack_events_.push_back({time_, cables[i], found[i] < 0});
+    signs_[static_cast<Index>(i)] = found[i];
+  }
+}
+
+/// Cables that turn slack or taut because their command jumps; a pull of zero has not turned yet.
+void Cvode::note_jump() {
+  const auto& cables = plant_.length_driven();
+  plant_.pulls(time_, state_.data(), pulls_.data());
+  for (std::size_t i = 0; i < cables.size(); ++i) {
+    const double pull = pulls_[static_cast<Index>(i)];
+    double& sign = signs_[static_cast<Index>(i)];
+    if (pull * sign < 0.0) slack_events_.push_back({time_, cables[i], pull < 0.0});
+    if (pull != 0.0) sign = pull > 0.0 ? 1.0 : -1.0;
   }
 }
 

@@ -81,4 +81,9 @@ void linearize(const Model& model, Data& data, const ConstVectorRef& q, const Co
   differentiate_motion(model, q, qd, command, wrenches, A, &B);
 }
 
+void linearize(const Model& model, Data& data, const ConstVectorRef& q, const ConstVectorRef& qd,
+               const ConstVectorRef& command, MatrixRef A, MatrixRef B) noexcept {
+  linearize(model, data, q, qd, command, no_wrenches(), A, B);
+}
+
 }  // namespace cdcr

@@ -1,147 +1,243 @@
 #include "cdcr/statics.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+#include <random>
 #include <sstream>
 #include <stdexcept>
 
-#include "cdcr/dynamics.hpp"
+#include "balance.hpp"
+#include "cdcr/cables.hpp"
 #include "cdcr/plant.hpp"
 
 namespace cdcr {
 namespace {
 
+using detail::Balance;
+
 constexpr int max_iterations = 200;
 // A stiffness this small beside the largest is zero but for rounding.
 constexpr double neutral = 1e-12;
+// [rad], of one section: farther than this a linear model of the robot means little.
+constexpr double longest_step = 1.0;
+// Unbalanced moment over its rounding error that a stalled search may be left with.
+constexpr double stalled = 1e3;
+// Load steps: the first, and the one below which the robot may snap to another shape.
+constexpr double first_load_step = 0.25, snap_load_step = 1e-3;
+constexpr int max_load_steps = 400;
+constexpr int max_searches = 12;
 
-/// Energy to be minimised: Pi(q) = U(q) - (B F).q, whose gradient is zero at rest.
-class Energy {
+double largest_bending(const VectorXd& q) {
+  double largest = 0.0;
+  for (Index i = 0; i < q.size(); i += 2) largest = std::fmax(largest, q.segment<2>(i).norm());
+  return largest;
+}
+
+bool within_limit(const VectorXd& q) { return q.allFinite() && largest_bending(q) <= max_bending; }
+
+/// Newton's method from one start.
+class Search {
  public:
-  Energy(const Model& model, VectorXd force)
-      : model_(model), data_(model), force_(std::move(force)) {}
+  explicit Search(Balance& balance)
+      : balance_(balance),
+        K_(balance.model().num_coordinates(), balance.model().num_coordinates()),
+        r_(K_.rows()),
+        trial_(K_.rows()),
+        trial_r_(K_.rows()),
+        llt_(K_.rows()) {}
 
-  double value(const VectorXd& q) { return potential_energy(model_, data_, q) - force_.dot(q); }
-  VectorXd gradient(const VectorXd& q) {
-    VectorXd g(q.size());
-    potential_gradient(model_, data_, q, g);
-    return g - force_;
+  /// Moves q to a point of rest; true when it got there.
+  bool run(VectorXd& q) {
+    balance_.residual(q, r_);
+    double merit = merit_of(q, r_);
+    for (int i = 0; i < max_iterations && size(r_) > balance_.noise(q); ++i, ++iterations_) {
+      balance_.stiffness(q, K_);
+      VectorXd step = balance_.has_energy() ? downhill_step() : newton_step();
+      const double longest = largest_bending(step);
+      if (!(longest < HUGE_VAL)) break;
+      if (longest > longest_step) step *= longest_step / longest;
+      if (!move(q, step, merit)) break;
+    }
+    // A search stalled by rounding has converged as far as the arithmetic allows.
+    return size(r_) <= stalled * balance_.noise(q);
   }
-  MatrixXd hessian(const VectorXd& q) {
-    MatrixXd H(q.size(), q.size());
-    potential_hessian(model_, data_, q, H);
-    return H;
-  }
-  /// Rounding error that the gradient cannot get below.
-  [[nodiscard]] double noise(const VectorXd& q) const {
-    const double elastic = model_.stiffness().maxCoeff() * q.lpNorm<Eigen::Infinity>();
-    return 1e-15 * (elastic + force_.lpNorm<Eigen::Infinity>() + weight_moment());
-  }
+
+  [[nodiscard]] int iterations() const { return iterations_; }
+  /// Largest component of what is out of balance where the last search ended.
+  [[nodiscard]] double residual() const { return size(r_); }
 
  private:
-  [[nodiscard]] double weight_moment() const {
-    double mass = model_.robot().payload, length = 0.0;
-    for (const Section& s : model_.robot().sections) {
-      mass += s.backbone_mass + s.num_disks * s.disk_mass;
-      length += s.length;
-    }
-    return mass * length * model_.robot().gravity.norm();
+  static double size(const VectorXd& r) { return r.lpNorm<Eigen::Infinity>(); }
+
+  /// What each step has to lower: the energy, or else the unbalanced moment.
+  double merit_of(const VectorXd& q, const VectorXd& r) {
+    return balance_.has_energy() ? balance_.energy(q) : 0.5 * r.squaredNorm();
   }
 
-  const Model& model_;
-  Data data_;
-  VectorXd force_;
+  /// Newton step with the eigenvalues of K made positive, so that it always points downhill.
+  VectorXd downhill_step() {
+    llt_.compute(K_);
+    if (llt_.info() == Eigen::Success) {
+      const auto pivots = llt_.matrixLLT().diagonal();
+      if (pivots.minCoeff() > 1e-2 * pivots.maxCoeff()) return llt_.solve(-r_);
+    }
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(K_);
+    const double floor = 1e-6 * eigen.eigenvalues().cwiseAbs().maxCoeff();
+    const VectorXd curvature = eigen.eigenvalues().cwiseAbs().cwiseMax(floor);
+    const VectorXd in_eigenbasis = eigen.eigenvectors().transpose() * r_;
+    return -(eigen.eigenvectors() * in_eigenbasis.cwiseQuotient(curvature));
+  }
+
+  /// Newton step, or where K is singular the gradient's way with the largest stiffness.
+  VectorXd newton_step() {
+    const VectorXd step = -K_.partialPivLu().solve(r_);
+    const double slope = r_.dot(K_ * step);
+    if (step.allFinite() && slope < -0.5 * r_.squaredNorm()) return step;
+    return -K_.transpose() * r_ / std::fmax(K_.squaredNorm(), 1e-300);
+  }
+
+  /// Goes along the step as far as the merit falls, by Armijo's rule; near the end differences
+  /// drown in rounding, so there a smaller unbalanced moment counts as progress too.
+  bool move(VectorXd& q, const VectorXd& step, double& merit) {
+    const bool near = size(r_) <= stalled * balance_.noise(q);
+    const double slope = balance_.has_energy() ? r_.dot(step) : r_.dot(K_ * step);
+    const int last_halving = near ? 0 : 32;
+    double factor = 1.0;
+    for (int halving = 0; halving <= last_halving; ++halving, factor *= 0.5) {
+      trial_ = q + factor * step;
+      if (!within_limit(trial_)) continue;
+      balance_.residual(trial_, trial_r_);
+      const double trial_merit = merit_of(trial_, trial_r_);
+      const bool falls = !near && trial_merit <= merit + 1e-4 * factor * slope;
+      const bool closer = halving == 0 && trial_r_.norm() < 0.5 * r_.norm() &&
+                          trial_merit <= merit + 1e-12 * std::abs(merit);
+      if (!falls && !closer) continue;
+      q.swap(trial_);
+      r_.swap(trial_r_);
+      merit = trial_merit;
+      return true;
+    }
+    return false;
+  }
+
+  Balance& balance_;
+  MatrixXd K_;
+  VectorXd r_, trial_, trial_r_;
+  Eigen::LLT<MatrixXd> llt_;
+  int iterations_ = 0;
 };
 
-bool within_limit(const VectorXd& q) {
-  for (Index i = 0; i < q.size(); i += 2) {
-    if (!(q.segment<2>(i).norm() <= max_bending)) return false;
+/// Lets the load grow from nothing to all, each time from the rest before; true when all is on.
+bool load_gradually(Balance& balance, Search& search, VectorXd& q, int& load_steps) {
+  q.setZero();
+  double load = 0.0, step = first_load_step;
+  bool arrived = false;
+  while (!arrived && load_steps < max_load_steps && step > 1e-6) {
+    ++load_steps;
+    const double next = std::fmin(1.0, load + step);
+    balance.set_load(next);
+    VectorXd moved = q;
+    const bool rests = search.run(moved);
+    const bool near = largest_bending(moved - q) <= longest_step || step <= snap_load_step;
+    if (!rests || !near) {
+      step *= 0.5;
+      continue;
+    }
+    q = moved;
+    load = next;
+    step *= 2.0;
+    arrived = load == 1.0;
   }
-  return true;
+  balance.set_load(1.0);
+  return arrived;
 }
 
-/// Newton step with the eigenvalues of H made positive, so that it always points downhill.
-VectorXd downhill_step(const MatrixXd& H, const VectorXd& g) {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(H);
-  const double floor = 1e-6 * eigen.eigenvalues().cwiseAbs().maxCoeff();
-  const VectorXd curvature = eigen.eigenvalues().cwiseAbs().cwiseMax(floor);
-  const VectorXd in_eigenbasis = eigen.eigenvectors().transpose() * g;
-  return -(eigen.eigenvectors() * in_eigenbasis.cwiseQuotient(curvature));
+VectorXd without_weight(const Model& model, const VectorXd& command) {
+  VectorXd q = VectorXd::Zero(model.num_coordinates());
+  for (Index j = 0; j < model.num_cables(); ++j) {
+    if (model.cables()[static_cast<std::size_t>(j)].length_driven()) continue;
+    q += model.actuation_matrix().col(j) * command[j];
+  }
+  for (Index i = 0; i < q.size(); ++i) q[i] /= model.stiffness()[i / 2];
+  return q;
 }
 
-}  // namespace
+/// Direct, then by growing load, then from elsewhere. The first failure is what a failure shows.
+void find(Balance& balance, Equilibrium& result) {
+  Search search(balance);
+  VectorXd& q = result.q;
+  const bool started_beyond = !within_limit(q);
+  if (started_beyond) q.setZero();
+  result.searches = 1;
+  bool found = search.run(q);
+  result.residual = search.residual();
+  VectorXd other = q;
+  if (!found) {
+    ++result.searches;
+    found = load_gradually(balance, search, other, result.load_steps);
+  }
+  std::mt19937 engine(1);  // its numbers are the same everywhere
+  while (!found && result.searches < max_searches) {
+    ++result.searches;
+    for (Index i = 0; i < other.size(); ++i) {
+      other[i] = 3.0 * (static_cast<double>(engine()) / 4294967296.0 - 0.5);
+    }
+    found = search.run(other);
+  }
+  result.iterations = search.iterations();
+  if (found) {
+    q = other;
+    result.residual = search.residual();
+    result.status = Status::ok;
+  } else if (started_beyond || largest_bending(q) > 0.999 * max_bending) {
+    result.status = Status::bending_limit;
+  }
+}
 
-Equilibrium equilibrium(const Model& model, const VectorXd& tension, const VectorXd& q0) {
-  if (check_tension(model, tension) != Status::ok) {
-    std::ostringstream text;
+void judge_stability(Balance& balance, Equilibrium& result) {
+  MatrixXd K(result.q.size(), result.q.size());
+  balance.stiffness(result.q, K);
+  if (balance.has_energy()) {
+    result.eigenvalues =
+        Eigen::SelfAdjointEigenSolver<MatrixXd>(K, Eigen::EigenvaluesOnly).eigenvalues();
+  } else {
+    result.eigenvalues = Eigen::EigenSolver<MatrixXd>(K, false).eigenvalues().real();
+    std::sort(result.eigenvalues.begin(), result.eigenvalues.end());
+  }
+  result.stable = result.eigenvalues.minCoeff() > neutral * result.eigenvalues.maxCoeff();
+}
+
+void check(const Model& model, const VectorXd& command, const VectorXd& q0) {
+  std::ostringstream text;
+  if (check_tension(model, command) != Status::ok) {
     text << "tension must be " << model.num_cables()
-         << " finite values >= 0 N (a cable cannot push), got [" << tension.transpose() << "]";
+         << " finite values >= 0 N (a cable cannot push), got [" << command.transpose() << "]";
     throw std::invalid_argument(text.str());
   }
   if (q0.size() != 0 && (q0.size() != model.num_coordinates() || !q0.allFinite())) {
-    std::ostringstream text;
     text << "q0 must be " << model.num_coordinates() << " finite values, got [" << q0.transpose()
          << "]";
     throw std::invalid_argument(text.str());
   }
+}
 
-  const VectorXd force = model.actuation_matrix() * tension;
-  Energy energy(model, force);
+}  // namespace
+
+Equilibrium equilibrium(const Model& model, const VectorXd& command, const VectorXd& q0,
+                        const Wrenches& wrenches) {
+  check(model, command, q0);
+  validate(model, wrenches);
+  Balance balance(model, command, wrenches);
   Equilibrium result;
-  result.q = q0;
-  if (q0.size() == 0) {
-    result.q = force;
-    for (Index i = 0; i < model.num_sections(); ++i) {
-      result.q.segment<2>(2 * i) /= model.stiffness()[i];
-    }
-  }
-  if (!within_limit(result.q)) {
-    result.status = Status::bending_limit;
-    result.q.setZero();
-  }
-
-  VectorXd& q = result.q;
-  VectorXd gradient = energy.gradient(q);
-  double value = energy.value(q);
-  bool converged = false;
-  for (; result.iterations < max_iterations; ++result.iterations) {
-    result.residual = gradient.lpNorm<Eigen::Infinity>();
-    if (result.residual <= energy.noise(q)) {
-      converged = true;
-      break;
-    }
-    VectorXd step = downhill_step(energy.hessian(q), gradient);
-    const double limit = 1.0;  // [rad]: farther than this the quadratic model means little
-    if (step.norm() > limit) step *= limit / step.norm();
-    // Armijo's rule; near the end energy differences drown in rounding, so there a smaller
-    // gradient counts as progress too.
-    const double slope = gradient.dot(step);
-    bool moved = false;
-    double factor = 1.0;
-    for (int halving = 0; halving < 33 && !moved; ++halving, factor = std::ldexp(1.0, -halving)) {
-      const VectorXd trial = q + factor * step;
-      if (!within_limit(trial)) continue;
-      const double trial_value = energy.value(trial);
-      const VectorXd trial_gradient = energy.gradient(trial);
-      if (trial_value <= value + 1e-4 * factor * slope ||
-          (halving == 0 && trial_gradient.norm() < 0.5 * gradient.norm() &&
-           trial_value <= value + 1e-12 * std::abs(value))) {
-        q = trial;
-        value = trial_value;
-        gradient = trial_gradient;
-        moved = true;
-      }
-    }
-    if (!moved) break;
-  }
-  result.residual = gradient.lpNorm<Eigen::Infinity>();
-  // A search stalled by rounding has converged as far as the arithmetic allows.
-  converged = converged || result.residual <= 1e3 * energy.noise(q);
-  const bool at_limit = q.segment<2>(0).norm() > 0.999 * max_bending;
-  result.status = converged ? Status::ok : at_limit ? Status::bending_limit : Status::not_converged;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(energy.hessian(q));
-  result.eigenvalues = eigen.eigenvalues();
-  result.stable = result.eigenvalues.minCoeff() > neutral * result.eigenvalues.maxCoeff();
+  result.q = q0.size() == 0 ? without_weight(model, command) : q0;
+  find(balance, result);
+  judge_stability(balance, result);
+  const VectorXd rest = VectorXd::Zero(result.q.size());
+  result.tension.resize(model.num_cables());
+  cable_tensions(model, result.q, rest, command, result.tension);
   return result;
 }
 

@@ -17,7 +17,9 @@ from cdcr._control import Pid
 from cdcr._coordinates import bending, polar
 from cdcr._core import Controller, Equilibrium, Simulator, Stats, Status, max_bending, taylor_range
 from cdcr._inverse import InverseRun, inverse_run
-from cdcr._model import ConvergenceError, InfeasibleError, InverseKinematics, Model
+from cdcr._inverse_kinematics import InverseKinematics
+from cdcr._model import ConvergenceError, InfeasibleError, Model
+from cdcr._modes import Modes
 from cdcr._reference import Reference
 from cdcr._robot import Cable, Robot, Section
 from cdcr._simulate import TensionTable, simulate
@@ -36,6 +38,7 @@ __all__ = [
     "InverseKinematics",
     "InverseRun",
     "Model",
+    "Modes",
     "Pid",
     "Reference",
     "Robot",

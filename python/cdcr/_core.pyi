@@ -126,6 +126,8 @@ class Equilibrium(metaclass=_Bound):
     @property
     def q(self) -> _FloatArray: ...
     @property
+    def tension(self) -> _FloatArray: ...
+    @property
     def eigenvalues(self) -> _FloatArray: ...
     @property
     def stable(self) -> bool: ...
@@ -133,6 +135,10 @@ class Equilibrium(metaclass=_Bound):
     def residual(self) -> float: ...
     @property
     def iterations(self) -> int: ...
+    @property
+    def load_steps(self) -> int: ...
+    @property
+    def searches(self) -> int: ...
     @property
     def status(self) -> Status: ...
 
@@ -148,6 +154,32 @@ class Allocation(metaclass=_Bound):
     def feasible(self) -> bool: ...
     @property
     def limiting(self) -> list[int]: ...
+    @property
+    def limits(self) -> list[str]: ...
+
+class AllocationMethod(enum.Enum):
+    """How tensions are found."""
+
+    automatic = 0
+    sections = 1
+    search = 2
+
+@final
+class CoreModes(metaclass=_Bound):
+    """Small vibrations about a shape."""
+
+    @property
+    def squared_frequency(self) -> _FloatArray: ...
+    @property
+    def frequency(self) -> _FloatArray: ...
+    @property
+    def shape(self) -> _FloatArray: ...
+    @property
+    def damping_ratio(self) -> _FloatArray: ...
+    @property
+    def eigenvalues(self) -> NDArray[np.complex128]: ...
+    @property
+    def stable(self) -> bool: ...
 
 @final
 class CoreWrench(metaclass=_Bound):
@@ -237,11 +269,40 @@ class Model(metaclass=_Bound):
 
     def rest_command(self) -> _FloatArray:
         """No tension, and straight lengths [m] of cables driven by length (num_cables,)."""
-    def find_equilibrium(self, tension: ArrayLike, q0: ArrayLike | None = None) -> Equilibrium: ...
+    def find_equilibrium(
+        self,
+        tension: ArrayLike,
+        q0: ArrayLike | None = None,
+        wrenches: Wrench | Sequence[Wrench] = (),
+    ) -> Equilibrium: ...
+    def static_stiffness(
+        self, q: ArrayLike, tension: ArrayLike, wrenches: Wrench | Sequence[Wrench] = ()
+    ) -> _FloatArray: ...
+    def commands(self, q: ArrayLike, tension: ArrayLike) -> _FloatArray: ...
+    def _modes(
+        self, q: ArrayLike, tension: ArrayLike, wrenches: Wrench | Sequence[Wrench]
+    ) -> CoreModes: ...
     def find_tension(
-        self, force: ArrayLike, min_tension: float, max_tension: float
+        self,
+        force: ArrayLike,
+        min_tension: float,
+        max_tension: float,
+        method: AllocationMethod = ...,
     ) -> Allocation: ...
-    def _inverse_kinematics(self, p: ArrayLike) -> tuple[_FloatArray, _FloatArray, float, bool]: ...
+    def _inverse_kinematics(
+        self,
+        p: ArrayLike,
+        R: ArrayLike | None,
+        q0: ArrayLike | None,
+        *,
+        max_theta: ArrayLike | None,
+        orientation_weight: float | None,
+        tolerance: float | None,
+        seeds: int,
+        iterations: int,
+    ) -> tuple[
+        _FloatArray, _FloatArray, _FloatArray, float, float, float, bool, int, int, str
+    ]: ...
 
 class Options(metaclass=_Bound):
     def __init__(

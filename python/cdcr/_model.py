@@ -3,71 +3,27 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cdcr import _core
+from cdcr._inverse_kinematics import InverseKinematics
+from cdcr._modes import Modes, modes
 from cdcr._robot import Robot
+from cdcr._statics import ConvergenceError as ConvergenceError
+from cdcr._statics import InfeasibleError as InfeasibleError
+from cdcr._statics import allocate, equilibrium
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from cdcr._wrench import Wrench
 
 FloatArray = NDArray[np.float64]
 
 FORMULATIONS = tuple(f.name.replace("_", "-") for f in _core.Formulation)
-
-
-class ConvergenceError(RuntimeError):
-    """A search ended without an answer; the message says what to try next."""
-
-
-class InfeasibleError(ValueError):
-    """No tensions within the limits give the force asked for.
-
-    Attributes
-    ----------
-    tension : (num_cables,) array
-        Tensions that come nearest [N].
-    force : (2n,) array
-        The generalised force they give [N m].
-    limiting : tuple of int
-        Indices of the cables at a limit.
-    """
-
-    def __init__(self, message: str, answer: _core.Allocation) -> None:
-        super().__init__(message)
-        self.tension = answer.tension
-        self.force = answer.force
-        self.limiting = tuple(answer.limiting)
-
-
-class InverseKinematics:
-    """Answer of `Model.inverse_kinematics`.
-
-    Attributes
-    ----------
-    q : (2,) array
-        Bending vector [rad].
-    position : (3,) array
-        Tip position reached [m].
-    distance : float
-        From the point asked for [m].
-    reachable : bool
-        Whether the distance is rounding error only.
-    """
-
-    __slots__ = ("distance", "position", "q", "reachable")
-
-    def __init__(
-        self, q: FloatArray, position: FloatArray, distance: float, reachable: bool
-    ) -> None:
-        self.q, self.position = q, position
-        self.distance, self.reachable = distance, reachable
-
-    def __repr__(self) -> str:
-        return (
-            f"InverseKinematics(q={self.q}, position={self.position}, "
-            f"distance={self.distance}, reachable={self.reachable})"
-        )
 
 
 class Model(_core.Model):
@@ -123,18 +79,27 @@ class Model(_core.Model):
             f"formulation {self._formulation!r}>"
         )
 
-    def equilibrium(self, tension: ArrayLike, q0: ArrayLike | None = None) -> FloatArray:
-        """Bending vectors at rest under constant tensions: dU/dq = B F.
+    def equilibrium(
+        self,
+        tension: ArrayLike,
+        q0: ArrayLike | None = None,
+        wrenches: Wrench | Sequence[Wrench] = (),
+    ) -> FloatArray:
+        """Bending vectors at rest under constant commands and wrenches: dU/dq = Q.
 
-        Newton's method on the potential energy, made to go downhill everywhere. The answer may be
-        unstable when gravity is strong and the start is a point of rest: `find_equilibrium` tells.
+        Newton's method, downhill in energy where all loads have one; where that fails, the load
+        grows from nothing to all, then other starts are tried. Nothing slides at rest, so this is
+        the equilibrium without friction. The answer may be unstable when gravity is strong and the
+        start is a point of rest: `find_equilibrium`, with the same arguments, tells.
 
         Parameters
         ----------
         tension : (num_cables,) array_like
-            Cable tensions [N].
+            Cable tensions [N]; lengths [m] for cables driven by length.
         q0 : (2n,) array_like, optional
             Where to start [rad]; by default the answer without gravity.
+        wrenches : Wrench or sequence of Wrench, optional
+            Constant forces and moments on the backbone.
 
         Returns
         -------
@@ -146,13 +111,47 @@ class Model(_core.Model):
         ConvergenceError
             If there is no equilibrium within the bending limit, or none was found.
         """
-        answer = self.find_equilibrium(tension, q0)
-        if answer.status is not _core.Status.ok:
-            raise ConvergenceError(_core.status_message(answer.status))
-        return answer.q
+        return equilibrium(self, tension, q0, wrenches)
+
+    def modes(
+        self, q: ArrayLike, tension: ArrayLike, wrenches: Wrench | Sequence[Wrench] = ()
+    ) -> Modes:
+        """Natural frequencies and mode shapes of small motions about a shape.
+
+        The undamped ones are those of K phi = w^2 M phi, where K is the static stiffness with the
+        springs of length-driven cables and the wrenches; the eigenvalues of `linearize` add
+        damping. Where wrenches make K unsymmetric, its symmetric part makes the shapes, and the
+        eigenvalues alone tell all.
+
+        Parameters
+        ----------
+        q : (2n,) array_like
+            The shape, at rest there or held [rad].
+        tension : (num_cables,) array_like
+            Cable tensions [N]; lengths [m] for cables driven by length.
+        wrenches : Wrench or sequence of Wrench, optional
+            Constant forces and moments on the backbone.
+
+        Returns
+        -------
+        Modes
+
+        Examples
+        --------
+        >>> import cdcr
+        >>> model = cdcr.Model(cdcr.robots.amouri2020())
+        >>> model.modes([0.0, 0.0], [0.0, 0.0, 0.0])
+        <Modes at 1.448, 1.448 Hz, stable>
+        """
+        return modes(self, q, tension, wrenches)
 
     def allocate(
-        self, force: ArrayLike, min_tension: float = 0.0, max_tension: float = math.inf
+        self,
+        force: ArrayLike,
+        min_tension: float = 0.0,
+        max_tension: float = math.inf,
+        *,
+        method: str = "automatic",
     ) -> FloatArray:
         """Least-norm cable tensions within limits that give a generalised force.
 
@@ -162,6 +161,10 @@ class Model(_core.Model):
             Generalised force [N m], as `inverse_dynamics` returns it.
         min_tension, max_tension : float, optional
             Limits of every tension [N], 0 <= min_tension <= max_tension.
+        method : {"automatic", "sections", "search"}, optional
+            The closed form, section by section, is for robots with three cables that end at every
+            section; the search takes any cables. Both give the same; by default the first is taken
+            where it applies.
 
         Returns
         -------
@@ -171,32 +174,61 @@ class Model(_core.Model):
         Raises
         ------
         InfeasibleError
-            If no tensions within the limits give that force; it carries the nearest ones.
+            If no tensions within the limits give that force; it carries the nearest ones and names
+            the cables that are in the way.
         """
-        answer = self.find_tension(force, min_tension, max_tension)
-        if not answer.feasible:
-            cables = ", ".join(str(cable) for cable in answer.limiting)
-            raise InfeasibleError(
-                f"force {np.asarray(force)} N m cannot be met with tensions from {min_tension} to "
-                f"{max_tension} N: limited by cables [{cables}], the nearest force is "
-                f"{answer.force}",
-                answer,
-            )
-        return answer.tension
+        return allocate(self, force, min_tension, max_tension, method)
 
-    def inverse_kinematics(self, p: ArrayLike) -> InverseKinematics:
-        """Bending vector that brings the tip of a one-section robot to a point.
+    def inverse_kinematics(
+        self,
+        p: ArrayLike,
+        R: ArrayLike | None = None,
+        q0: ArrayLike | None = None,
+        *,
+        max_theta: ArrayLike | None = None,
+        orientation_weight: float | None = None,
+        tolerance: float | None = None,
+        seeds: int = 100,
+        iterations: int = 100,
+    ) -> InverseKinematics:
+        """Bending vectors that bring the tip to a point, and to an orientation if one is given.
 
-        The tip moves on a surface, so most points are out of reach: then the nearest point of the
-        surface is given, with its distance.
+        Damped least squares from several starts, until one leads there; otherwise the nearest that
+        was found, with its distance and why. One section without an orientation has a closed form,
+        which needs no start.
 
         Parameters
         ----------
         p : (3,) array_like
-            Point in the base frame [m].
+            Tip position in the base frame [m].
+        R : (3, 3) array_like, optional
+            Tip orientation in the base frame, a rotation matrix.
+        q0 : (2n,) array_like, optional
+            Where to start first [rad].
+        max_theta : float or (n,) array_like, optional
+            Largest bending angle, of all or of each section [rad]; by default 2 pi.
+        orientation_weight : float, optional
+            What one radian beside R is worth [m]; by default the robot's length / pi.
+        tolerance : float, optional
+            Residual that counts as reached [m]; by default 1e-9 of the robot's length.
+        seeds : int, optional
+            Starts at most; the same ones in every call.
+        iterations : int, optional
+            Steps from each start at most.
 
         Returns
         -------
         InverseKinematics
         """
-        return InverseKinematics(*self._inverse_kinematics(p))
+        return InverseKinematics(
+            *self._inverse_kinematics(
+                p,
+                R,
+                q0,
+                max_theta=max_theta,
+                orientation_weight=orientation_weight,
+                tolerance=tolerance,
+                seeds=seeds,
+                iterations=iterations,
+            )
+        )

@@ -105,8 +105,10 @@ def _lines(thing: Robot | Section | Cable) -> Iterator[str]:
 
 
 def _is_written(thing: Robot | Section | Cable, item: Field[Any]) -> bool:
-    """Whether a field has a line of its own: sections and cables are tables."""
+    """Whether a field has a line: sections and cables are tables, and positions are a number."""
     if item.name in ("sections", "cables"):
+        return False
+    if item.name == "num_disks" and isinstance(thing, Section) and thing.disk_positions:
         return False
     # repr tells -0.0 from 0.0, which are equal.
     return not item.metadata["rare"] or repr(getattr(thing, item.name)) != repr(item.default)

@@ -70,7 +70,7 @@ def rao2021() -> Robot:
     >>> import cdcr
     >>> robot = cdcr.robots.rao2021()
     >>> f"{robot.sections[1].stiffness:.6f} N m/rad"
-    '0.050913 N m/rad'
+    '0.050915 N m/rad'
     """
     section = Section(
         length=0.2,

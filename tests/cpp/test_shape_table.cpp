@@ -16,7 +16,7 @@ using Group = detail::ShapeTable::Group;
 using Four = Eigen::Matrix<Real, 4, 1>;
 
 Four read(const Model& model, Group group, double sigma) {
-  const auto values = model.table(0)(group, sigma);
+  const auto values = model.table()(group, sigma);
   return Four(values[0], values[1], values[2], values[3]);
 }
 

@@ -14,7 +14,7 @@ namespace cdcr::test {
 namespace {
 
 // A product of the Jacobian, one rounding for each section on the way, with six numbers.
-constexpr double work_tolerance = 1e-14;
+constexpr double work_tolerance = 4e-15;
 
 /// Moments as large as any: the force at the end of a stretched robot, and the moment itself.
 double moment_scale(const Model& model, const Wrench& wrench) {

@@ -12,9 +12,14 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from scipy.integrate import solve_bvp
-from scipy.optimize import brentq, root
-from scipy.special import ellipe, ellipeinc, ellipk, ellipkinc
+from scipy.integrate import solve_bvp  # type: ignore[import-untyped]
+from scipy.optimize import brentq, root  # type: ignore[import-untyped]
+from scipy.special import (  # type: ignore[import-untyped]
+    ellipe,
+    ellipeinc,
+    ellipk,
+    ellipkinc,
+)
 
 import cdcr
 

@@ -2,11 +2,16 @@
 
 #include <Eigen/Cholesky>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "cdcr/model.hpp"
 
 namespace cdcr {
+
+/// How tensions are found. sections: each section's three cables in closed form; search: an active
+/// set, for any cables; automatic: the first where it applies.
+enum class AllocationMethod { automatic, sections, search };
 
 /// Limits of every tension [N] and the cables that may be used (all when empty). A min_tension
 /// below zero describes an ideal actuator that can push; no cable does.
@@ -14,15 +19,18 @@ struct TensionLimits {
   double min_tension = 0.0;
   double max_tension = std::numeric_limits<double>::infinity();
   std::vector<Index> cables;
+  AllocationMethod method = AllocationMethod::automatic;
 };
 
 /// Finds the least-norm tensions that give a generalised force, eq. (20):
 /// min |F|^2 with B F = Q and F within the limits; where none exist, the tensions whose force
 /// comes nearest to Q.
 ///
-/// Three cables around one section: closed form, the pseudo-inverse plus a common pretension.
-/// Otherwise an active-set search. Set up: the constructor allocates and throws
-/// std::invalid_argument. Run: solve and what follows it are real-time safe.
+/// Where three cables, not on one side of the backbone, end at every section: closed form, from tip
+/// to base, each section's pseudo-inverse plus a tension common to its three, eq. (46). That is the
+/// least-norm answer of all cables together. Otherwise, and where the limits leave no answer, an
+/// active-set search. Set up: the constructor allocates and throws std::invalid_argument. Run:
+/// solve and what follows it are real-time safe.
 class Allocator {
  public:
   explicit Allocator(const Model& model, const TensionLimits& limits = {});
@@ -36,10 +44,21 @@ class Allocator {
   [[nodiscard]] const VectorXd& force() const noexcept { return force_; }
   /// Whether a cable stands at one of its limits.
   [[nodiscard]] bool at_limit(Index cable) const noexcept;
+  /// Whether the closed form applies to these cables.
+  [[nodiscard]] bool has_closed_form() const noexcept { return !triples_.empty(); }
 
  private:
   enum class Place : char { lower, free, upper, unused };
+  /// The three cables that end at a section: b null = 0 with null > 0, and b's pseudo-inverse, of
+  /// their directions b (2, 3).
+  struct Triple {
+    Index cables[3];
+    Vector3d null;
+    MatrixXd pseudo_inverse;
+  };
 
+  void find_triples(const Model& model);
+  bool solve_triple(const Triple& triple, double force_x, double force_y) noexcept;
   void place_at_start() noexcept;
   bool solve_in_closed_form() noexcept;
   void search() noexcept;
@@ -54,10 +73,7 @@ class Allocator {
   MatrixXd B_, normal_;         // B/scale; sum of b b^T over the free cables
   VectorXd Q_, rest_, lambda_;  // Q/scale; what the free cables must give; multipliers
   VectorXd F_, tension_, force_;
-  // Closed form: B null = 0 with null > 0, and the pseudo-inverse of B/scale (3, 2).
-  Vector3d null_ = Vector3d::Zero();
-  MatrixXd pseudo_inverse_;
-  bool has_closed_form_ = false;
+  std::vector<Triple> triples_;  // one for each section, or none
   std::vector<Place> place_;
   Eigen::LDLT<MatrixXd> ldlt_;
 };
@@ -68,11 +84,20 @@ struct Allocation {
   VectorXd force;               ///< B F, the generalised force they give (2n) [N m]
   double distance = 0.0;        ///< |B F - Q|, rounding error when feasible [N m]
   bool feasible = false;        ///< the force is met
-  std::vector<Index> limiting;  ///< cables at a limit, when infeasible
+  std::vector<Index> limiting;  ///< cables whose limit keeps it from Q, when infeasible
+  std::vector<std::string> limits;  ///< these in words: "cable 2 of section 1 at 0 N (min)"
 };
 
 /// One call of Allocator. Throws std::invalid_argument for wrong sizes and non-finite forces too.
 [[nodiscard]] Allocation allocate(const Model& model, const VectorXd& force,
                                   const TensionLimits& limits = {});
+
+/// "cable 2 of section 1": the second of those that end there. Counts from 1, in their order.
+[[nodiscard]] std::string cable_name(const Model& model, Index cable);
+
+/// Commands (num_cables) that hold the tensions [N] at rest in q: the tension itself, or for a cable
+/// driven by length l(q) - F/k [m]. Real-time safe.
+void cable_commands(const Model& model, const ConstVectorRef& q, const ConstVectorRef& tension,
+                    VectorRef command) noexcept;
 
 }  // namespace cdcr

@@ -15,11 +15,8 @@ namespace cdcr {
 void linearize(const Model& model, Data& data, const ConstVectorRef& q, const ConstVectorRef& qd,
                const ConstVectorRef& command, const Wrenches& wrenches, MatrixRef A,
                MatrixRef B) noexcept;
-inline void linearize(const Model& model, Data& data, const ConstVectorRef& q,
-                      const ConstVectorRef& qd, const ConstVectorRef& command, MatrixRef A,
-                      MatrixRef B) noexcept {
-  linearize(model, data, q, qd, command, no_wrenches(), A, B);
-}
+void linearize(const Model& model, Data& data, const ConstVectorRef& q, const ConstVectorRef& qd,
+               const ConstVectorRef& command, MatrixRef A, MatrixRef B) noexcept;
 
 /// A alone: the Jacobian of the equations of motion.
 void state_jacobian(const Model& model, Data& data, const ConstVectorRef& q,

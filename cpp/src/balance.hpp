@@ -1,0 +1,42 @@
+#pragma once
+
+#include "cdcr/model.hpp"
+#include "cdcr/wrench.hpp"
+
+namespace cdcr::detail {
+
+/// What is out of balance in a robot at rest, cpp/README.md eq. (18): r(q) = dU/dq - Q, where Q is
+/// that of the cables, without friction, and of wrenches. A load factor below one scales all but
+/// the bending stiffness.
+///
+/// Refers to its arguments, which must outlive it. The functions allocate nothing.
+class Balance {
+ public:
+  Balance(const Model& model, const ConstVectorRef& command, const Wrenches& wrenches);
+
+  /// r(q) (2n) [N m].
+  void residual(const ConstVectorRef& q, VectorRef r) noexcept;
+  /// dr/dq (2n, 2n) [N m/rad].
+  void stiffness(const ConstVectorRef& q, MatrixRef K) noexcept;
+  /// Energy whose gradient r is, where it has one [J].
+  [[nodiscard]] double energy(const ConstVectorRef& q) noexcept;
+  /// Rounding error that r cannot get below [N m].
+  [[nodiscard]] double noise(const ConstVectorRef& q) const noexcept;
+
+  [[nodiscard]] bool has_energy() const noexcept { return has_energy_; }
+  [[nodiscard]] const Model& model() const noexcept { return model_; }
+  [[nodiscard]] double load() const noexcept { return load_; }
+  void set_load(double load) noexcept { load_ = load; }
+
+ private:
+  const Model& model_;
+  ConstVectorRef command_;
+  const Wrenches& wrenches_;
+  Data data_;
+  double load_ = 1.0;
+  VectorXd constant_force_;  // of the cables driven by tension
+  bool has_energy_, has_springs_ = false;
+  double size_ = 0.0;  // of the moments in balance
+};
+
+}  // namespace cdcr::detail

@@ -1,0 +1,56 @@
+"""What a search for bending vectors found."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False, slots=True, repr=False)
+class InverseKinematics:
+    """Answer of `Model.inverse_kinematics`.
+
+    Attributes
+    ----------
+    q : (2n,) array
+        Bending vectors [rad], always finite and within max_theta.
+    position : (3,) array
+        Tip position reached [m].
+    rotation : (3, 3) array
+        Tip orientation reached.
+    distance : float
+        From the point asked for [m].
+    angle : float
+        From the orientation asked for [rad]; 0 where none was.
+    residual : float
+        What the search makes small, sqrt(distance^2 + (orientation_weight angle)^2) [m].
+    reachable : bool
+        Whether the residual is within the tolerance.
+    seeds : int
+        Starts tried; 0 for the closed form of one section.
+    iterations : int
+        Steps tried, from all starts together.
+    message : str
+        Why not, in one sentence; empty when reachable.
+    """
+
+    q: FloatArray
+    position: FloatArray
+    rotation: FloatArray
+    distance: float
+    angle: float
+    residual: float
+    reachable: bool
+    seeds: int
+    iterations: int
+    message: str
+
+    def __repr__(self) -> str:
+        return (
+            f"InverseKinematics(q={self.q}, position={self.position}, "
+            f"distance={self.distance}, angle={self.angle}, reachable={self.reachable})"
+        )
