@@ -1,4 +1,7 @@
 // Questions a planner asks: where the robot rests, and which tensions give a force.
+#include <random>
+#include <vector>
+
 #include "harness.hpp"
 #include "scenario.hpp"
 
@@ -9,6 +12,71 @@ Robot four_cable_robot() {
   Robot four = robot(true);
   four.sections[0].cable_angles = {0.0, 1.2, 2.9, 4.4};
   return four;
+}
+
+/// The robot of Rao et al. (2021), or with weight: a backbone of Nitinol, disks of one gram and a
+/// payload of 20 g, standing.
+Robot two_section_robot(bool weight) {
+  Section section;
+  section.length = 0.2;
+  section.backbone_diameter = 0.0014;
+  section.youngs_modulus = 54e9;
+  section.num_disks = 10;
+  section.disk_diameter = 0.02;
+  section.cable_radius = 0.01;
+  section.cable_angles = {0.0, 2.0943951023931953, 4.1887902047863905};
+  if (weight) {
+    section.backbone_mass = 1.986e-3;
+    section.disk_mass = 1e-3;
+  }
+  Robot robot;
+  robot.sections = {section, section};
+  if (weight) {
+    robot.gravity = {0.0, 0.0, -9.81};
+    robot.payload = 0.02;
+  }
+  return robot;
+}
+
+/// Tensions of 0 to 8 N, each another draw.
+std::vector<VectorXd> drawn_tensions() {
+  std::mt19937_64 engine(2021);
+  std::uniform_real_distribution<double> uniform(0.0, 8.0);
+  std::vector<VectorXd> draws(1024, VectorXd(6));
+  for (VectorXd& draw : draws) {
+    for (double& tension : draw) tension = uniform(engine);
+  }
+  return draws;
+}
+
+void measure_sections(const Harness& harness) {
+  const Model light(two_section_robot(false)), heavy(two_section_robot(true));
+  const std::vector<VectorXd> draws = drawn_tensions();
+  const auto draw = [&](long i) -> const VectorXd& {
+    return draws[static_cast<std::size_t>(i) % 1024];
+  };
+  const auto nothing = [] {};
+  // A block is one draw after the other: its time is the mean over all.
+  harness.run({"equilibrium, two sections", "us", 1024, 100}, nothing,
+              [&](long i) { keep(equilibrium(light, draw(i))); });
+  harness.run({"equilibrium, two sections, gravity", "us", 1024, 100}, nothing,
+              [&](long i) { keep(equilibrium(heavy, draw(i))); });
+  // The same call by call: the median over draws, reading the clock included.
+  long next = 0;
+  harness.run({"equilibrium, two sections, gravity, each draw", "us", 1, 10240}, nothing,
+              [&](long /*i*/) { keep(equilibrium(heavy, draw(next++))); });
+  const VectorXd q = equilibrium(heavy, draws[0]).q;
+  harness.run({"modes, two sections", "us", 100, 200}, nothing,
+              [&](long /*i*/) { keep(modes(heavy, q, draws[0])); });
+  const VectorXd force = heavy.actuation_matrix() * draws[0];
+  TensionLimits limits;
+  Allocator sections(heavy, limits);
+  limits.method = AllocationMethod::search;
+  Allocator search(heavy, limits);
+  harness.run({"Allocator.solve, two sections", "ns", 100}, nothing,
+              [&](long /*i*/) { keep(sections.solve(force)); });
+  harness.run({"Allocator.solve, two sections, search", "ns", 100}, nothing,
+              [&](long /*i*/) { keep(search.solve(force)); });
 }
 
 void measure(const Harness& harness) {
@@ -31,6 +99,7 @@ void measure(const Harness& harness) {
               [&](long /*i*/) { keep(three_cables.solve(force)); });
   harness.run({"Allocator.solve, 4 cables", "ns", 100}, nothing,
               [&](long /*i*/) { keep(four_cables.solve(force)); });
+  measure_sections(harness);
 }
 
 }  // namespace

@@ -11,10 +11,10 @@ using namespace py::literals;
 
 void bind_modes(py::module_& m, PyModel& model) {
   py::class_<Modes>(m, "CoreModes", "Small vibrations about a shape.")
-      .def_property_readonly(
-          "squared_frequency",
-          [](const Modes& self) { return to_array(self.squared_frequency); })
-      .def_property_readonly("frequency", [](const Modes& self) { return to_array(self.frequency); })
+      .def_property_readonly("squared_frequency",
+                             [](const Modes& self) { return to_array(self.squared_frequency); })
+      .def_property_readonly("frequency",
+                             [](const Modes& self) { return to_array(self.frequency); })
       .def_property_readonly("shape", [](const Modes& self) { return to_rows(self.shape); })
       .def_property_readonly("damping_ratio",
                              [](const Modes& self) { return to_array(self.damping_ratio); })

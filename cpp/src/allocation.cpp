@@ -111,7 +111,8 @@ bool Allocator::solve_triple(const Triple& triple, double force_x, double force_
   return true;
 }
 
-/// Cables pull on all sections alike, so those that end at a section owe what the next does not get.
+/// Cables pull on all sections alike, so those that end at a section owe what the next does not
+/// get.
 bool Allocator::solve_in_closed_form() noexcept {
   const auto n = static_cast<Index>(triples_.size());
   for (Index k = 0; k < n; ++k) {

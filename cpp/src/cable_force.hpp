@@ -116,8 +116,7 @@ void cable_force(const Model& model, const S* q, const S* qd, const S* command, 
       add_rubbing_cable(model, j, q, qd, tension, force);
       continue;
     }
-    const auto rows =
-        2 * (static_cast<Index>(model.cables()[static_cast<std::size_t>(j)].end_section) + 1);
+    const Index rows = model.cable_rows()[static_cast<std::size_t>(j)];
     for (Index i = 0; i < rows; ++i) force[i] += B(i, j) * tension;
   }
 }

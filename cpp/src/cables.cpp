@@ -5,12 +5,13 @@
 namespace cdcr {
 
 void actuation_force(const Model& model, const ConstVectorRef& tension, VectorRef force) noexcept {
-  // A plain loop: for so few numbers a general matrix product costs more than the dynamics.
+  // Plain loops: for so few numbers a general matrix product costs more than the dynamics. A cable
+  // reaches no further than the section it ends on.
   const MatrixXd& B = model.actuation_matrix();
-  for (Index i = 0; i < B.rows(); ++i) {
-    double sum = 0.0;
-    for (Index j = 0; j < B.cols(); ++j) sum += B(i, j) * tension[j];
-    force[i] = sum;
+  for (Index i = 0; i < B.rows(); ++i) force[i] = 0.0;
+  for (Index j = 0; j < B.cols(); ++j) {
+    const Index rows = model.cable_rows()[static_cast<std::size_t>(j)];
+    for (Index i = 0; i < rows; ++i) force[i] += B(i, j) * tension[j];
   }
 }
 
@@ -23,6 +24,7 @@ void cable_tensions(const Model& model, const ConstVectorRef& q, const ConstVect
 
 void cable_force(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
                  const ConstVectorRef& command, VectorRef force) noexcept {
+  if (model.has_plain_cables()) return actuation_force(model, command, force);
   detail::cable_force(model, q.data(), qd.data(), command.data(), force.data());
 }
 

@@ -3,8 +3,9 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "chain_forward.hpp"
 #include "chain_functions.hpp"
-#include "chain_inertia.hpp"
+#include "chain_inverse.hpp"
 
 namespace cdcr::detail {
 namespace {
@@ -29,6 +30,16 @@ Chain::Chain(const Robot& robot)
     for (const Disk& disk : s.disks()) mass += disk.mass;
     bodies.push_back({BodyTable(body_series(s)), &arc_table(), s.length, mass, s.stiffness(), s.damping});
   }
+}
+
+void forward_motion(const Chain& chain, const double* q, const double* qd, const double* force,
+                    double* qdd) noexcept {
+  forward_dynamics(chain, q, qd, force, qdd);
+}
+
+void inverse_motion(const Chain& chain, const double* q, const double* qd, const double* qdd,
+                    double* force) noexcept {
+  inverse_dynamics(chain, q, qd, qdd, force);
 }
 
 void mass_matrix(const Chain& chain, const double* q, MatrixRef M) noexcept {

@@ -6,6 +6,13 @@
 
 namespace cdcr::detail {
 
+/// The recursions of chain_forward.hpp and chain_inverse.hpp on doubles. Compiled apart: their large
+/// frames would slow down the closed form beside them.
+void forward_motion(const Chain& chain, const double* q, const double* qd, const double* force,
+                    double* qdd) noexcept;
+void inverse_motion(const Chain& chain, const double* q, const double* qd, const double* qdd,
+                    double* force) noexcept;
+
 /// Mass matrix (2n, 2n), by composite inertia from tip to base, eq. (34): O(n^2).
 void mass_matrix(const Chain& chain, const double* q, MatrixRef M) noexcept;
 

@@ -20,7 +20,7 @@ void potential_gradient(const Chain& chain, const S* q, S* gradient) {
   const Vector3<S> arm = mount.x * S(payload.mass * payload.position[0]) +
                          mount.y * S(payload.mass * payload.position[1]) +
                          mount.z * S(payload.mass * payload.position[2]);
-  double mass = payload.mass;         // of all beyond this tip
+  double mass = payload.mass;        // of all beyond this tip
   Vector3<S> moment = arm.cross(g);  // of its weight about the tip
   for (int i = n - 1; i >= 0; --i) {
     const Link<S>& link = links[i];

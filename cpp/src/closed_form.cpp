@@ -8,30 +8,6 @@ using Eigen::Vector2d;
 using Group = ShapeTable::Group;
 using Values = ShapeTable::Values;
 
-/// Adds the weight's part of dU/dq = -l [g_xy G_A + 2 (g_xy.q) G_A' q + 2 g_z G_S' q], eq. (15).
-inline void add_weight(const Model& model, double x, double y, double sigma, double& out_x,
-                       double& out_y) noexcept {
-  const auto [G_A, G_S, dG_A, dG_S] = model.table()(Group::gravity, sigma);
-  const Vector3d& g = model.root_gravity();
-  const double l = model.robot().sections[0].length;
-  const double along_q = 2.0 * ((g[0] * x + g[1] * y) * dG_A + g[2] * dG_S);
-  out_x -= l * (g[0] * G_A + along_q * x);
-  out_y -= l * (g[1] * G_A + along_q * y);
-}
-
-/// h = (2 a' p + c) qd + (b' p^2 + (b - a') w) q + dU/dq, eq. (16).
-inline void section_bias(const Model& model, const Values& inertia, double x, double y, double xd,
-                         double yd, double& h_x, double& h_y) noexcept {
-  const auto [a, b, da, db] = inertia;
-  const double p = x * xd + y * yd;
-  const double w = xd * xd + yd * yd;
-  const double on_qd = 2.0 * da * p + model.damping()[0];
-  const double on_q = db * p * p + (b - da) * w + model.stiffness()[0];
-  h_x = on_qd * xd + on_q * x;
-  h_y = on_qd * yd + on_q * y;
-  if (model.has_gravity()) add_weight(model, x, y, x * x + y * y, h_x, h_y);
-}
-
 /// M^-1 X for M = a I + b q q^T.
 Matrix2d solve_mass(double a, double b, const Vector2d& q, const Matrix2d& X) noexcept {
   const double factor = b / (a + b * q.squaredNorm());
@@ -54,23 +30,6 @@ void bias(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
   const double x = q[0], y = q[1];
   const Values v = model.table()(Group::inertia, x * x + y * y);
   section_bias(model, v, x, y, qd[0], qd[1], h[0], h[1]);
-}
-
-void forward_dynamics(const Model& model, const ConstVectorRef& q,
-                            const ConstVectorRef& qd, const ConstVectorRef& force,
-                            VectorRef qdd) noexcept {
-  const double x = q[0], y = q[1];
-  const double sigma = x * x + y * y;
-  const Values v = model.table()(Group::inertia, sigma);
-  double h_x = 0.0, h_y = 0.0;
-  section_bias(model, v, x, y, qd[0], qd[1], h_x, h_y);
-  const double r_x = force[0] - h_x, r_y = force[1] - h_y;
-  // M^-1 r = (r - b/(a + b sigma) (q.r) q)/a, eq. (12), with one division for both quotients.
-  const double a = v[0], b = v[1], along = a + b * sigma;
-  const double inverse = 1.0 / (a * along);
-  const double q_r = b * (x * r_x + y * r_y);
-  qdd[0] = (along * r_x - q_r * x) * inverse;
-  qdd[1] = (along * r_y - q_r * y) * inverse;
 }
 
 void inverse_dynamics(const Model& model, const ConstVectorRef& q,
@@ -129,7 +88,7 @@ void acceleration_jacobians(const Model& model, const ConstVectorRef& q_in,
                             MatrixRef on_q, MatrixRef on_qd) noexcept {
   const Vector2d q = q_in, qd = qd_in;
   Eigen::Vector2d qdd;
-  forward_dynamics(model, q_in, qd_in, force, qdd);
+  forward_dynamics(model, q_in.data(), qd_in.data(), force.data(), qdd.data());
 
   const double sigma = q.squaredNorm();
   const auto [a, b, da, db] = model.table()(Group::inertia, sigma);

@@ -92,8 +92,8 @@ class Cvode final : public Integrator {
   double time_ = 0.0, stop_ = 0.0;
   VectorXd state_, slope_, moved_, slope_there_;
   Status status_ = Status::not_started;
-  bool at_event_ = false;  // the last step ended where a cable turned slack or taut
-  VectorXd pulls_;         // of the length-driven cables, their signs at the last look
+  bool at_event_ = false;   // the last step ended where a cable turned slack or taut
+  VectorXd pulls_, signs_;  // of length-driven cables; the signs at the last event or restart
   std::vector<SlackEvent> slack_events_;
   Status obstacle_ = Status::ok;  // why a derivative wanted for the step at hand does not exist
   std::exception_ptr exception_;  // thrown during a call of CVODE

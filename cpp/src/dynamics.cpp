@@ -1,6 +1,5 @@
 #include "cdcr/dynamics.hpp"
 
-#include "chain_forward.hpp"
 #include "chain_functions.hpp"
 #include "chain_inverse.hpp"
 #include "closed_form.hpp"
@@ -19,19 +18,28 @@ void mass_matrix(const Model& model, Data& /*data*/, const ConstVectorRef& q,
 void bias(const Model& model, Data& /*data*/, const ConstVectorRef& q, const ConstVectorRef& qd,
           VectorRef h) noexcept {
   if (model.has_closed_form()) return closed_form::bias(model, q, qd, h);
-  detail::inverse_dynamics<double>(model.chain(), q.data(), qd.data(), nullptr, h.data());
+  detail::inverse_motion(model.chain(), q.data(), qd.data(), nullptr, h.data());
 }
 
 void forward_dynamics_force(const Model& model, Data& /*data*/, const ConstVectorRef& q,
                             const ConstVectorRef& qd, const ConstVectorRef& force,
                             VectorRef qdd) noexcept {
-  if (model.has_closed_form()) return closed_form::forward_dynamics(model, q, qd, force, qdd);
-  detail::forward_dynamics(model.chain(), q.data(), qd.data(), force.data(), qdd.data());
+  if (model.has_closed_form()) {
+    closed_form::forward_dynamics(model, q.data(), qd.data(), force.data(), qdd.data());
+  } else {
+    detail::forward_motion(model.chain(), q.data(), qd.data(), force.data(), qdd.data());
+  }
 }
 
 void forward_dynamics(const Model& model, Data& data, const ConstVectorRef& q,
                       const ConstVectorRef& qd, const ConstVectorRef& tension,
                       VectorRef qdd) noexcept {
+  if (model.has_closed_form() && model.has_plain_cables()) {
+    double force[2];
+    closed_form::actuation_force(model, tension.data(), force);
+    closed_form::forward_dynamics(model, q.data(), qd.data(), force, qdd.data());
+    return;
+  }
   cable_force(model, q, qd, tension, data.force);
   forward_dynamics_force(model, data, q, qd, data.force, qdd);
 }
@@ -48,7 +56,7 @@ void inverse_dynamics(const Model& model, Data& /*data*/, const ConstVectorRef& 
                       const ConstVectorRef& qd, const ConstVectorRef& qdd,
                       VectorRef force) noexcept {
   if (model.has_closed_form()) return closed_form::inverse_dynamics(model, q, qd, qdd, force);
-  detail::inverse_dynamics(model.chain(), q.data(), qd.data(), qdd.data(), force.data());
+  detail::inverse_motion(model.chain(), q.data(), qd.data(), qdd.data(), force.data());
 }
 
 double kinetic_energy(const Model& model, Data& /*data*/, const ConstVectorRef& q,
@@ -65,7 +73,7 @@ double potential_energy(const Model& model, Data& /*data*/, const ConstVectorRef
 void potential_gradient(const Model& model, Data& /*data*/, const ConstVectorRef& q,
                         VectorRef gradient) noexcept {
   if (model.has_closed_form()) return closed_form::potential_gradient(model, q, gradient);
-  detail::inverse_dynamics<double>(model.chain(), q.data(), nullptr, nullptr, gradient.data());
+  detail::inverse_motion(model.chain(), q.data(), nullptr, nullptr, gradient.data());
 }
 
 void potential_hessian(const Model& model, Data& /*data*/, const ConstVectorRef& q,

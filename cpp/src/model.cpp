@@ -48,6 +48,7 @@ Model::Model(Robot robot, Formulation formulation)
   straight_lengths_.setZero(num_cables);
   for (Index j = 0; j < num_cables; ++j) {
     const Cable& cable = cables_[j];
+    cable_rows_.push_back(2 * (static_cast<Index>(cable.end_section) + 1));
     for (Index k = 0; k <= cable.end_section; ++k) {
       actuation_(2 * k, j) = cable.radius * std::cos(cable.angle);
       actuation_(2 * k + 1, j) = cable.radius * std::sin(cable.angle);
@@ -70,13 +71,17 @@ Model::Model(Robot robot, Formulation formulation)
 
   chain_ = std::make_shared<const detail::Chain>(robot_);
   const bool point = robot_.payload_position.isZero(0.0) && robot_.payload_inertia.isZero(0.0);
-  if (n == 1 && point) {
+  const Section& first = robot_.sections[0];
+  const bool alike =
+      first.disk_positions.empty() && first.disk_masses.empty() && first.disk_diameters.empty();
+  if (n == 1 && point && (alike || formulation == Formulation::exact)) {
     const auto series = series_of(robot_.sections[0], robot_.payload, formulation);
     table_ = std::make_shared<const detail::ShapeTable>(series);
   } else if (formulation != Formulation::exact) {
     throw std::invalid_argument(
         std::string("formulation must be exact for this robot, got ") + name(formulation) +
-        ": the paper's inertia is that of one section with nothing but a point on its tip");
+        ": the paper's inertia is that of one section with equal, equally spaced disks, and nothing "
+        "but a point on its tip");
   }
   singular_section_ = detail::find_singular_section(*chain_);
 }

@@ -36,7 +36,9 @@ double largest_bending(const VectorXd& q) {
   return largest;
 }
 
-bool within_limit(const VectorXd& q) { return q.allFinite() && largest_bending(q) <= max_bending; }
+bool within_limit(const VectorXd& q) {
+  return q.allFinite() && largest_bending(q) <= max_bending;
+}
 
 /// Newton's method from one start.
 class Search {
@@ -112,7 +114,7 @@ class Search {
       balance_.residual(trial_, trial_r_);
       const double trial_merit = merit_of(trial_, trial_r_);
       const bool falls = !near && trial_merit <= merit + 1e-4 * factor * slope;
-      const bool closer = halving == 0 && trial_r_.norm() < 0.5 * r_.norm() &&
+      const bool closer = halving == 0 && trial_r_.norm() < 0.9 * r_.norm() &&
                           trial_merit <= merit + 1e-12 * std::abs(merit);
       if (!falls && !closer) continue;
       q.swap(trial_);
@@ -165,6 +167,19 @@ VectorXd without_weight(const Model& model, const VectorXd& command) {
   return q;
 }
 
+/// From other places, the same in every call.
+bool search_elsewhere(Search& search, VectorXd& q, int& searches) {
+  std::mt19937 engine(1);  // its numbers are the same everywhere
+  while (searches < max_searches) {
+    ++searches;
+    for (double& component : q) {
+      component = 3.0 * (static_cast<double>(engine()) / 4294967296.0 - 0.5);
+    }
+    if (search.run(q)) return true;
+  }
+  return false;
+}
+
 /// Direct, then by growing load, then from elsewhere. The first failure is what a failure shows.
 void find(Balance& balance, Equilibrium& result) {
   Search search(balance);
@@ -179,14 +194,7 @@ void find(Balance& balance, Equilibrium& result) {
     ++result.searches;
     found = load_gradually(balance, search, other, result.load_steps);
   }
-  std::mt19937 engine(1);  // its numbers are the same everywhere
-  while (!found && result.searches < max_searches) {
-    ++result.searches;
-    for (Index i = 0; i < other.size(); ++i) {
-      other[i] = 3.0 * (static_cast<double>(engine()) / 4294967296.0 - 0.5);
-    }
-    found = search.run(other);
-  }
+  if (!found) found = search_elsewhere(search, other, result.searches);
   result.iterations = search.iterations();
   if (found) {
     q = other;

@@ -8,7 +8,8 @@
     theta_deg = [45.0]              # of each section; or theta [rad], or q [rad]
     phi_deg = [0.0]
 
-In place of tension there may be a [trajectory] or a [controller]. ``cdcr new FILE`` writes a file
+In place of tension there may be a [trajectory] or a [controller], and tables [[wrenches]] beside
+any of them. ``cdcr new FILE`` writes a file
 that shows everything. Files named in it are found from the folder it is in.
 """
 
@@ -30,6 +31,7 @@ from cdcr._tension_file import read_tension
 from cdcr._tension_shapes import TensionShapes
 from cdcr._toml import complaints, read_toml, refuse
 from cdcr._trajectory_file import read_trajectory
+from cdcr._wrench_file import read_wrenches
 
 # Keys that a file has in common with Scenario.
 _COMMON = ("title", "description", "source", "formulation", "t_end", "num_samples", "method")
@@ -60,6 +62,7 @@ def load_scenario(path: str | PathLike[str]) -> FileScenario:
     given |= {name: table[name] for name in (*_COMMON, *_OPTIONS) if name in table}
     given |= _output(table.get("output", {}), table, file)
     given |= _input(table, model, file)
+    given["wrenches"] = read_wrenches(table.get("wrenches", ()), model, file)
     if "initial" in table or "q0" not in given:
         q0, qd0 = initial_state(table.get("initial", {}), len(robot.sections), file)
         given |= {"q0": q0, "qd0": qd0}
@@ -76,6 +79,10 @@ def _input_complaints(table: Mapping[str, Any]) -> list[str]:
     if "trajectory" in table and "initial" in table and not fed:
         found.append(
             "initial needs feed_back = true in [trajectory]; without it nothing starts anywhere"
+        )
+    if "trajectory" in table and "wrenches" in table and not fed:
+        found.append(
+            "wrenches need feed_back = true in [trajectory]; without it nothing is simulated"
         )
     return found
 

@@ -63,4 +63,7 @@ class FileScenario(Scenario):
             )
         times = self.times(t_end, num_samples)
         own = {name: getattr(self, name) for name in _OPTIONS if name not in given}
-        return self.drive.run(self.model, self.q0, self.qd0, times, **{**options, **own})
+        if self.wrenches:
+            own["wrenches"] = self.wrenches
+        model = self.model
+        return self.drive.run(model, self.start(model), self.qd0, times, **{**options, **own})

@@ -40,6 +40,7 @@ class ScenarioTable(BaseModel):
         "an array with a number >= 0 [N] for each cable, or tables [[tension]] with cable and "
         "shape, or a table with t and rows, or a table with file"
     )
+    wrenches: list[dict[str, Any]] = _optional("tables [[wrenches]] with section, force, moment")
     trajectory: dict[str, Any] = _optional("a table with shape, or with t or file")
     controller: dict[str, Any] = _optional("a table with type")
     output: dict[str, Any] = _optional("a table with num_samples or files")
@@ -124,3 +125,20 @@ class TensionFile(_TensionOverTime):
     file: str = Field(
         description="the name of a CSV file with the columns t, cable 1, cable 2, ..."
     )
+
+
+class WrenchTable(BaseModel):
+    """One table [[wrenches]]: a force and a moment on the backbone."""
+
+    model_config = _STRICT
+
+    section: int = Field(gt=0, description="the number of a section, from 1")
+    fraction: float = _optional(
+        "a fraction of the section's length, 0 to 1", ge=0.0, le=1.0, allow_inf_nan=False
+    )
+    force: list[_Finite] = _optional("three numbers [N]", min_length=3, max_length=3)
+    moment: list[_Finite] = _optional("three numbers [N m]", min_length=3, max_length=3)
+    frame: Literal["base", "local"] = _optional('"base" or "local"')
+    times: list[_Finite] = _optional("an array of increasing times [s]", min_length=1)
+    factors: list[_Finite] = _optional("an array with a number for each time", min_length=1)
+    interpolation: Literal["linear", "previous"] = _optional('"linear" or "previous"')

@@ -82,6 +82,18 @@ tension = [5.0, 0.0, 0.0]
 #damping = 0.0                   # of that drive [N s/m]
 #friction = 0.0                  # coefficient in all its holes, in place of cable_friction
 
+# Forces and moments on the backbone, any number of tables, beside whatever moves the robot. With
+# times and factors they change in size; they are constant without.
+#[[wrenches]]                    # example
+#section = 1                     # where it acts, base to tip from 1
+#fraction = 1.0                  # of the section's length, 0 to 1
+#force = [0.1, 0.0, 0.0]         # [N]
+#moment = [0.0, 0.0, 0.0]        # about the point where the force acts [N m]
+#frame = "base"                  # or "local": turns with the backbone
+#times = [0.0, 1.0, 2.0]         # [s]
+#factors = [0.0, 1.0, 0.0]       # of force and moment, one for each time
+#interpolation = "linear"        # or "previous": each factor holds until the next
+
 # Tensions over time, in place of `tension` above. As rows:
 #[tension]
 #t = [0.0, 1.0, 2.0]             # [s]

@@ -66,10 +66,11 @@ def allocate(
         force, min_tension, max_tension, method=_core.AllocationMethod[method]
     )
     if not answer.feasible:
-        limits = ", ".join(answer.limits) or "no limit: there are no cables for it"
+        limits = ", ".join(answer.limits)
+        reason = f"limited by {limits}" if limits else "no cable pulls that way"
         raise InfeasibleError(
             f"force {np.asarray(force)} N m cannot be met with tensions from {min_tension} to "
-            f"{max_tension} N: limited by {limits}; the nearest force is {answer.force} N m",
+            f"{max_tension} N: {reason}; the nearest force is {answer.force} N m",
             answer,
         )
     return answer.tension

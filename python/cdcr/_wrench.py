@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
@@ -92,9 +92,11 @@ class Wrench:
         }
         for name, unit in (("force", "N"), ("moment", "N m")):
             wanted = f"three numbers of {unit}"
-            plain[name] = check.numbers(name, getattr(self, name), wanted, f"a number of {unit}")
-            if len(getattr(self, name)) != 3 and not check.sentences:
+            refused = len(check.sentences)
+            three = check.numbers(name, getattr(self, name), wanted, f"a number of {unit}")
+            if len(three) != 3 and len(check.sentences) == refused:
                 check.refuse(name, wanted, getattr(self, name))
+            plain[name] = three
         if self.frame not in ("base", "local"):
             check.refuse("frame", "'base' or 'local'", self.frame)
         if self.interpolation not in ("linear", "previous"):
@@ -108,10 +110,13 @@ class Wrench:
 
     def at(self, t: float) -> Wrench:
         """Return the constant wrench that this one is at time t [s]."""
-        loads = _loads((self,))
-        now = loads.at(t)[0]
-        return replace(
-            self, force=now.force, moment=now.moment, profile=None, break_points=()
+        now = _loads((self,)).at(t)[0]
+        return Wrench(
+            section=self.section,
+            fraction=self.fraction,
+            force=now.force,
+            moment=now.moment,
+            frame=self.frame,
         )
 
     def _to_core(self) -> _core.CoreWrench:
@@ -139,4 +144,8 @@ def _loads(wrenches: Sequence[Wrench]) -> _core.Loads:
 
 def loads(wrenches: Wrench | Sequence[Wrench]) -> _core.Loads:
     """Return one wrench or several as the core's loads over time."""
-    return _loads((wrenches,) if isinstance(wrenches, Wrench) else wrenches)
+    if isinstance(wrenches, Wrench):
+        return _loads((wrenches,))
+    if not isinstance(wrenches, Iterable):
+        raise ValueError(f"wrenches must be a sequence of cdcr.Wrench, got {shown(wrenches)}")
+    return _loads(tuple(wrenches))

@@ -18,11 +18,11 @@ namespace {
 /// Friction power is a difference of powers; this share of their size may be rounding.
 constexpr double power_rounding = 2e-15;
 /// The energy of a run whose friction has kinks, by Simpson's rule over 20001 samples.
-constexpr double balance_by_samples = 2e-8;
+constexpr double balance_by_samples = 3e-7;
 /// The same around a loop with a turning point, by the trapezoidal rule.
 constexpr double loop_by_samples = 1e-5;
 
-/// Rates of the lengths of cable j within each section, and size of the powers in a state.
+/// Rate of the length of cable j within section k, and size of the powers in a state.
 double rate_within(const Model& model, Index j, Index k, const VectorXd& qd) {
   return -model.actuation_matrix().col(j).segment(2 * k, 2).dot(qd.segment(2 * k, 2));
 }
@@ -62,13 +62,6 @@ void stop_mid_section(const Model& model, Random& random, VectorXd& qd) {
   const double off = random.uniform(-1.0, 1.0) * random.logarithmic(1e-6, 1.0);
   const double rate = rate_within(model, j, k, qd);
   if (rate != 0.0) qd.segment(2 * k, 2) *= -2.0 * beyond * (1.0 + off) / rate;
-}
-
-VectorXd random_shape(const Model& model, Random& random) {
-  VectorXd q = random_bending(model.num_sections(), random.logarithmic(1e-3, 2.0 * pi), random);
-  if (random.integer(0, 4) == 0)
-    q.segment(2 * random.integer(0, static_cast<int>(model.num_sections()) - 1), 2).setZero();
-  return q;
 }
 
 /// Table 1 with one cable and its coefficient of friction.
@@ -299,14 +292,15 @@ TEST_CASE("energy changes by the work of the cables less damping and friction") 
   CHECK(off <= balance_by_samples);
 }
 
-/// Tension raised to 8 N and let go again over 20 s; area of the loop of tension over length.
+/// Tension raised to 40 N and let go again over 20 s; area of the loop of tension over length.
 struct Loop {
-  double area, angle_gap;  // [J]; theta released less theta pulled at half tension [rad]
+  double area, left, angle_gap;  // [J]; energy at the end [J]; theta released less theta pulled
+                                 // at half tension [rad]
   Work work;
 };
 
 Loop pull_and_release(double mu) {
-  // Slow enough that the cable slides at 1e-3 m/s or so: far above the sliding speed.
+  // The cable slides at 4e-3 m/s or so: far above the sliding speed.
   Robot robot = amouri2020();
   robot.sections[0].cable_angles = {0.0};
   robot.sections[0].cable_friction = mu;
@@ -314,14 +308,15 @@ Loop pull_and_release(double mu) {
   robot.sliding_speed = 1e-4;
   const Model model(robot);
   MatrixXd tension(3, 1);
-  tension << 0.0, 8.0, 0.0;
+  tension << 0.0, 40.0, 0.0;
   const auto input =
       TensionInput::table(Vector3d(0.0, 10.0, 20.0), tension, TensionInput::Interpolation::linear);
   const Trajectory run =
       simulate(model, VectorXd::Zero(2), VectorXd::Zero(2), even_times(0.0, 21.0, 42001), input,
                Method::dopri5, tolerances(1e-8, 1e-10));
   REQUIRE(run.status == Status::ok);
-  Loop loop{0.0, run.q(30000, 0) - run.q(10000, 0), work_of(model, run)};
+  const VectorXd end = total_energies(model, run).tail(1);
+  Loop loop{0.0, end[0], run.q(30000, 0) - run.q(10000, 0), work_of(model, run)};
   const double radius = model.actuation_matrix()(0, 0);
   for (Index i = 1; i < run.t.size(); ++i) {
     loop.area += radius * 0.5 * (run.tension(i, 0) + run.tension(i - 1, 0)) *
@@ -336,12 +331,13 @@ TEST_CASE("a slow pull and release encloses the work of friction") {
                             << " J, damping " << rough.work.damping << " J, theta gap "
                             << rough.angle_gap << " rad; mu = 0: area " << smooth.area
                             << " J, theta gap " << smooth.angle_gap << " rad");
-  CHECK(residual(rough.area, rough.work.friction + rough.work.damping, rough.area) <=
+  CHECK(residual(rough.area, rough.work.friction + rough.work.damping + rough.left, rough.area) <=
         loop_by_samples);
-  CHECK(residual(smooth.area, smooth.work.damping, rough.area) <= loop_by_samples);
+  CHECK(residual(smooth.area, smooth.work.damping + smooth.left, rough.area) <= loop_by_samples);
   CHECK(rough.work.damping < 0.1 * rough.work.friction);
   CHECK(smooth.area < 0.1 * rough.area);
-  CHECK(smooth.work.friction == 0.0);
+  CHECK(residual(smooth.work.friction, 0.0, rough.work.friction) <= tolerance::rounding);
+  CHECK(rough.left < 1e-3 * rough.area);
   CHECK(std::abs(smooth.angle_gap) < 0.1 * rough.angle_gap);
 }
 

@@ -3,8 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <string>
+#include <tuple>
 #include <vector>
 
 #include "cdcr/cvode.hpp"
@@ -18,19 +17,19 @@ namespace {
 
 /// Energy over 10 s and hundreds of swings of the cables, each error adding up; bdf damps by
 /// itself.
-constexpr double kept_by_dopri5 = 1e-9, kept_by_adams = 2e-6, kept_by_bdf = 2e-5;
+constexpr double kept_by_dopri5 = 4e-8, kept_by_adams = 1e-7, kept_by_bdf = 4e-6;
 /// Times of slack events [s] at rtol 1e-12.
 constexpr double event_time = 1e-8;
 /// Pull at an event over the largest pull of the run.
 constexpr double event_pull = 1e-9;
 /// Slope of log |q - q*| over log k; the next order is gone at the stiffnesses tried.
 constexpr double slope_off = 0.05;
-/// End states [rad] of stiff runs with the options of each method.
-constexpr double stiff_end = 1e-5;
+/// States [rad] of stiff runs at rtol 1e-8, or by fixed steps just below the limit of stability.
+constexpr double stiff_states = 1e-6;
 
 const std::vector<Method> every_method = {Method::rk4, Method::dopri5, Method::bdf, Method::adams};
 
-std::string label(Method method) {
+const char* label(Method method) {
   const char* const names[] = {"rk4", "dopri5", "bdf", "adams"};
   return names[static_cast<int>(method)];
 }
@@ -69,7 +68,7 @@ bool alternate(const std::vector<SlackEvent>& events, Index num_cables) {
 TEST_SUITE_BEGIN("length_drive");
 
 TEST_CASE("undamped, motion and springs keep their energy while cables fall slack and tighten") {
-  Robot robot = parts_with_cables(3, 5e3, 0.0);
+  Robot robot = parts_with_cables(3, 2e3, 0.0);
   robot.gravity = {0.0, 0.0, 9.81};
   const Model model(robot);
   VectorXd q0(6), shape(6);
@@ -88,8 +87,8 @@ TEST_CASE("undamped, motion and springs keep their energy while cables fall slac
     double rtol, kept;
   };
   for (const auto& [method, rtol, kept] :
-       {Row{Method::dopri5, 1e-12, kept_by_dopri5}, Row{Method::adams, 1e-11, kept_by_adams},
-        Row{Method::bdf, 1e-11, kept_by_bdf}}) {
+       {Row{Method::dopri5, 1e-11, kept_by_dopri5}, Row{Method::adams, 1e-11, kept_by_adams},
+        Row{Method::bdf, 1e-10, kept_by_bdf}}) {
     const Trajectory run =
         go(model, q0, VectorXd::Zero(6), even_times(0.0, 10.0, 101),
            TensionInput::constant(command), method, tolerances(rtol, 1e-2 * rtol));
@@ -142,9 +141,8 @@ TEST_CASE("small swings: the cable is slack for half a swing of the backbone alo
   Data data(model);
   MatrixXd M(2, 2);
   mass_matrix(model, data, VectorXd::Zero(2), M);
-  const double r = model.actuation_matrix()(0, 0), K = model.stiffness()[0];
-  const double taut = pi * std::sqrt(M(0, 0) / (K + k * r * r));
-  const double slack = pi * std::sqrt(M(0, 0) / K);
+  const double r = model.actuation_matrix()(0, 0), K = model.stiffness()[0], m = M(0, 0);
+  const double taut = pi * std::sqrt(m / (K + k * r * r)), slack = pi * std::sqrt(m / K);
   for (const Method method : {Method::bdf, Method::adams}) {
     CAPTURE(label(method));
     const Trajectory run =
@@ -191,8 +189,7 @@ double next_turn(const Model& model, const TensionInput& input, double& t, Vecto
   double low = 0.0, high = pace;
   for (int i = 0; i < 40; ++i) {
     const double middle = 0.5 * (low + high);
-    const double pull = pull_after(middle, q_there, qd_there);
-    (pull * before > 0.0 ? low : high) = middle;
+    (pull_after(middle, q_there, qd_there) * before > 0.0 ? low : high) = middle;
   }
   pull_after(high, q_there, qd_there);
   q = q_there;
@@ -209,8 +206,8 @@ TEST_CASE("events of a large swing are the roots of the pull") {
   const VectorXd command = rest_command_of(model).array() - 2e-3;
   const TensionInput input = TensionInput::constant(command);
   std::vector<double> roots;
-  double t = 0.0;
   VectorXd q = q0, qd = qd0;
+  double t = 0.0;
   for (int i = 0; i < 6; ++i) roots.push_back(next_turn(model, input, t, q, qd));
   for (const Method method : {Method::bdf, Method::adams}) {
     CAPTURE(label(method));
@@ -319,32 +316,32 @@ Trajectory stiff_run(double stiffness, double damping, Method method, const Opti
   command.row(1) = lengths_of(model, shape).array() - 20.0 / stiffness;
   const auto input =
       TensionInput::table(Eigen::Vector2d(0.0, 0.2), command, TensionInput::Interpolation::linear);
-  return go(model, VectorXd::Zero(10), VectorXd::Zero(10), Eigen::Vector2d(0.0, 0.5), input, method,
+  return go(model, VectorXd::Zero(10), VectorXd::Zero(10), even_times(0.0, 0.5, 11), input, method,
             options);
 }
 
 TEST_CASE("stiff five-section robot: all methods agree; damped cables cost dopri5 its steps") {
   std::vector<long> explicit_steps, implicit_steps;
-  for (const double damping : {5.0, 50.0, 500.0}) {
+  for (const double damping : {20.0, 500.0, 5000.0}) {
     const double stiffness = 5e4;
     const Trajectory truth =
         stiff_run(stiffness, damping, Method::dopri5, tolerances(1e-12, 1e-14));
     for (const Method method : every_method) {
       Options options = tolerances(1e-8, 1e-10);
-      options.step = 1e-4 / damping;
+      options.step = std::min(2e-5, 0.05 / damping);
       const Trajectory run = stiff_run(stiffness, damping, method, options);
-      const double off = (run.q.row(1) - truth.q.row(1)).norm();
+      const double off = (run.q - truth.q).rowwise().norm().maxCoeff();
       MESSAGE("k = " << stiffness << " N/m, d = " << damping << " N s/m, " << label(method) << ": "
                      << run.stats.steps << " steps, " << run.stats.evaluations
-                     << " evaluations, end off by " << off << " rad");
-      CHECK(Residual{off} <= stiff_end);
+                     << " evaluations, q off by " << off << " rad");
+      CHECK(Residual{off} <= stiff_states);
       if (method == Method::dopri5) explicit_steps.push_back(run.stats.steps);
       if (method == Method::bdf) implicit_steps.push_back(run.stats.steps);
     }
   }
   CHECK(explicit_steps[2] > 5 * explicit_steps[1]);
   CHECK(implicit_steps[2] < 2 * implicit_steps[1]);
-  CHECK(implicit_steps[2] < explicit_steps[2] / 5);
+  CHECK(implicit_steps[2] < explicit_steps[2] / 10);
 }
 
 TEST_SUITE_END();

@@ -87,7 +87,7 @@ def test_it_runs_with_each_comment_switched_on(tmp_path: Path, i: int) -> None:
 
 
 def test_there_are_blocks_to_switch_on() -> None:
-    assert len(SWITCHED_OFF) == 18
+    assert len(SWITCHED_OFF) == 19
     assert sum("[trajectory]" in BLOCKS[i] for i in SWITCHED_OFF) == 6
 
 
@@ -101,6 +101,7 @@ def test_every_key_is_shown() -> None:
         _scenario_schema.ReferenceTable,
         _scenario_schema.TensionRows,
         _scenario_schema.TensionFile,
+        _scenario_schema.WrenchTable,
         _shape_schema.TrajectorySamples,
         _shape_schema.TrajectoryFile,
         *_shape_schema.TENSION_SHAPES.values(),

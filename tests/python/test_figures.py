@@ -18,7 +18,7 @@ from typer.testing import CliRunner, Result
 from cdcr import _figures, _figures_page
 from cdcr._cli_app import app
 
-NAMES = cdcr.scenarios.names()
+NAMES = [n for n in cdcr.scenarios.names() if cdcr.scenarios.get(n).paper_figure]
 FILES = {f"{name}{suffix}" for name in NAMES for suffix in (".png", ".svg")} | {"index.html"}
 VOID = {"meta", "img", "br"}
 

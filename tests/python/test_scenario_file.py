@@ -260,7 +260,8 @@ def test_what_is_wrong_in_a_file(tmp_path: Path, text: str, sentence: str) -> No
         (
             FILE.replace("amouri2020", "amouri"),
             "pull.toml, robot",
-            "there is no robot 'amouri'. Did you mean 'amouri2020'? Known: amouri2020",
+            "there is no robot 'amouri'. Did you mean 'amouri2020'? Known: "
+            + ", ".join(cdcr.robots.names()),
         ),
         (
             f"t_end = 1\n[[robot.sections]]\n{SECTION.replace('0.8', '-0.8')}",

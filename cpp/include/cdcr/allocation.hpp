@@ -80,11 +80,11 @@ class Allocator {
 
 /// Tensions found for a generalised force, and how well they do.
 struct Allocation {
-  VectorXd tension;             ///< (num_cables) [N], within the limits
-  VectorXd force;               ///< B F, the generalised force they give (2n) [N m]
-  double distance = 0.0;        ///< |B F - Q|, rounding error when feasible [N m]
-  bool feasible = false;        ///< the force is met
-  std::vector<Index> limiting;  ///< cables whose limit keeps it from Q, when infeasible
+  VectorXd tension;                 ///< (num_cables) [N], within the limits
+  VectorXd force;                   ///< B F, the generalised force they give (2n) [N m]
+  double distance = 0.0;            ///< |B F - Q|, rounding error when feasible [N m]
+  bool feasible = false;            ///< the force is met
+  std::vector<Index> limiting;      ///< cables whose limit keeps it from Q, when infeasible
   std::vector<std::string> limits;  ///< these in words: "cable 2 of section 1 at 0 N (min)"
 };
 
@@ -95,8 +95,8 @@ struct Allocation {
 /// "cable 2 of section 1": the second of those that end there. Counts from 1, in their order.
 [[nodiscard]] std::string cable_name(const Model& model, Index cable);
 
-/// Commands (num_cables) that hold the tensions [N] at rest in q: the tension itself, or for a cable
-/// driven by length l(q) - F/k [m]. Real-time safe.
+/// Commands (num_cables) that hold the tensions [N] at rest in q: the tension itself, or for a
+/// cable driven by length l(q) - F/k [m]. Real-time safe.
 void cable_commands(const Model& model, const ConstVectorRef& q, const ConstVectorRef& tension,
                     VectorRef command) noexcept;
 

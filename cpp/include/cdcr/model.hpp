@@ -36,6 +36,8 @@ class Model {
   [[nodiscard]] const std::vector<Cable>& cables() const noexcept { return cables_; }
   /// B of Q = B F (2n, num_cables) [m]: tensions to generalised force. Constant.
   [[nodiscard]] const MatrixXd& actuation_matrix() const noexcept { return actuation_; }
+  /// Rows of B that are not zero by construction, 2 (end_section + 1) for each cable.
+  [[nodiscard]] const std::vector<Index>& cable_rows() const noexcept { return cable_rows_; }
   /// Cable lengths of the straight robot (num_cables) [m].
   [[nodiscard]] const VectorXd& straight_lengths() const noexcept { return straight_lengths_; }
   /// Bending stiffness K of each section (n) [N m/rad].
@@ -63,6 +65,7 @@ class Model {
  private:
   Robot robot_;
   std::vector<Cable> cables_;
+  std::vector<Index> cable_rows_;
   Formulation formulation_;
   std::shared_ptr<const detail::ShapeTable> table_;
   std::shared_ptr<const detail::Chain> chain_;

@@ -7,11 +7,11 @@ namespace cdcr {
 
 /// Small vibrations about a shape, cpp/README.md eqs. (44), (45).
 struct Modes {
-  VectorXd q;                  ///< the shape (2n) [rad]
-  VectorXd squared_frequency;  ///< w^2, increasing (2n) [rad^2/s^2]; negative: falls away
-  VectorXd frequency;          ///< w of the undamped robot (2n) [rad/s]; 0 where w^2 <= 0
-  MatrixXd shape;              ///< a column for each, phi^T M phi = 1 (2n, 2n) [rad/(m sqrt(kg))]
-  VectorXd damping_ratio;      ///< phi^T C phi/(2 w), 1 is critical (2n); 0 where w^2 <= 0
+  VectorXd q;                    ///< the shape (2n) [rad]
+  VectorXd squared_frequency;    ///< w^2, increasing (2n) [rad^2/s^2]; negative: falls away
+  VectorXd frequency;            ///< w of the undamped robot (2n) [rad/s]; 0 where w^2 <= 0
+  MatrixXd shape;                ///< a column for each, phi^T M phi = 1 (2n, 2n) [rad/(m sqrt(kg))]
+  VectorXd damping_ratio;        ///< phi^T C phi/(2 w), 1 is critical (2n); 0 where w^2 <= 0
   Eigen::VectorXcd eigenvalues;  ///< of the damped robot, by magnitude (4n) [1/s]
   bool stable = false;           ///< no w^2 <= 0, and no eigenvalue's real part positive
 };

@@ -106,7 +106,7 @@ class _Film:
         self._decimals = max(2, math.ceil(-math.log10(step)))  # slow motion needs more
 
         robot = self._robot
-        self._moving: list[Any] = [robot.disks, robot.backbone, *robot.cables]
+        self._moving: list[Any] = [robot.disks, *robot.lines]
         self._moving += [*self._marks, self._clock]
         for artist in self._moving:
             artist.set_animated(True)

@@ -39,6 +39,12 @@ class RobotShape:
     cables: list[Array]
 
     @property
+    def sections(self) -> list[Array]:
+        """The backbone of each section, list of (49, 3), base to tip."""
+        ends = range(0, len(self.backbone) - 1, PIECES)
+        return [self.backbone[k : k + PIECES + 1] for k in ends]
+
+    @property
     def points(self) -> Array:
         """All of them (P, 3)."""
         return np.concatenate([self.backbone, *self.disks, *self.cables])

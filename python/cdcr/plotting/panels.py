@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,9 +12,19 @@ from numpy.typing import NDArray
 from cdcr.plotting.style import ALARM, BLACK, GREY, StyledFigure, line_colors, style
 
 if TYPE_CHECKING:
+    from cdcr._model import Model
     from cdcr._trajectory import Trajectory
 
-__all__ = ["plot_phi", "plot_run", "plot_tension", "plot_theta", "show_time"]
+__all__ = [
+    "cable_colors",
+    "cable_dashes",
+    "plot_phi",
+    "plot_run",
+    "plot_tension",
+    "plot_theta",
+    "show_time",
+    "shown_phi",
+]
 
 # Smallest spans shown, so that rounding noise does not fill a panel.
 MIN_ANGLE = 1.0  # [deg]
@@ -23,8 +33,14 @@ MIN_LENGTH = 1e-3  # [m]
 MIN_ENERGY = 1e-9  # [J]
 MIN_ERROR = 1e-15  # [1]
 
-MAX_NAMED = 6  # lines named in one legend
+MAX_NAMED = 9  # lines named in one legend
+ROOMY = 6  # lines named without crowding
 DASHES = ("-", "--", "-.", ":")  # lines often coincide: dashes let the lower one be seen
+
+
+# The same for short samples in a crowded legend.
+SHORT_DASHES = ("-", (0, (2.5, 1.2)), (0, (1, 1)), (0, (3, 1, 1, 1)))
+STRAIGHT = 0.05  # share of the largest bending below which phi of several sections is not drawn
 
 
 def plot_run(run: Trajectory) -> StyledFigure:
@@ -70,19 +86,59 @@ def plot_theta(axes: Axes, run: Trajectory) -> None:
 
 def plot_phi(axes: Axes, run: Trajectory) -> None:
     """Draw the orientation angles [deg] over time."""
-    _plot_lines(axes, run.t, np.rad2deg(run.phi), _numbered("section", run.model.num_sections))
+    _plot_lines(axes, run.t, shown_phi(run), _numbered("section", run.model.num_sections))
     axes.set_ylabel(r"orientation $\varphi$ [deg]")
     _keep_span(axes, MIN_ANGLE)
 
 
+def shown_phi(run: Trajectory) -> NDArray[np.float64]:
+    """Return the orientation angles (N, n) [deg] as they are drawn.
+
+    One section shows all of them. Of several, those that pass near straight turn round and round:
+    they are shown between -180 and 180, and not at all (NaN) where a section is nearly straight.
+    """
+    phi: NDArray[np.float64] = np.rad2deg(run.phi)
+    if run.model.num_sections == 1:
+        return phi
+    wrapped = (phi + 180.0) % 360.0 - 180.0
+    theta = np.abs(run.theta)
+    wrapped[theta < STRAIGHT * theta.max()] = np.nan
+    wrapped[1:][np.abs(np.diff(wrapped, axis=0)) > 180.0] = np.nan
+    return wrapped
+
+
 def plot_tension(axes: Axes, run: Trajectory) -> None:
     """Draw the cable tensions [N] over time."""
-    _plot_lines(axes, run.t, run.tension, _numbered("cable", run.model.num_cables))
+    model = run.model
+    lines = zip(
+        _numbered("cable", model.num_cables), cable_colors(model), cable_dashes(model), strict=True
+    )
+    for j, (name, color, dashes) in enumerate(lines):
+        axes.plot(run.t, run.tension[:, j], color=color, linestyle=dashes, label=name)
+    if model.num_cables > 1:
+        _legend(axes, model.num_cables)
     axes.set_ylabel("tension [N]")
     top = max(MIN_TENSION, np.max(run.tension, initial=0.0))
     axes.set_ylim(-0.05 * top, 1.08 * top)  # a line along zero stays clear of the frame
     if not run.model.num_cables:
         axes.text(0.5, 0.5, "no cables", transform=axes.transAxes, ha="center", color=GREY)
+
+
+def cable_colors(model: Model) -> list[Any]:
+    """One colour for each cable; of several sections, that of the section where it ends."""
+    if model.num_sections == 1:
+        return line_colors(model.num_cables)
+    colors = line_colors(model.num_sections)
+    return [colors[cable.end_section] for cable in model.robot.all_cables]
+
+
+def cable_dashes(model: Model) -> list[Any]:
+    """One kind of line for each cable: those that end together differ."""
+    if model.num_cables > MAX_NAMED:
+        return ["-"] * model.num_cables
+    kinds = DASHES if model.num_cables <= ROOMY else SHORT_DASHES
+    ends = [cable.end_section for cable in model.robot.all_cables]
+    return [kinds[ends[:j].count(end) % len(kinds)] for j, end in enumerate(ends)]
 
 
 def _plot_tip(axes: Axes, run: Trajectory) -> None:
@@ -134,8 +190,9 @@ def _legend(axes: Axes, count: int) -> None:
         bbox_to_anchor=(1.0, 1.0),
         ncols=min(count, MAX_NAMED),
         borderaxespad=0.1,
-        columnspacing=1.2,
-        handlelength=1.8,
+        columnspacing=1.2 if count <= ROOMY else 0.7,
+        handlelength=1.8 if count <= ROOMY else 1.3,
+        handletextpad=0.8 if count <= ROOMY else 0.4,
     )
 
 

@@ -10,18 +10,19 @@ from matplotlib.colors import to_rgba
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # type: ignore[import-untyped]
 from numpy.typing import ArrayLike, NDArray
 
-from cdcr.plotting import space
+from cdcr.plotting import panels, space
 from cdcr.plotting.geometry import base_plate, robot_shape, states_at
 from cdcr.plotting.style import BLACK, DISK, GREY, StyledFigure, line_colors, style
 
 if TYPE_CHECKING:
     from cdcr import Model, Trajectory
 
-__all__ = ["RobotArtists", "plot_robot", "plot_run_robot", "show_robot"]
+__all__ = ["RobotArtists", "plot_robot", "plot_run_robot", "section_colors", "show_robot"]
 
 Array = NDArray[np.float64]
 
 SLACK_WIDTH, TAUT_WIDTH = 0.8, 2.2  # of the line of a cable [pt]
+FINER = 0.6  # share of these, of the cables of several sections
 FAINTEST = 0.25  # opacity of the earliest of several shapes
 PICTURE = np.array([7.0, 6.5])  # largest picture of a robot, legend apart [in]
 
@@ -43,42 +44,58 @@ class RobotArtists:
             zorder=layer,
         )
         axes.add_collection3d(self.disks)
-        (self.backbone,) = axes.plot(
-            *shape.backbone.T, color=BLACK, linewidth=2.4, alpha=alpha, zorder=layer + 0.2
-        )
+        self._width = 1.0 if model.num_sections == 1 else FINER
+        self.backbones = [
+            axes.plot(*line.T, color=color, linewidth=2.4, alpha=alpha, zorder=layer + 0.2)[0]
+            for line, color in zip(shape.sections, section_colors(model), strict=True)
+        ]
         # Matplotlib sorts by depth only what does not interlace. Here the base settles the order.
         front = [cable[0] @ space.towards_viewer(axes) > 0.0 for cable in shape.cables]
         self.cables = [
             axes.plot(
                 *cable.T,
                 color=color,
-                linewidth=1.2,
+                linewidth=1.2 * self._width,
                 alpha=alpha,
                 zorder=layer + (0.3 if is_front else 0.1),
             )[0]
             for cable, color, is_front in zip(
-                shape.cables, line_colors(model.num_cables), front, strict=True
+                shape.cables, panels.cable_colors(model), front, strict=True
             )
         ]
+
+    @property
+    def lines(self) -> list[Any]:
+        """Backbone of each section, then cables."""
+        return [*self.backbones, *self.cables]
 
     def update(self, q: Array) -> None:
         """Move everything to q (2n,) [rad]."""
         shape = robot_shape(self._model, q)
         self.disks.set_verts(shape.disks)
-        self.backbone.set_data_3d(*shape.backbone.T)
-        for line, cable in zip(self.cables, shape.cables, strict=True):
-            line.set_data_3d(*cable.T)
+        for line, points in zip(self.lines, (*shape.sections, *shape.cables), strict=True):
+            line.set_data_3d(*points.T)
 
     def show_tension(self, tension: Array, largest: float) -> None:
         """Draw the cables the thicker, the more tension (num_cables,) they carry."""
         for line, value in zip(self.cables, tension, strict=True):
             share = value / largest if largest > 0.0 else 0.0
-            line.set_linewidth(SLACK_WIDTH + (TAUT_WIDTH - SLACK_WIDTH) * share)
+            width = SLACK_WIDTH + (TAUT_WIDTH - SLACK_WIDTH) * share
+            line.set_linewidth(width * self._width)
 
     def name_cables(self, suffixes: list[str] | None = None) -> None:
-        """Name the cables for the legend."""
+        """Name the cables for the legend; where there are several sections, name these."""
+        if len(self.backbones) > 1 and not suffixes:
+            for i, line in enumerate(self.backbones):
+                line.set_label(f"section {i + 1}")
+            return
         for j, line in enumerate(self.cables):
             line.set_label(f"cable {j + 1}" + (suffixes[j] if suffixes else ""))
+
+
+def section_colors(model: Model) -> list[Any]:
+    """One colour for the backbone of each section; black where there is one."""
+    return [BLACK] if model.num_sections == 1 else line_colors(model.num_sections)
 
 
 def plot_robot(
@@ -139,8 +156,11 @@ def plot_run_robot(
         show_robot(axes, run.model, states, run.tip)
         axes.plot(*run.tip.T, color=GREY, linewidth=0.9, linestyle=":", label="path of the tip")
         for k, (time, q, alpha) in enumerate(zip(chosen, states, fading, strict=True)):
+            if run.model.num_sections > 1:  # whose colours tell something else
+                (named,) = axes.plot([], [], [], color=BLACK, linewidth=2.4, alpha=alpha)
             robot = RobotArtists(axes, run.model, q, alpha=alpha, layer=3.0 + k)
-            robot.backbone.set_label(f"{time:.3g} s")
+            named = robot.backbones[0] if run.model.num_sections == 1 else named
+            named.set_label(f"{time:.3g} s")
         robot.name_cables()
         if ax is None:
             _finish(axes)

@@ -11,7 +11,7 @@ from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d import proj3d  # type: ignore[import-untyped]
 from numpy.typing import NDArray
 
-__all__ = ["add_axes", "fit", "place", "show_points", "towards_viewer"]
+__all__ = ["add_axes", "fit", "paper_directions", "place", "show_points", "towards_viewer"]
 
 Array = NDArray[np.float64]
 
@@ -69,6 +69,13 @@ def towards_viewer(axes: Any) -> Array:
     """Return the direction (3,) in which Axes3D is looked at from."""
     elev, azim = np.deg2rad([axes.elev, axes.azim])
     return np.array([np.cos(elev) * np.cos(azim), np.cos(elev) * np.sin(azim), np.sin(elev)])
+
+
+def paper_directions(axes: Any) -> Array:
+    """Return the directions (2, 3) that Axes3D shows from left to right and upwards."""
+    azim = np.deg2rad(axes.azim)
+    across = np.array([-np.sin(azim), np.cos(azim), 0.0])
+    return np.stack([across, np.cross(towards_viewer(axes), across)])
 
 
 def fit(axes: Any, room: Array) -> tuple[float, Array]:

@@ -14,7 +14,7 @@ from cdcr.scenarios._scenario import Scenario
 
 __all__ = ["Scenario", "get", "names"]
 
-# The order of the origin paper's figures; any others come after.
+# The order of the origin paper's figures, then robots of several sections; others come after.
 _ORDER = (
     "factors-backbone",
     "factors-backbone-rotation",
@@ -29,6 +29,9 @@ _ORDER = (
     "circle-tracking",
     "plane-tracking",
     "pid",
+    "three-sections",
+    "hanging-arm",
+    "payload-drop",
 )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,6 +15,7 @@ from cdcr.scenarios._findings import static_theta, swing_times
 
 if TYPE_CHECKING:
     from cdcr._trajectory import Trajectory
+    from cdcr._wrench import Wrench
     from cdcr.scenarios._scenario import Scenario
 
 SIZE = (12.4, 6.8)  # of the picture [in]
@@ -29,7 +31,7 @@ def run_figure(scenario: Scenario, run: Trajectory) -> StyledFigure:
         figure = StyledFigure(figsize=SIZE)
         figure.suptitle(scenario.title, x=0.02, y=0.985, ha="left", va="top", fontsize=13)
         _draw_robot(figure, run, times)
-        _draw_panels(figure, run)
+        _draw_panels(figure, run, scenario.wrenches)
     return figure
 
 
@@ -43,34 +45,36 @@ def _draw_robot(figure: StyledFigure, run: Trajectory, times: NDArray[np.float64
     figure.legend(handles, labels, loc="center left", bbox_to_anchor=beside, handlelength=1.4)
 
 
-def _draw_panels(figure: StyledFigure, run: Trajectory) -> None:
-    plots = [_plot_theta, _plot_phi, panels.plot_tension]
+def _draw_panels(figure: StyledFigure, run: Trajectory, wrenches: Sequence[Wrench]) -> None:
+    plots = [panels.plot_theta, _plot_phi, panels.plot_tension]
     grid = figure.add_gridspec(
         3, 1, left=0.525, right=0.98, bottom=0.09, top=0.91, hspace=0.35, height_ratios=[2, 1, 1]
     )
     for row, plot in enumerate(plots):
         axes = figure.add_subplot(grid[row])
         plot(axes, run)
+        if plot is panels.plot_theta:
+            _mark_rest(axes, static_theta(run, wrenches))
         panels.show_time(axes, run, named=plot is plots[-1])
     figure.align_ylabels()
 
 
-def _plot_theta(axes: Axes, run: Trajectory) -> None:
-    panels.plot_theta(axes, run)
-    rest = static_theta(run)
-    if rest is not None:
-        for angle, color in zip(rest, line_colors(len(rest)), strict=True):
-            axes.axhline(
-                angle, color=BLACK if len(rest) == 1 else color, dashes=(6, 4), linewidth=1
-            )
-        angles = ", ".join(f"{angle:.2f}" for angle in rest)
-        axes.set_title(f"dashed: static equilibrium, {angles} deg", loc="left", fontsize=9.5)
+def _mark_rest(axes: Axes, rest: NDArray[np.float64] | None) -> None:
+    """Draw the bending angles of rest (n,) [deg], where there are some."""
+    if rest is None:
+        return
+    for angle, color in zip(rest, line_colors(len(rest)), strict=True):
+        axes.axhline(angle, color=BLACK if len(rest) == 1 else color, dashes=(6, 4), linewidth=1)
+    angles = ", ".join(f"{angle:.2f}" for angle in rest)
+    told = f"dashed: static equilibrium, {angles} deg" if len(rest) == 1 else "dashed: at rest"
+    axes.set_title(told, loc="left", fontsize=9.5)
 
 
 def _plot_phi(axes: Axes, run: Trajectory) -> None:
-    phi = np.rad2deg(run.phi)
+    phi = panels.shown_phi(run)
     for i, color in enumerate(line_colors(run.model.num_sections)):
         axes.plot(run.t, phi[:, i], color=color)
     axes.set_ylabel(r"orientation $\varphi$ [deg]")
-    if np.ptp(phi) < MIN_SPAN:
-        axes.set_ylim(phi.min() - MIN_SPAN / 2, phi.max() + MIN_SPAN / 2)
+    shown = phi[np.isfinite(phi)]
+    if shown.size and np.ptp(shown) < MIN_SPAN:
+        axes.set_ylim(shown.min() - MIN_SPAN / 2, shown.max() + MIN_SPAN / 2)

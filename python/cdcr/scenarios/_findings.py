@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from cdcr._model import ConvergenceError
 from cdcr._trajectory import Trajectory
+from cdcr._wrench import Wrench
 
 if TYPE_CHECKING:
     from cdcr.scenarios._scenario import Scenario
@@ -34,18 +35,18 @@ def findings(scenario: Scenario, run: Trajectory) -> tuple[Finding, ...]:
     several = run.model.num_sections > 1
     found: list[Finding] = []
     for i in range(run.model.num_sections):
-        for one in _section_findings(run, i):
+        for one in _section_findings(run, i, scenario.wrenches):
             key, label = f"section_{i + 1}_{one.key}", f"section {i + 1}: {one.label}"
             found.append(one._replace(key=key, label=label) if several else one)
-    drift = energy_drift(run)
+    drift = None if scenario.wrenches else energy_drift(run)  # wrenches feed and drain the robot
     if drift is not None:
         found.append(Finding("energy_drift", "relative energy drift", drift, ""))
     return tuple(found)
 
 
-def _section_findings(run: Trajectory, i: int) -> Iterator[Finding]:
+def _section_findings(run: Trajectory, i: int, wrenches: Sequence[Wrench]) -> Iterator[Finding]:
     theta, phi = np.rad2deg(run.theta[:, i]), np.rad2deg(run.phi[:, i])
-    rest = static_theta(run)
+    rest = static_theta(run, wrenches)
     if rest is not None:
         yield Finding("theta_static_deg", "theta at static equilibrium", float(rest[i]), "deg")
     yield Finding("theta_mean_deg", "theta, mean", time_mean(run.t, theta), "deg")
@@ -58,16 +59,18 @@ def _section_findings(run: Trajectory, i: int) -> Iterator[Finding]:
     yield Finding("phi_max_deg", "phi, largest", float(np.max(phi)), "deg")
 
 
-def static_theta(run: Trajectory) -> FloatArray | None:
-    """Return the bending angles (n,) [deg] of rest under the tensions of the run.
+def static_theta(run: Trajectory, wrenches: Sequence[Wrench] = ()) -> FloatArray | None:
+    """Return the bending angles (n,) [deg] of rest under the tensions and wrenches of the run.
 
-    Negative where the run's phi points the other way. None where the tensions change over the run,
-    or where no point of rest is found.
+    Negative where the run's phi points the other way. None where tensions or wrenches change over
+    the run, or where no point of rest is found.
     """
-    if not is_steady(run):
+    command = run.tension if run.command is None else run.command
+    constant = np.all(command == command[0]) and all(one.profile is None for one in wrenches)
+    if not constant:
         return None
     try:
-        rest = run.model.equilibrium(run.tension[0])
+        rest = run.model.equilibrium(command[0], wrenches=wrenches)
     except ConvergenceError:
         return None
     x, y, phi = rest[0::2], rest[1::2], run.phi[-1]
@@ -89,10 +92,13 @@ def energy_drift(run: Trajectory) -> float | None:
     """Return the largest change of the energy that should not change, over the largest kinetic one.
 
     Under constant tensions F a cable at angle gamma does the work F r e(gamma).(q - q0), so
-    T + U - (B F).q stays what it was. None where tensions change or damping takes energy away.
+    T + U - (B F).q stays what it was. None where tensions change or damping or friction take energy
+    away.
     """
-    damped = any(section.damping > 0.0 for section in run.model.robot.sections)
-    if damped or not is_steady(run):
+    robot = run.model.robot
+    lossy = any(section.damping or section.cable_friction for section in robot.sections)
+    rubbing = any(cable.friction for cable in robot.cables)
+    if lossy or rubbing or not is_steady(run):
         return None
     force = run.model.actuation_matrix() @ run.tension[0]
     kept = run.energy - run.q @ force

@@ -15,6 +15,7 @@ from cdcr._model import Model
 from cdcr._robot import Robot
 from cdcr._simulate import MethodName, TensionTable, simulate
 from cdcr._trajectory import Trajectory
+from cdcr._wrench import Wrench
 from cdcr.scenarios._findings import Finding, findings
 
 if TYPE_CHECKING:
@@ -43,13 +44,17 @@ class Scenario:
         Number of the figure of the origin paper that it redraws.
     robot : Robot
         The robot.
-    q0, qd0 : tuple of float, 2n each
-        Bending vectors [rad] and their rates [rad/s] at t = 0.
+    q0 : tuple of float, 2n, or callable
+        Bending vectors [rad] at t = 0, or a function of the model that returns them.
+    qd0 : tuple of float, 2n
+        Their rates [rad/s].
     tension : tuple of float, num_cables, or TensionTable or callable
         Cable tensions [N], constant or over time, or a function of the model and the end of the run
         [s] that returns them.
     controller : callable, optional
         From the model to a controller that pulls the cables, in place of `tension`.
+    wrenches : tuple of Wrench
+        Forces and moments on the robot.
     t_end : float, optional
         End of the run [s]; 0 where nothing runs.
     num_samples : int, default 1001
@@ -72,10 +77,11 @@ class Scenario:
     source: str
     robot: Robot
     paper_figure: int | None = None
-    q0: tuple[float, ...] = ()
+    q0: tuple[float, ...] | Callable[[Model], tuple[float, ...]] = ()
     qd0: tuple[float, ...] = ()
     tension: tuple[float, ...] | TensionTable | Callable[[Model, float], TensionTable] = ()
     controller: Callable[[Model], Controller] | None = None
+    wrenches: tuple[Wrench, ...] = ()
     t_end: float = 0.0
     num_samples: int = 1001
     formulation: str = "exact"
@@ -97,6 +103,10 @@ class Scenario:
     def model(self) -> Model:
         """Its robot, ready for computing."""
         return Model(self.robot, formulation=self.formulation)
+
+    def start(self, model: Model) -> tuple[float, ...]:
+        """Return the bending vectors (2n,) at t = 0 [rad]."""
+        return self.q0(model) if callable(self.q0) else self.q0
 
     def times(
         self, t_end: float | None = None, num_samples: int | None = None
@@ -157,11 +167,12 @@ class Scenario:
         tension = self.tension(model, float(t[-1])) if callable(self.tension) else self.tension
         return simulate(
             model,
-            self.q0,
+            self.start(model),
             self.qd0,
             t=t,
             tension=None if controller else tension,
             controller=controller,
+            wrenches=self.wrenches,
             method=method or self.method,
             rtol=self.rtol if rtol is None else rtol,
             atol=self.atol if atol is None else atol,

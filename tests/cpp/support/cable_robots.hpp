@@ -65,6 +65,14 @@ inline Robot rubbing_chain(Random& random, int n) {
   return robot;
 }
 
+/// Sections bent up to a full turn, now and then one of them straight.
+inline VectorXd random_shape(const Model& model, Random& random) {
+  const auto n = static_cast<int>(model.num_sections());
+  VectorXd q = random_bending(n, random.logarithmic(1e-3, 2.0 * pi), random);
+  if (random.integer(0, 4) == 0) q.segment(2 * random.integer(0, n - 1), 2).setZero();
+  return q;
+}
+
 /// Tensions up to `most` [N]; for cables driven by length, lengths that pull about so much or are
 /// slack.
 inline VectorXd random_command(const Model& model, const VectorXd& q, double most, Random& random) {

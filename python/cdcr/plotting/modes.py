@@ -1,0 +1,111 @@
+"""Mode shapes of a robot, beside the shape it rests in."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cdcr.plotting import space
+from cdcr.plotting.geometry import PIECES
+from cdcr.plotting.style import ALARM, BLACK, GREY, StyledFigure, line_colors, style
+
+if TYPE_CHECKING:
+    from cdcr._model import Model
+    from cdcr._modes import Modes
+
+__all__ = ["plot_modes"]
+
+Array = NDArray[np.float64]
+
+PANEL = np.array([2.9, 4.4])  # [in]
+SWING = (1.0, 0.5)  # of the phases drawn to each side of rest, the full one last
+VIEW = {"elev": 24.0, "azim": -52.0}  # [deg]: shows motion along x and along y
+TITLE = 0.5  # room above the panels [in]
+
+
+def plot_modes(modes: Modes, count: int = 4, *, deflection: float = 0.15) -> StyledFigure:
+    """Draw the first mode shapes: the backbone at rest and swung to both sides.
+
+    Parameters
+    ----------
+    modes : Modes
+        Answer of `Model.modes`.
+    count : int
+        Modes to draw at most, the slowest first.
+    deflection : float
+        Farthest that a point of the backbone is moved, as a share of the robot's length; the true
+        size of a free vibration is whatever started it.
+
+    Returns
+    -------
+    Figure
+        One panel for each mode, with its frequency [Hz] and damping ratio.
+    """
+    if count != int(count) or count < 1:
+        raise ValueError(f"count must be a whole number >= 1, got {count!r}")
+    if not 0.0 < deflection <= 1.0:
+        raise ValueError(f"deflection must be > 0 and <= 1, got {deflection!r}")
+    shown = min(count, len(modes.frequency))
+    rest = _backbone(modes.model, modes.q)
+    swings = [_swings(modes, k, deflection * modes.model.robot.length) for k in range(shown)]
+    points = np.concatenate([rest, *(line for pair in swings for line in pair)])
+    with style():
+        size = PANEL * [shown, 1] + [0.0, TITLE]
+        figure = StyledFigure(figsize=tuple(size))
+        for k, (color, pair) in enumerate(zip(line_colors(shown), swings, strict=True)):
+            axes = space.add_axes(figure)
+            axes.view_init(**VIEW)
+            space.show_points(axes, points)
+            scale, _ = space.fit(axes, PANEL)
+            space.place(axes, scale, PANEL)
+            box = axes.get_position()
+            axes.set_position((box.x0 + k / shown, box.y0, box.width, box.height))
+            for j, line in enumerate(pair):
+                axes.plot(*line.T, color=color, alpha=1.0 if j % len(SWING) == 0 else 0.45)
+            axes.plot(*rest.T, color=BLACK, linewidth=2.4)
+            falls = modes.squared_frequency[k] <= 0.0
+            figure.text(
+                (k + 0.5) / shown,
+                1.0 - 0.5 * TITLE / size[1],
+                _label(modes, k),
+                ha="center",
+                va="center",
+                color=ALARM if falls else BLACK,
+            )
+        if not modes.stable:
+            figure.text(0.01, 0.01, "not stable", color=ALARM)
+        figure.text(0.99, 0.01, "black: at rest", color=GREY, ha="right")
+    return figure
+
+
+def _label(modes: Modes, k: int) -> str:
+    """Name mode k, with its frequency."""
+    if modes.squared_frequency[k] <= 0.0:
+        return f"mode {k + 1}: falls away"
+    text = f"mode {k + 1}: {modes.frequency_hz[k]:.3g} Hz"
+    ratio = modes.damping_ratio[k]
+    return text if abs(ratio) < 1e-12 else f"{text}\ndamping ratio {ratio:.2g}"
+
+
+def _backbone(model: Model, q: Array) -> Array:
+    """Points (P, 3) of the backbone at q [m]."""
+    points = [np.zeros(3)]
+    for i in range(model.num_sections):
+        points += [model.pose(q, i, k / PIECES)[1] for k in range(1, PIECES + 1)]
+    return np.array(points)
+
+
+def _swings(modes: Modes, k: int, farthest: float) -> list[Array]:
+    """Backbones swung to both sides in mode k, the farthest point about `farthest` away [m]."""
+    model, shape = modes.model, modes.shape[:, k]
+    rest = _backbone(model, modes.q)
+    small = 1e-6 / np.max(np.abs(shape))
+    moved = _backbone(model, modes.q + small * shape) - rest
+    size = small * farthest / np.max(np.linalg.norm(moved, axis=1))
+    return [
+        _backbone(model, modes.q + side * phase * size * shape)
+        for side in (1.0, -1.0)
+        for phase in SWING
+    ]
