@@ -17,6 +17,9 @@ Row = dict[str, Any]
 # What the project wants of a row's p50, in the row's unit: at most this.
 TARGETS = {
     "forward_dynamics": 60.0,
+    "forward_dynamics, 3 sections": 1.5,
+    "forward_dynamics, 10 sections": 6.0,
+    "forward_dynamics, 20 sections over 10": 2.3,
     "Simulator.step": 300.0,
     "inverse kinematics, 3 sections": 200.0,
     "free oscillation, dopri5 rtol 1e-8": 0.6,
@@ -49,6 +52,17 @@ def judged(row: Row) -> Row:
     """Add the target, if the row has one, and whether it is met."""
     target = TARGETS.get(row["name"])
     return row if target is None else {**row, "target": target, "met": row["p50"] <= target}
+
+
+def ratios(rows: Iterable[Row]) -> list[Row]:
+    """How the time of one call grows with the number of sections, from the rows of one run."""
+    by = {row["name"]: row for row in rows}
+    found = []
+    for name in ("forward_dynamics", "inverse_dynamics"):
+        small, large = by[f"{name}, 10 sections"], by[f"{name}, 20 sections"]
+        new = make_row(f"{name}, 20 sections over 10", "1", [large["p50"] / small["p50"]])
+        found.append({**large, **new})
+    return found
 
 
 def append(path: Path, rows: Iterable[Row]) -> None:

@@ -14,14 +14,14 @@ from datetime import datetime, timezone
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rows import append, judged, table
+from rows import append, judged, ratios, table
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from rows import Row
 
-EXECUTABLES = ("dynamics", "step", "statics", "inverse_kinematics", "startup", "runs")
+EXECUTABLES = ("dynamics", "sections", "step", "statics", "inverse_kinematics", "startup", "runs")
 
 
 def say(text: str) -> None:
@@ -72,6 +72,7 @@ def main() -> None:
         "version": cdcr.__version__,
         "cpu": built["cpu"],
     }
+    rows += ratios(rows)
     say("Python")
     rows += [{**row, **about} for row in python_rows(quick, build / "bench_runs")]
     say("SciPy")

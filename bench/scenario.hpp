@@ -8,6 +8,31 @@ namespace cdcr::bench {
 
 inline constexpr double quarter_pi = 0.78539816339744831;
 
+/// The robot cdcr.robots.three_sections() of Python for n = 3: Nitinol, 2 mm, printed disks 36 mm
+/// wide, three cables a section; for other n as many sections like its first. Upright.
+inline Robot arm(Index n) {
+  Robot robot;
+  robot.gravity = {0.0, 0.0, -9.81};
+  for (Index i = 0; i < n; ++i) {
+    Section s;
+    const int shorter = n == 3 ? static_cast<int>(i) : 0;
+    s.num_disks = 6 - shorter;
+    s.length = 0.05 * s.num_disks;
+    s.backbone_diameter = 0.002;
+    s.backbone_mass = 6450.0 * quarter_pi * s.backbone_diameter * s.backbone_diameter * s.length;
+    s.youngs_modulus = 60e9;
+    s.disk_diameter = 0.036;
+    s.disk_mass = 1040.0 * quarter_pi * s.disk_diameter * s.disk_diameter * 0.002;
+    s.cable_radius = 0.015;
+    for (int k = 0; k < 3; ++k) {  // 120 degrees apart, each section turned by 40
+      s.cable_angles.push_back(quarter_pi * (8.0 * k / 3.0 + 8.0 * static_cast<double>(i) / 9.0));
+    }
+    s.damping = 1e-3;
+    robot.sections.push_back(s);
+  }
+  return robot;
+}
+
 /// A point of a run.
 struct State {
   VectorXd q, qd;

@@ -3,7 +3,7 @@
 // An element at fraction x has mass m, transverse inertia I and axial inertia 2 I. With
 // y = x theta its place is r = l x^2 A q + l x S z, its tangent t = x S q + cos(y) z, and it turns
 // at  omega = x z x qd + x^2 A c z + x^3 G c q,  c = (q x qd).z,  beside the section's base. Then
-// (cpp/README.md eqs. (26) to (28)), with ' = d/d(y^2):
+// (cpp/several-sections.md eqs. (26) to (28)), with ' = d/d(y^2):
 //   h0 = sum m l x S                       h1 = sum m l x^2 A
 //   c0 = sum 2 m l^2 x^2 A + I             c1 = sum -m l^2 x^4 A^2 + I x^2 S^2
 //   c2 = sum -m l^2 x^3 A S + I x S cos y  c3 = sum -m l^2 x^2 S^2 + I cos^2 y

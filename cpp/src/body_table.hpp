@@ -3,7 +3,7 @@
 #include "polynomial_table.hpp"
 
 // What one section of a chain knows about its own shape: every coefficient of its inertia, and of
-// the frames along an arc, as a function of sigma alone (cpp/README.md eqs. (26) to (29)).
+// the frames along an arc, as a function of sigma alone (cpp/several-sections.md eqs. (26) to (29)).
 
 namespace cdcr::detail {
 

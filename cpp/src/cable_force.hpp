@@ -4,7 +4,7 @@
 
 #include "cdcr/model.hpp"
 
-// Forces of cables, cpp/README.md eqs. (36) to (39), on any scalar.
+// Forces of cables, cpp/several-sections.md eqs. (36) to (39), on any scalar.
 
 namespace cdcr::detail {
 

@@ -6,7 +6,7 @@
 #include "body_table.hpp"
 
 // The robot of n sections as a chain of flexible bodies, each carried by the tip of the one before
-// (cpp/README.md eqs. (23) to (32)). Vectors are told in the base frame; the twist of a section is
+// (cpp/several-sections.md eqs. (23) to (32)). Vectors are told in the base frame; the twist of a section is
 // that of its base. Templates on the scalar: double for motion, a dual number for derivatives.
 
 namespace cdcr::detail {

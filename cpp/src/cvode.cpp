@@ -190,7 +190,7 @@ Status Cvode::begin(double t, const VectorXd& y, double t_stop) {
   state_ = y;
   const Status status = evaluate(time_, state_.data(), slope_);
   if (status != Status::ok) return status;
-  note_jump();
+  if (pulls_.size() > 0) note_jump();
   reinitialise();
   return Status::ok;
 }

@@ -13,7 +13,7 @@ import typer
 from rich.console import Console
 
 import cdcr
-from cdcr import _cli_audit, _cli_figures, _cli_new, _cli_run, _cli_tables
+from cdcr import _cli_audit, _cli_figures, _cli_info, _cli_new, _cli_run, _cli_tables
 
 if TYPE_CHECKING:
     from cdcr._simulate import MethodName
@@ -84,9 +84,12 @@ def info_command(
         str, typer.Argument(metavar="ROBOT|FILE.toml", help="A name from `cdcr list` or a file.")
     ],
 ) -> None:
-    """Show what a robot is made of: masses, stiffness, cables and its natural frequency."""
+    """Show what a robot is made of and how it is at rest.
+
+    Sections, cables, masses, natural frequencies, stiffness of the tip, largest stable step.
+    """
     with _told_plainly():
-        _cli_tables.print_robot(Console(), robot, _cli_run.find_robot(robot))
+        _cli_info.print_robot(Console(), robot, _cli_run.find_robot(robot))
 
 
 @app.command("run", short_help="Run a scenario; write picture and data; print a summary.")

@@ -24,7 +24,7 @@ def read_tension(
     if value and isinstance(value[0], dict):
         return _shapes(value, model, file)
     num_cables = model.num_cables
-    tension = [0.0] * num_cables if value is None else value
+    tension = model.rest_command() if value is None else value
     if len(tension) != num_cables:
         wanted = f"tension must have {count(num_cables, 'number')}, one for each cable"
         refuse(str(file), [f"{wanted}, got {shown_toml(value)}"])

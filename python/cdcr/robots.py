@@ -90,7 +90,7 @@ def three_sections(
 ) -> Robot:
     """Return a robot of three sections, an example design of this project.
 
-    Nobody built it. The backbone is a Nitinol wire of 2 mm (60 GPa, 6450 kg/m^3) and the disks are
+    Nobody built it. The backbone is a Nitinol rod of 2 mm (60 GPa, 6450 kg/m^3) and the disks are
     printed, 36 mm wide and 2 mm thick (1040 kg/m^3), one every 50 mm. Each section has three
     cables, turned by 40 degrees against those of the section before so that none meet.
 

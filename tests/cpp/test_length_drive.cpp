@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -29,7 +30,7 @@ constexpr double stiff_states = 1e-6;
 
 const std::vector<Method> every_method = {Method::rk4, Method::dopri5, Method::bdf, Method::adams};
 
-const char* label(Method method) {
+std::string label(Method method) {
   const char* const names[] = {"rk4", "dopri5", "bdf", "adams"};
   return names[static_cast<int>(method)];
 }
@@ -176,7 +177,6 @@ double next_turn(const Model& model, const TensionInput& input, double& t, Vecto
     return pulls_at(model, run, 1)[0];
   };
   VectorXd q_there, qd_there;
-  // A step away from the turn before, then on to the stretch that holds the next.
   double before = pull_after(pace, q_there, qd_there);
   while (true) {
     q = q_there;

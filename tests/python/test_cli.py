@@ -4,9 +4,7 @@ import re
 import subprocess
 import sys
 from pathlib import Path
-from typing import Any
 
-import numpy as np
 import pytest
 
 import cdcr
@@ -16,16 +14,9 @@ pytest.importorskip("matplotlib")
 pytest.importorskip("h5netcdf")
 
 
-from cdcr._cli_tables import straight_modes
 from command import cdcr_, everything_in, refused
 
 RUN_OPTIONS = ["--out", "--method", "--t-end", "--rtol", "--atol", "--overwrite", "--json"]
-SECTION: dict[str, Any] = {
-    "length": 0.8,
-    "backbone_mass": 0.03,
-    "backbone_diameter": 0.005,
-    "youngs_modulus": 9.5e9,
-}
 
 
 def python(code: str, folder: Path) -> subprocess.CompletedProcess[str]:
@@ -87,24 +78,6 @@ def test_info_of_what_does_not_exist(tmp_path: Path) -> None:
     assert refused(cdcr_("info", "x")) == f"there is no robot 'x'. Known: {known}"
     path = tmp_path / "x.toml"
     assert refused(cdcr_("info", path)) == f"there is no robot file {path}"
-
-
-def test_modes_of_the_straight_robot() -> None:
-    robot = cdcr.robots.amouri2020()
-    (mode,) = straight_modes(robot)
-    section, model = robot.sections[0], cdcr.Model(robot)
-    frequency = np.sqrt(section.stiffness / model.mass_matrix([0.0, 0.0])[0, 0])
-    assert mode.startswith(f"{frequency:.6g} rad/s = {frequency / (2 * np.pi):.6g} Hz, period ")
-
-
-def test_modes_that_do_not_vibrate() -> None:
-    overdamped = cdcr.robots.amouri2020(damping=1.0)
-    assert straight_modes(overdamped) == ["none: it creeps back without swinging"]
-    top_heavy = cdcr.robots.amouri2020(gravity=(0, 0, -9.81), payload=1.0)
-    assert straight_modes(top_heavy) == ["none: it does not stay straight"]
-    weightless = cdcr.Robot(sections=[cdcr.Section(**SECTION | {"backbone_mass": 0.0})])
-    (sentence,) = straight_modes(weightless)
-    assert sentence.startswith("the robot has no dynamics")
 
 
 @pytest.mark.parametrize(

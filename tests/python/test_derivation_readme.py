@@ -10,6 +10,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 CPP = ROOT / "cpp"
 README = (CPP / "README.md").read_text()
+SECTIONS = (CPP / "several-sections.md").read_text()
 ORIGIN = (ROOT / "docs" / "origin-paper.md").read_text()
 
 
@@ -18,8 +19,8 @@ def blocks(document: str, language: str) -> list[str]:
     return re.findall(rf"^```{language}\n(.*?)^```", document, re.MULTILINE | re.DOTALL)
 
 
-FORMULAS = "".join(blocks(README, "text"))
-EQUATIONS = [int(number) for number in re.findall(r"  \((\d+)\)$", FORMULAS, re.MULTILINE)]
+FORMULAS = "".join(blocks(README, "text") + blocks(SECTIONS, "text"))
+EQUATIONS = [int(number) for number in re.findall(r" \((\d+)\)$", FORMULAS, re.MULTILINE)]
 
 
 def sources() -> list[Path]:
@@ -45,7 +46,7 @@ def quoted(text: str) -> list[int]:
 
 
 def test_equations_are_numbered_in_order() -> None:
-    assert list(range(1, 23)) == EQUATIONS
+    assert list(range(1, 49)) == EQUATIONS
 
 
 def test_equations_quoted_by_the_sources_exist() -> None:
@@ -61,7 +62,7 @@ def test_every_public_header_is_listed(header: Path) -> None:
 
 
 def test_files_named_exist() -> None:
-    for name in re.findall(r"[`(]((?:[\w.-]+/)+[\w-]+\.\w+)[`)]", README):
+    for name in re.findall(r"[`(]((?:[\w.-]+/)+[\w-]+\.\w+)[`)]", README + SECTIONS):
         assert (ROOT / name).exists() or (CPP / name).exists(), name
     for name in re.findall(r"`(\w+\.cpp)`", ORIGIN):
         assert (CPP / "src" / name).exists(), name

@@ -180,3 +180,15 @@ def test_the_command_line_runs_a_file_with_several_sections(tmp_path: Path) -> N
     assert told["success"]
     assert {f"section_{k}_theta_max_deg" for k in (1, 2, 3)} <= set(told["findings"])
     assert [Path(name).suffix for name in told["files"]] == [".png", ".csv", ".nc"]
+
+
+def test_cables_driven_by_length_stay_as_they_are_without_a_command(tmp_path: Path) -> None:
+    (section,) = cdcr.robots.amouri2020(damping=1e-3).sections
+    robot = cdcr.Robot(sections=[replace(section, cable_stiffness=1e4)])
+    robot.save(tmp_path / "robot.toml")
+    text = 'robot = "robot.toml"\nt_end = 0.1\nnum_samples = 11\n'
+    scenario = load_scenario(written(tmp_path, text))
+    np.testing.assert_array_equal(scenario.tension, [section.length] * 3)
+    run = scenario.simulate()
+    assert np.all(run.q == 0.0)
+    assert np.all(run.tension == 0.0)

@@ -3,7 +3,7 @@
 #include "cdcr/model.hpp"
 #include "cdcr/types.hpp"
 
-// What cables do to the robot, cpp/README.md eqs. (6), (36) to (39).
+// What cables do to the robot, cpp/several-sections.md eqs. (36) to (39).
 //
 // command: one for each cable (num_cables): its tension [N] when it is driven by tension, its
 // length [m] when it is driven by length. All functions are real-time safe; sizes are the caller's

@@ -5,8 +5,8 @@
 #include "cdcr/types.hpp"
 #include "cdcr/wrench.hpp"
 
-// Equations of motion  M(q) qdd + h(q, qd) = Q,  cpp/README.md eqs. (8) to (16) for one section,
-// (23) to (34) for several: O(n), the mass matrix O(n^2).
+// Equations of motion  M(q) qdd + h(q, qd) = Q: cpp/README.md eqs. (8) to (16) for one section,
+// cpp/several-sections.md eqs. (23) to (34) for several, O(n), the mass matrix O(n^2).
 //
 // q, qd, qdd: bending vectors and their rates, base to tip (2n) [rad], [rad/s], [rad/s^2].
 // tension: one command for each cable (num_cables): its tension [N], or its length [m] where it is

@@ -5,7 +5,7 @@
 
 namespace cdcr {
 
-/// Small vibrations about a shape, cpp/README.md eqs. (44), (45).
+/// Small vibrations about a shape, cpp/several-sections.md eqs. (44), (45).
 struct Modes {
   VectorXd q;                    ///< the shape (2n) [rad]
   VectorXd squared_frequency;    ///< w^2, increasing (2n) [rad^2/s^2]; negative: falls away

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 __all__ = [
     "cable_colors",
     "cable_dashes",
+    "keep_span",
     "plot_phi",
     "plot_run",
     "plot_tension",
@@ -81,14 +82,14 @@ def plot_theta(axes: Axes, run: Trajectory) -> None:
     """Draw the bending angles [deg] over time."""
     _plot_lines(axes, run.t, np.rad2deg(run.theta), _numbered("section", run.model.num_sections))
     axes.set_ylabel(r"bending angle $\theta$ [deg]")
-    _keep_span(axes, MIN_ANGLE)
+    keep_span(axes, MIN_ANGLE)
 
 
 def plot_phi(axes: Axes, run: Trajectory) -> None:
     """Draw the orientation angles [deg] over time."""
     _plot_lines(axes, run.t, shown_phi(run), _numbered("section", run.model.num_sections))
     axes.set_ylabel(r"orientation $\varphi$ [deg]")
-    _keep_span(axes, MIN_ANGLE)
+    keep_span(axes, MIN_ANGLE)
 
 
 def shown_phi(run: Trajectory) -> NDArray[np.float64]:
@@ -144,7 +145,7 @@ def cable_dashes(model: Model) -> list[Any]:
 def _plot_tip(axes: Axes, run: Trajectory) -> None:
     _plot_lines(axes, run.t, run.tip, ["x", "y", "z"])
     axes.set_ylabel("tip position [m]")
-    _keep_span(axes, MIN_LENGTH)
+    keep_span(axes, MIN_LENGTH)
 
 
 def _plot_energy(axes: Axes, run: Trajectory) -> None:
@@ -154,13 +155,13 @@ def _plot_energy(axes: Axes, run: Trajectory) -> None:
     axes.plot(run.t, run.potential_energy, color=potential, label="potential", linestyle=DASHES[1])
     _legend(axes, 3)
     axes.set_ylabel("energy [J]")
-    _keep_span(axes, MIN_ENERGY)
+    keep_span(axes, MIN_ENERGY)
 
 
 def _plot_energy_error(axes: Axes, run: Trajectory) -> None:
     axes.plot(run.t, run.energy_error, color=BLACK)
     axes.set_ylabel("relative energy error [1]")
-    _keep_span(axes, MIN_ERROR)
+    keep_span(axes, MIN_ERROR)
 
 
 def _plot_lines(
@@ -196,7 +197,7 @@ def _legend(axes: Axes, count: int) -> None:
     )
 
 
-def _keep_span(axes: Axes, smallest: float) -> None:
+def keep_span(axes: Axes, smallest: float) -> None:
     """Widen the y limits evenly where they are closer than `smallest`."""
     low, high = axes.get_ylim()
     missing = smallest - (high - low)

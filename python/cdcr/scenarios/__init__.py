@@ -32,6 +32,9 @@ _ORDER = (
     "three-sections",
     "hanging-arm",
     "payload-drop",
+    "pull-release",
+    "length-drive",
+    "subdivision",
 )
 
 

@@ -63,13 +63,13 @@ def energy_gap(run: Trajectory) -> float:
 def fine_run(scenario: Scenario, run: Trajectory) -> Trajectory:
     """Return a run under constant tensions again, sampled for its energy balance."""
     start, end = run.t[0], run.t[-1]
-    jump = np.arange(start, min(start + JUMP, end), JUMP_STEP)
-    rest = np.arange(start + JUMP, end, STEP)
+    jump = np.arange(start, start + JUMP - JUMP_STEP / 2.0, JUMP_STEP)
+    t = np.concatenate([jump, np.arange(start + JUMP, end, STEP)])
     return simulate(
         run.model,
         run.q[0],
         run.qd[0],
-        t=np.concatenate([jump, rest, [end]]),
+        t=np.append(t[t < end - JUMP_STEP / 2.0], end),
         tension=run.tension[0],
         method=scenario.method,
         rtol=scenario.rtol,

@@ -30,7 +30,13 @@ def length_drive_figure(title: str, run: Trajectory) -> StyledFigure:
         figure.set_size_inches(*SIZE)
         _draw_robot(figure, run)
         grid = figure.add_gridspec(
-            3, 1, left=0.56, right=0.955, bottom=0.075, top=0.91, hspace=0.3,
+            3,
+            1,
+            left=0.56,
+            right=0.955,
+            bottom=0.075,
+            top=0.91,
+            hspace=0.3,
             height_ratios=[1.2, 1.0, 1.6],
         )
         theta, error, tension = (figure.add_subplot(grid[row]) for row in range(3))
@@ -119,7 +125,14 @@ def _draw_tensions(axes: Axes, run: Trajectory) -> None:
     axes.spines["left"].set_visible(False)
     axes.tick_params(axis="y", length=0)
     note(axes, "grey: slack")
-    axes.plot([1.012] * 2, [0.0, 0.85], color=BLACK, linewidth=1.2, clip_on=False,
-              transform=axes.get_yaxis_transform())
-    axes.text(1.02, 0.42, f"{top:.1f} N", transform=axes.get_yaxis_transform(), va="center",
-              fontsize=9.5)
+    axes.plot(
+        [1.012] * 2,
+        [0.0, 0.85],
+        color=BLACK,
+        linewidth=1.2,
+        clip_on=False,
+        transform=axes.get_yaxis_transform(),
+    )
+    axes.text(
+        1.02, 0.42, f"{top:.1f} N", transform=axes.get_yaxis_transform(), va="center", fontsize=9.5
+    )

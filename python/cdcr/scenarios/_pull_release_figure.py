@@ -34,7 +34,7 @@ def pull_release_figure(title: str, run: Trajectory) -> StyledFigure:
     smooth = frictionless(float(run.t[-1]))
     with style():
         figure = new_figure(title, (12.4, 7.4))
-        left, right = figure.subfigures(1, 2, width_ratios=[1.0, 1.05])
+        left, right = figure.subfigures(1, 2, squeeze=False, width_ratios=[1.0, 1.05])[0]
         loop, work = left.subplots(2, 1)
         tension, power = right.subplots(2, 1, height_ratios=[1.35, 1.0])
         _draw_loop(loop, run, smooth)

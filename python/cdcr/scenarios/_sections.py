@@ -25,7 +25,7 @@ HANGING: Rotation = ((1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, -1.0))
 HORIZONTAL: Rotation = ((0.0, 0.0, 1.0), (0.0, -1.0, 0.0), (1.0, 0.0, 0.0))
 
 SETTLED = 0.02  # share of the first distance
-SHOWN_RUNS = 3  # of which the quickest tells the speed
+TIMED_RUNS = 3  # of which the quickest tells the speed
 
 
 def holding(model: Model, q: Array) -> Array:
@@ -76,7 +76,7 @@ def release_findings(scenario: Scenario, run: Trajectory, rest: Array) -> tuple[
 def speed_findings(scenario: Scenario, run: Trajectory) -> tuple[Finding, ...]:
     """Return how much faster than real time the run is computed, on this machine now."""
     needed = []
-    for _ in range(SHOWN_RUNS):
+    for _ in range(TIMED_RUNS):
         start = time.perf_counter()
         scenario.simulate(t_end=float(run.t[-1]), num_samples=len(run))
         needed.append(time.perf_counter() - start)

@@ -158,6 +158,7 @@ def _draw_bending(axes: Axes, run: Trajectory, component: int) -> None:
     for i, color in enumerate(section_colors(run.model)):
         column = 2 * i + component
         axes.plot(run.t, np.rad2deg(run.q[:, column]), color=color, label=f"section {i + 1}")
+    panels.keep_span(axes, panels.MIN_ANGLE)
 
 
 def _draw_goals(axes: Axes, run: Trajectory, component: int) -> None:

@@ -103,7 +103,7 @@ def _draw_convergence(axes: Axes) -> None:
 
 def _draw_responses(axes: Axes) -> None:
     runs = responses()
-    for (parts, run), color in zip(runs.items(), (*COLORS[1:SHOWN + 1], BLACK), strict=True):
+    for (parts, run), color in zip(runs.items(), (*COLORS[1 : SHOWN + 1], BLACK), strict=True):
         dashes = "--" if parts == STEPS[-1] else "-"
         label = f"{parts} part{'s' if parts > 1 else ''}"
         axes.plot(run.t, 1e3 * run.tip[:, 0], color=color, linestyle=dashes, label=label)

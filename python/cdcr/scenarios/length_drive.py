@@ -112,9 +112,7 @@ def _tell(scenario: Scenario, run: Trajectory) -> tuple[Finding, ...]:
                 "deg",
             ),
             Finding(f"{key}tip_held_mm", f"{name}tip from wanted, held", 1e3 * float(tips), "mm"),
-            Finding(
-                f"{key}tension_max_N", f"{name}largest tension", float(one.tension.max()), "N"
-            ),
+            Finding(f"{key}tension_max_N", f"{name}largest tension", float(one.tension.max()), "N"),
             Finding(f"{key}slack", f"{name}times that a cable turns slack", float(events), ""),
         ]
     gained, given, taken = balance(run)

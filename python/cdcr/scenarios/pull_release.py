@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from cdcr._model import Model
 from cdcr._robot import Robot
 from cdcr._simulate import TensionTable
 from cdcr._trajectory import Trajectory
@@ -31,7 +30,7 @@ FULL = 15.0  # largest tension of cable 1 [N]
 RAMP = 20.0  # time to pull, and to release [s]
 CYCLES = 2
 END = 2 * RAMP * CYCLES  # [s]
-ROWS = 40  # of the table of tensions, in each ramp
+ROWS = 200  # of the table of tensions, in each ramp
 SLIDES = 0.95  # share of the friction at full sliding from which a cable counts as sliding
 
 

@@ -94,9 +94,7 @@ def _tell(scenario: Scenario, run: None) -> tuple[Finding, ...]:
             percent = 100.0 * float(excess(parts)[mode])
             label = f"{name}: too high with {parts} part{'s' if parts > 1 else ''}"
             found.append(Finding(f"excess_{mode + 1}_of_{parts}", label, percent, "%"))
-        found.append(
-            Finding(f"order_{mode + 1}", f"{name}: order of convergence", order(mode), "")
-        )
+        found.append(Finding(f"order_{mode + 1}", f"{name}: order of convergence", order(mode), ""))
     finest = responses()[STEPS[-1]]
     for parts, other in responses().items():
         away = 1e3 * float(np.max(np.abs(other.tip - finest.tip)))

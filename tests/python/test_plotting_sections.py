@@ -1,0 +1,117 @@
+"""Pictures of robots of several sections: colours tell sections, kinds of line tell cables."""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+import cdcr
+
+pytest.importorskip("matplotlib")
+
+from cdcr.plotting import panels, plot_robot, space
+from cdcr.plotting.animation import draw_frames
+from cdcr.plotting.geometry import PIECES, robot_shape
+from cdcr.plotting.robot3d import section_colors
+from cdcr.plotting.style import COLORS, StyledFigure
+
+ROUNDING = 1e-14  # sums of a few products of numbers below 1
+
+
+@pytest.fixture(scope="module")
+def run() -> cdcr.Trajectory:
+    model = cdcr.Model(cdcr.robots.three_sections(damping=5e-3))
+    tension = [1.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 3.0]
+    start = np.zeros(6)
+    return cdcr.simulate(model, start, start, t=np.linspace(0.0, 1.0, 51), tension=tension)
+
+
+def test_the_backbone_is_that_of_its_sections(run: cdcr.Trajectory) -> None:
+    shape = robot_shape(run.model, run.q[-1])
+    assert [len(one) for one in shape.sections] == [PIECES + 1] * 3
+    for i, section in enumerate(shape.sections):
+        for fraction, point in ((0.0, section[0]), (0.5, section[PIECES // 2]), (1.0, section[-1])):
+            expected = run.model.pose(run.q[-1], i, fraction)[1]
+            np.testing.assert_allclose(point, expected, atol=ROUNDING)
+
+
+def test_one_colour_for_a_section_and_its_cables(run: cdcr.Trajectory) -> None:
+    axes = plot_robot(run.model, run.q[-1])
+    backbones, cables = axes.lines[:3], axes.lines[3:12]
+    assert [line.get_color() for line in backbones] == list(COLORS[:3])
+    assert [line.get_label() for line in backbones] == ["section 1", "section 2", "section 3"]
+    assert [line.get_color() for line in cables] == [COLORS[j // 3] for j in range(9)]
+    theta, _, tension = run.plot().axes[:3]
+    assert [line.get_color() for line in theta.lines] == list(COLORS[:3])
+    assert [line.get_color() for line in tension.lines] == [COLORS[j // 3] for j in range(9)]
+    legend = tension.get_legend()
+    assert legend is not None
+    names = [text.get_text() for text in legend.get_texts()]
+    assert names == ["cable 1", *"23456789"]
+
+
+def test_cables_that_end_together_differ(run: cdcr.Trajectory) -> None:
+    dashes = panels.cable_dashes(run.model)
+    assert len(set(map(str, dashes[:3]))) == 3
+    assert dashes[:3] == dashes[3:6] == dashes[6:]
+
+
+def test_one_section_keeps_a_colour_for_each_cable() -> None:
+    model = cdcr.Model(cdcr.robots.amouri2020())
+    assert panels.cable_colors(model) == list(COLORS[:3])
+    assert len(section_colors(model)) == 1
+
+
+def test_phi_is_shown_only_where_there_is_one(run: cdcr.Trajectory) -> None:
+    phi = panels.shown_phi(run)
+    seen = np.isfinite(phi)
+    assert np.nanmin(phi) >= -180.0
+    assert np.nanmax(phi) <= 180.0
+    assert not np.any(seen[0])  # straight
+    assert np.all(np.abs(run.theta)[seen] >= panels.STRAIGHT * np.abs(run.theta).max())
+    off = phi - np.rad2deg(run.phi)
+    np.testing.assert_allclose(off[seen] / 360.0, np.rint(off[seen] / 360.0), atol=1e-12)
+
+
+def test_times_and_sections_are_named_apart(run: cdcr.Trajectory) -> None:
+    axes = run.plot_robot(times=[0.0, 0.5, 1.0])
+    _, labels = axes.get_legend_handles_labels()
+    assert labels == [
+        "path of the tip",
+        "0 s",
+        "0.5 s",
+        "1 s",
+        "section 1",
+        "section 2",
+        "section 3",
+    ]
+
+
+def test_frames_of_a_film_move_every_section(run: cdcr.Trajectory) -> None:
+    first, last = draw_frames(run, np.array([0.0, 1.0]))
+    assert first.shape == last.shape
+    assert np.any(first != last)
+    np.testing.assert_array_equal(next(iter(draw_frames(run, np.array([0.0])))).shape, first.shape)
+
+
+def test_a_robot_of_many_parts_is_drawn() -> None:
+    model = cdcr.Model(cdcr.robots.three_sections().subdivide(3))
+    axes = plot_robot(model, np.full(18, 0.1))
+    colors = [tuple(np.ravel(line.get_color())) for line in axes.lines[:9]]
+    assert len(set(colors)) == 9
+
+
+def test_directions_on_paper_are_orthonormal() -> None:
+    axes: Any = space.add_axes(StyledFigure())
+    R = np.vstack([space.paper_directions(axes), space.towards_viewer(axes)])
+    np.testing.assert_allclose(R @ R.T, np.eye(3), atol=ROUNDING)
+    assert np.linalg.det(R) == pytest.approx(1.0, rel=ROUNDING)
+    assert R[1, 2] > 0.0  # z points upwards
+
+
+def test_base_orientation_turns_the_picture(run: cdcr.Trajectory) -> None:
+    R = ((1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, -1.0))
+    turned = cdcr.Model(replace(run.model.robot, base_orientation=R))
+    up, down = (robot_shape(model, run.q[-1]) for model in (run.model, turned))
+    np.testing.assert_allclose(down.points, up.points @ np.array(R).T, atol=ROUNDING)
