@@ -21,6 +21,7 @@ TARGETS = {
     "forward_dynamics, 10 sections": 6.0,
     "forward_dynamics, 20 sections over 10": 2.3,
     "Simulator.step": 300.0,
+    "equilibrium, two sections, gravity, each draw": 50.0,
     "inverse kinematics, 3 sections": 200.0,
     "free oscillation, dopri5 rtol 1e-8": 0.6,
     "free oscillation, adams rtol 1e-8": 3.0,

@@ -1,7 +1,7 @@
 #include "cdcr/dynamics.hpp"
 
 #include "chain_functions.hpp"
-#include "chain_inverse.hpp"
+#include "chain_statics.hpp"
 #include "closed_form.hpp"
 #include "dual.hpp"
 
@@ -73,7 +73,7 @@ double potential_energy(const Model& model, Data& /*data*/, const ConstVectorRef
 void potential_gradient(const Model& model, Data& /*data*/, const ConstVectorRef& q,
                         VectorRef gradient) noexcept {
   if (model.has_closed_form()) return closed_form::potential_gradient(model, q, gradient);
-  detail::inverse_motion(model.chain(), q.data(), nullptr, nullptr, gradient.data());
+  detail::potential_gradient(model.chain(), q.data(), gradient.data());
 }
 
 void potential_hessian(const Model& model, Data& /*data*/, const ConstVectorRef& q,
@@ -81,7 +81,7 @@ void potential_hessian(const Model& model, Data& /*data*/, const ConstVectorRef&
   if (model.has_closed_form()) return closed_form::potential_hessian(model, q, H);
   const auto m = static_cast<int>(model.num_coordinates());
   detail::differentiate(m, m, q.data(), H, [&model](const detail::Dual* x, detail::Dual* y) {
-    detail::inverse_dynamics<detail::Dual>(model.chain(), x, nullptr, nullptr, y);
+    detail::potential_gradient(model.chain(), x, y);
   });
 }
 

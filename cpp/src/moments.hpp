@@ -14,7 +14,7 @@ class Moments {
   /// sum m x^p, `tip` being a mass at x = 1.
   static Moments of_mass(const Section& s, long double tip) {
     Moments moments(s.backbone_mass, tip);
-    for (const Disk& disk : s.disks()) moments.add(disk.position, disk.mass);
+    moments.add_disks(s, [](const Disk& disk) -> long double { return disk.mass; });
     return moments;
   }
 
@@ -22,10 +22,9 @@ class Moments {
   static Moments of_inertia(const Section& s) {
     const long double d = s.backbone_diameter;
     Moments moments(s.backbone_mass * d * d / 16.0L, 0.0L);
-    for (const Disk& disk : s.disks()) {
-      moments.add(disk.position, static_cast<long double>(disk.mass) * disk.diameter *
-                                     disk.diameter / 16.0L);
-    }
+    moments.add_disks(s, [](const Disk& disk) {
+      return static_cast<long double>(disk.mass) * disk.diameter * disk.diameter / 16.0L;
+    });
     return moments;
   }
 
@@ -34,6 +33,15 @@ class Moments {
  private:
   Moments(long double rod, long double tip) {
     for (int p = 0; p < 2 * num_terms + 8; ++p) sums_.push_back(rod / (p + 1) + tip);
+  }
+  template <class Weight>
+  void add_disks(const Section& s, Weight&& weight) {
+    const std::vector<Disk> disks = s.disks();
+    for (std::size_t k = 0; k < disks.size(); ++k) {
+      // Of equally spaced disks k/N is known better than to double precision.
+      const long double spaced = static_cast<long double>(k + 1) / disks.size();
+      add(s.disk_positions.empty() ? spaced : disks[k].position, weight(disks[k]));
+    }
   }
   void add(long double x, long double weight) {
     for (long double& sum : sums_) {

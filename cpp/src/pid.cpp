@@ -3,6 +3,7 @@
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
+#include <string>
 
 #include "cdcr/dynamics.hpp"
 #include "cdcr/plant.hpp"
@@ -24,6 +25,14 @@ void check(const PidOptions& o) {
   require(o.period > 0.0 && std::isfinite(o.period), "period", o.period, "> 0 s");
 }
 
+void require_tension_drive(const Model& model) {
+  for (std::size_t j = 0; j < model.cables().size(); ++j) {
+    if (!model.cables()[j].length_driven()) continue;
+    throw std::invalid_argument("a Pid drives cables by tension, but cable " + std::to_string(j) +
+                                " of the robot is driven by length (its stiffness is not 0)");
+  }
+}
+
 }  // namespace
 
 Pid::Pid(const Model& model, PidOptions options)
@@ -33,6 +42,7 @@ Pid::Pid(const Model& model, PidOptions options)
       allocator_(model, options_.limits),
       reference_(VectorXd::Zero(model.num_coordinates())) {
   check(options_);
+  require_tension_drive(model_);
   hold_ = integral_ = force_ = reference_;
   set_reference(reference_);
 }

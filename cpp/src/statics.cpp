@@ -28,7 +28,7 @@ constexpr double stalled = 1e3;
 // Load steps: the first, and the one below which the robot may snap to another shape.
 constexpr double first_load_step = 0.25, snap_load_step = 1e-3;
 constexpr int max_load_steps = 400;
-constexpr int max_searches = 12;
+constexpr int max_searches = 64;
 
 double largest_bending(const VectorXd& q) {
   double largest = 0.0;
@@ -63,8 +63,10 @@ class Search {
       if (longest > longest_step) step *= longest_step / longest;
       if (!move(q, step, merit)) break;
     }
-    // A search stalled by rounding has converged as far as the arithmetic allows.
-    return size(r_) <= stalled * balance_.noise(q);
+    // A search stalled by rounding has converged as far as the arithmetic allows; loads that
+    // overflow when squared have no scale to tell.
+    const double noise = balance_.noise(q);
+    return std::isfinite(noise) && size(r_) <= stalled * noise;
   }
 
   [[nodiscard]] int iterations() const { return iterations_; }
@@ -172,8 +174,9 @@ bool search_elsewhere(Search& search, VectorXd& q, int& searches) {
   std::mt19937 engine(1);  // its numbers are the same everywhere
   while (searches < max_searches) {
     ++searches;
+    const double width = searches % 2 == 0 ? 3.0 : 8.0;  // [rad]
     for (double& component : q) {
-      component = 3.0 * (static_cast<double>(engine()) / 4294967296.0 - 0.5);
+      component = width * (static_cast<double>(engine()) / 4294967296.0 - 0.5);
     }
     if (search.run(q)) return true;
   }

@@ -23,6 +23,7 @@ from cdcr._modes import Modes
 from cdcr._reference import Reference
 from cdcr._robot import Cable, Robot, Section
 from cdcr._simulate import TensionTable, simulate
+from cdcr._stability import stable_step
 from cdcr._subdivide import merge_state, subdivide_state
 from cdcr._trajectory import SlackEvent, Trajectory
 from cdcr._wrench import Wrench
@@ -60,6 +61,7 @@ __all__ = [
     "robots",
     "scenarios",
     "simulate",
+    "stable_step",
     "subdivide_state",
     "taylor_range",
 ]

@@ -262,7 +262,7 @@ class Model(metaclass=_Bound):
         """Generalised force (2n,) [N m] of the cables, friction included."""
 
     def friction_power(self, q: ArrayLike, qd: ArrayLike, tension: ArrayLike) -> float:
-        """What friction of the cables turns into heat [W], never negative."""
+        """Heat that friction of the cables makes [W], never negative."""
 
     def cable_energy(self, q: ArrayLike, tension: ArrayLike) -> float:
         """Energy in the springs of cables driven by length [J]."""

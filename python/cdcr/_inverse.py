@@ -215,6 +215,12 @@ def _check(model: Model, reference: Reference, infeasible: str) -> None:
         raise ValueError(
             f"reference.q must have shape {wanted} for this model, got {reference.q.shape}"
         )
+    for j, cable in enumerate(model.robot.all_cables):
+        if cable.stiffness > 0.0:
+            raise ValueError(
+                f"inverse_run gives tensions, but cable {j} is driven by length; "
+                "model.commands(q, tension) gives the lengths that hold tensions"
+            )
     angles = np.hypot(reference.q[:, 0::2], reference.q[:, 1::2])
     beyond = np.argwhere(angles > _core.max_bending)
     if beyond.size:

@@ -52,8 +52,7 @@ def stable_step(
     Examples
     --------
     >>> import cdcr
-    >>> from cdcr._stability import stable_step
-    >>> print(f"{stable_step(cdcr.Model(cdcr.robots.amouri2020())):.4f} s")
+    >>> print(f"{cdcr.stable_step(cdcr.Model(cdcr.robots.amouri2020())):.4f} s")
     0.3109 s
     """
     if method != "rk4":

@@ -222,8 +222,8 @@ def test_no_equilibrium_within_the_bending_limit() -> None:
 
 
 NO_INERTIA = (
-    "the robot has no inertia, so it has no dynamics: give sections[0] a backbone_mass or disks "
-    "with a disk_mass, or the robot a payload"
+    "the robot has no dynamics, because sections[0] can bend without moving any mass: give it a "
+    "backbone_mass or disks with a disk_mass, or the robot a payload"
 )
 
 

@@ -125,5 +125,8 @@ def test_a_bad_robot_or_formulation_is_refused() -> None:
         cdcr.Model(cdcr.robots.amouri2020(), formulation="fast")
     robot = cdcr.robots.amouri2020()
     two = replace(robot, sections=robot.sections * 2)
-    with refuses("Model takes a robot of exactly one section for now, got 2 sections"):
-        cdcr.Model(two)
+    with refuses(
+        "formulation must be exact for this robot, got taylor: the paper's inertia is that of one "
+        "section with equal, equally spaced disks, and nothing but a point on its tip"
+    ):
+        cdcr.Model(two, formulation="taylor")

@@ -125,6 +125,7 @@ def test_arrays_that_do_not_fit_are_refused(free_run: cdcr.Trajectory) -> None:
         dataclasses.replace(free_run, qd=free_run.qd[:-1])
     with pytest.raises(ValueError, match=r"^tension must have shape \(401, 3\), got \(401, 2\)$"):
         dataclasses.replace(free_run, tension=free_run.tension[:, :2])
-    nothing = {name: getattr(free_run, name)[:0] for name in ("t", "q", "qd", "tension")}
+    names = ("t", "q", "qd", "tension", "command")
+    nothing = {name: getattr(free_run, name)[:0] for name in names}
     with pytest.raises(ValueError, match=r"^a run must have at least one sample, got none\. "):
         dataclasses.replace(free_run, **nothing)
