@@ -138,15 +138,15 @@ void bind_simulate(py::module_& m) {
                              [](const Trajectory& self) { return to_rows(self.tension); })
       .def_property_readonly("command",
                              [](const Trajectory& self) { return to_rows(self.command); })
-      .def_property_readonly("slack_events",
-                             [](const Trajectory& self) {
-                               py::list events;
-                               for (const SlackEvent& event : self.slack_events) {
-                                 events.append(
-                                     py::make_tuple(event.time, event.cable, event.slack));
-                               }
-                               return events;
-                             })
+      .def_property_readonly(
+          "slack_events",
+          [](const Trajectory& self) {
+            py::list events;
+            for (const SlackEvent& event : self.slack_events) {
+              events.append(py::make_tuple(event.time, event.cable, event.slack));
+            }
+            return events;
+          })
       .def_readonly("status", &Trajectory::status)
       .def_readonly("message", &Trajectory::message)
       .def_readonly("stats", &Trajectory::stats);

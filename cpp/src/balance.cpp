@@ -149,7 +149,7 @@ void static_stiffness(const Model& model, const ConstVectorRef& q, const ConstVe
   for (Index j = 0; j < model.num_cables(); ++j) {
     const Cable& cable = model.cables()[static_cast<std::size_t>(j)];
     if (!cable.length_driven() || !(detail::stretch(model, j, q, command[j]) > 0.0)) continue;
-    const Index rows = 2 * (cable.end_section + 1);
+    const Index rows = 2 * (Index{cable.end_section} + 1);
     for (Index k = 0; k < rows; ++k) {
       K.col(k).head(rows) += B.col(j).head(rows) * (cable.stiffness * B(k, j));
     }

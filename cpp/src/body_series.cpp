@@ -49,7 +49,9 @@ Series operator*(long double factor, Series f) {
   return f;
 }
 
-Series operator-(const Series& f, const Series& g) { return f + (-1.0L) * g; }
+Series operator-(const Series& f, const Series& g) {
+  return f + (-1.0L) * g;
+}
 
 Series times_argument(Series f) {
   f.insert(f.begin(), 0.0L);
@@ -95,26 +97,26 @@ std::vector<Series> body_series(const Section& section) {
   const SectionSeries alone = exact_series(section, 0.0);
   f[in_a] = alone.a;
   f[in_b] = alone.b;
-  const int derivatives[][2] = {
-      {dh0, h0}, {dh1, h1}, {ddh0, dh0}, {ddh1, dh1}, {dc0, c0}, {dc1, c1}, {dc2, c2}, {dc3, c3},
-      {dk0, k0}, {dk1, k1}, {dk2, k2}, {dk3, k3}, {d_a, in_a}, {d_b, in_b}};
+  const int derivatives[][2] = {{dh0, h0}, {dh1, h1}, {ddh0, dh0}, {ddh1, dh1}, {dc0, c0},
+                                {dc1, c1}, {dc2, c2}, {dc3, c3},   {dk0, k0},   {dk1, k1},
+                                {dk2, k2}, {dk3, k3}, {d_a, in_a}, {d_b, in_b}};
   for (const auto& [to, from] : derivatives) f[to] = derivative(f[from]);
-  f[C1] = 3.0L * f[k1] - 2.0L * f[dk0] + 2.0L * times_argument(f[dk1]) - f[k3];
-  f[C0] = 2.0L * f[k2] + 2.0L * times_argument(f[dk2]);
+  f[spin_q] = 3.0L * f[k1] - 2.0L * f[dk0] + 2.0L * times_argument(f[dk1]) - f[k3];
+  f[spin_z] = 2.0L * f[k2] + 2.0L * times_argument(f[dk2]);
   return f;
 }
 
 const ArcTable& arc_table() {
   static const ArcTable table = [] {
     std::vector<Series> f(num_arc_functions);
-    f[arc_S] = even_function(1);
-    f[arc_A] = even_function(2);
-    f[arc_G] = even_function(3);
-    f[arc_dA] = derivative(f[arc_A]);
-    f[arc_dS] = derivative(f[arc_S]);
-    f[arc_dG] = derivative(f[arc_G]);
-    f[arc_ddA] = derivative(f[arc_dA]);
-    f[arc_ddS] = derivative(f[arc_dS]);
+    f[arc_s] = even_function(1);
+    f[arc_a] = even_function(2);
+    f[arc_g] = even_function(3);
+    f[arc_da] = derivative(f[arc_a]);
+    f[arc_ds] = derivative(f[arc_s]);
+    f[arc_dg] = derivative(f[arc_g]);
+    f[arc_dda] = derivative(f[arc_da]);
+    f[arc_dds] = derivative(f[arc_ds]);
     return ArcTable(f);
   }();
   return table;

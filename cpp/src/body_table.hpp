@@ -3,24 +3,29 @@
 #include "polynomial_table.hpp"
 
 // What one section of a chain knows about its own shape: every coefficient of its inertia, and of
-// the frames along an arc, as a function of sigma alone (cpp/several-sections.md eqs. (26) to (29)).
+// the frames along an arc, as a function of sigma alone (cpp/several-sections.md eqs. (26) to
+// (29)).
 
 namespace cdcr::detail {
 
 /// Places of a section's functions in its table; d stands for d/d sigma.
 enum ShapeFunction : int {
+  // clang-format off
   h0, h1, dh0, dh1, ddh0, ddh1,        // first moment h1 q + h0 z
   c0, c1, c2, c3, dc0, dc1, dc2, dc3,  // second moment
   k0, k1, k2, k3, dk0, dk1, dk2, dk3,  // angular momentum of bending
   in_a, in_b, d_a, d_b,                // a 1 + b q q^T
-  C1, C0,                              // gyroscopic vector C1 q + C0 z
+  spin_q, spin_z,                      // gyroscopic vector C1 q + C0 z
   num_shape_functions
+  // clang-format on
 };
 
 /// A, S, G of y^2 and their derivatives: the same for every section.
 enum ArcFunction : int {
-  arc_A, arc_S, arc_G, arc_dA, arc_dS, arc_dG, arc_ddA, arc_ddS,
+  // clang-format off
+  arc_a, arc_s, arc_g, arc_da, arc_ds, arc_dg, arc_dda, arc_dds,
   num_arc_functions
+  // clang-format on
 };
 
 template <class S>

@@ -57,11 +57,11 @@ template <class S>
 }
 
 template <class S>
-[[nodiscard]] const S& larger(const S& a, const S& b) {
+[[nodiscard]] S larger(const S& a, const S& b) {
   return a < b ? b : a;
 }
 template <class S>
-[[nodiscard]] const S& smaller(const S& a, const S& b) {
+[[nodiscard]] S smaller(const S& a, const S& b) {
   return b < a ? b : a;
 }
 

@@ -28,7 +28,8 @@ Chain::Chain(const Robot& robot)
   for (const Section& s : robot.sections) {
     double mass = s.backbone_mass;
     for (const Disk& disk : s.disks()) mass += disk.mass;
-    bodies.push_back({BodyTable(body_series(s)), &arc_table(), s.length, mass, s.stiffness(), s.damping});
+    bodies.push_back(
+        {BodyTable(body_series(s)), &arc_table(), s.length, mass, s.stiffness(), s.damping});
   }
 }
 
@@ -43,15 +44,15 @@ void inverse_motion(const Chain& chain, const double* q, const double* qd, const
 }
 
 void mass_matrix(const Chain& chain, const double* q, MatrixRef M) noexcept {
-  const int n = static_cast<int>(chain.bodies.size());
+  const auto n = static_cast<Index>(chain.bodies.size());
   Link<double> links[max_sections];
   Mount<double> mount = root_of<double>(chain);
-  for (int i = 0; i < n; ++i) {
+  for (Index i = 0; i < n; ++i) {
     links[i].place(chain.bodies[i], mount, q[2 * i], q[2 * i + 1]);
     mount = links[i].tip();
   }
   Articulated<double> beyond = articulated_payload(chain.payload, mount);
-  for (int i = n - 1; i >= 0; --i) {
+  for (Index i = n - 1; i >= 0; --i) {
     const Link<double>& link = links[i];
     // What moves beyond this tip as one piece, and what it takes to move it with q.
     Matrix32<double> F = beyond.G.transpose() * link.W + beyond.M * link.D;
@@ -64,7 +65,7 @@ void mass_matrix(const Chain& chain, const double* q, MatrixRef M) noexcept {
     for (int k = 0; k < 2; ++k) T.col(k) += link.r.cross(F.col(k));
     F += link.linear_coupling();
     T += link.angular_coupling();
-    for (int j = i - 1; j >= 0; --j) {
+    for (Index j = i - 1; j >= 0; --j) {
       const Link<double>& before = links[j];
       M.block<2, 2>(2 * j, 2 * i) = before.W.transpose() * T + before.D.transpose() * F;
       M.block<2, 2>(2 * i, 2 * j) = M.block<2, 2>(2 * j, 2 * i).transpose();
@@ -75,13 +76,13 @@ void mass_matrix(const Chain& chain, const double* q, MatrixRef M) noexcept {
   }
 }
 
-int find_singular_section(const Chain& chain) {
-  const auto n = static_cast<int>(chain.bodies.size());
+Index find_singular_section(const Chain& chain) {
+  const auto n = static_cast<Index>(chain.bodies.size());
   const VectorXd straight = VectorXd::Zero(2 * n);
   MatrixXd M(2 * n, 2 * n);
   mass_matrix(chain, straight.data(), M);
   const VectorXd whole = M.diagonal();
-  for (int i = n - 1; i >= 0; --i) {  // eliminates the sections from tip to base
+  for (Index i = n - 1; i >= 0; --i) {  // eliminates the sections from tip to base
     const Eigen::Matrix2d D = M.block<2, 2>(2 * i, 2 * i);
     const double smallest = 0.5 * D.trace() - std::hypot(0.5 * (D(0, 0) - D(1, 1)), D(0, 1));
     if (!(smallest > singular_share * whole.segment<2>(2 * i).maxCoeff())) return i;
@@ -92,11 +93,11 @@ int find_singular_section(const Chain& chain) {
 }
 
 double kinetic_energy(const Chain& chain, const double* q, const double* qd) noexcept {
-  const int n = static_cast<int>(chain.bodies.size());
+  const auto n = static_cast<Index>(chain.bodies.size());
   Mount<double> mount = root_of<double>(chain);
   Vector3d v = Vector3d::Zero();
   double twice = 0.0;
-  for (int i = 0; i < n; ++i) {
+  for (Index i = 0; i < n; ++i) {
     Link<double> link;
     link.place(chain.bodies[i], mount, q[2 * i], q[2 * i + 1]);
     link.qd_x = qd[2 * i];

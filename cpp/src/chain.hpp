@@ -6,8 +6,9 @@
 #include "body_table.hpp"
 
 // The robot of n sections as a chain of flexible bodies, each carried by the tip of the one before
-// (cpp/several-sections.md eqs. (23) to (32)). Vectors are told in the base frame; the twist of a section is
-// that of its base. Templates on the scalar: double for motion, a dual number for derivatives.
+// (cpp/several-sections.md eqs. (23) to (32)). Vectors are told in the base frame; the twist of a
+// section is that of its base. Templates on the scalar: double for motion, a dual number for
+// derivatives.
 
 namespace cdcr::detail {
 
@@ -77,12 +78,12 @@ struct Arc {
     read(*body.arcs, S(q_x * q_x + q_y * q_y), arc);
     const double l = fraction * body.length;
     q = base.x * q_x + base.y * q_y;
-    r = l * (arc[arc_A] * q + arc[arc_S] * base.z);
-    const Vector3<S> g = arc[arc_A] * base.z + arc[arc_G] * q;
-    const Vector3<S> dr = (2.0 * l) * (arc[arc_dA] * q + arc[arc_dS] * base.z);
+    r = l * (arc[arc_a] * q + arc[arc_s] * base.z);
+    const Vector3<S> g = arc[arc_a] * base.z + arc[arc_g] * q;
+    const Vector3<S> dr = (2.0 * l) * (arc[arc_da] * q + arc[arc_ds] * base.z);
     W.col(0) = base.y - g * q_y;
     W.col(1) = g * q_x - base.x;
-    const S alpha = l * arc[arc_A];
+    const S alpha = l * arc[arc_a];
     D.col(0) = alpha * base.x + dr * q_x;
     D.col(1) = alpha * base.y + dr * q_y;
     if (fraction != 1.0) {
@@ -93,9 +94,9 @@ struct Arc {
 
   /// Frame at the end, eq. (24); it turns as the base does.
   [[nodiscard]] Mount<S> tip() const {
-    const S along = 1.0 - (q_x * q_x + q_y * q_y) * arc[arc_A];
-    const Vector3<S> pull = arc[arc_S] * base.z + arc[arc_A] * q;
-    return {base.x - pull * q_x, base.y - pull * q_y, along * base.z + arc[arc_S] * q, base.omega};
+    const S along = 1.0 - (q_x * q_x + q_y * q_y) * arc[arc_a];
+    const Vector3<S> pull = arc[arc_s] * base.z + arc[arc_a] * q;
+    return {base.x - pull * q_x, base.y - pull * q_y, along * base.z + arc[arc_s] * q, base.omega};
   }
 };
 
@@ -133,7 +134,7 @@ struct Link : Arc<S> {
     const Vector3<S>& omega = base.omega;
     const Vector3<S>& z = base.z;
     const Vector3<S> qd = base.x * xd + base.y * yd;
-    const Vector3<S> nd = base.y * xd - base.x * yd;
+    const Vector3<S> n_rate = base.y * xd - base.x * yd;
     const S p = q_x * xd + q_y * yd, w = xd * xd + yd * yd, c = q_x * yd - q_y * xd;
     const S pp4 = 4.0 * p * p;
 
@@ -141,11 +142,11 @@ struct Link : Arc<S> {
     const Vector3<S> turning = W.col(0) * xd + W.col(1) * yd;
     const Vector3<S> moving = D.col(0) * xd + D.col(1) * yd;
     tip_omega = omega.cross(turning) +
-                c * ((2.0 * p) * (arc[arc_dA] * z + arc[arc_dG] * q) + arc[arc_G] * qd);
+                c * ((2.0 * p) * (arc[arc_da] * z + arc[arc_dg] * q) + arc[arc_g] * qd);
     const S l = body.length;
     tip_v = omega.cross(Vector3<S>(omega.cross(r) + 2.0 * moving)) +
-            l * ((4.0 * p * arc[arc_dA]) * qd + (2.0 * w * arc[arc_dA] + pp4 * arc[arc_ddA]) * q +
-                 (2.0 * w * arc[arc_dS] + pp4 * arc[arc_ddS]) * z);
+            l * ((4.0 * p * arc[arc_da]) * qd + (2.0 * w * arc[arc_da] + pp4 * arc[arc_dda]) * q +
+                 (2.0 * w * arc[arc_ds] + pp4 * arc[arc_dds]) * z);
 
     // Linear momentum m v + omega x h + dh/dt.
     const Vector3<S> h = f[h1] * q + f[h0] * z;
@@ -159,20 +160,19 @@ struct Link : Arc<S> {
     const S j_q = f[c1] * o_q + f[c2] * o_z, j_z = f[c2] * o_q + f[c3] * o_z;
     const S p2 = 2.0 * p;
     const Vector3<S> momentum = f[c0] * omega + (j_q + c * f[k1]) * q + (j_z + c * f[k2]) * z +
-                                f[k0] * nd - (p * f[k3]) * n;
-    moment =
-        omega.cross(momentum) + (p2 * f[dc0]) * omega +
-        (p2 * (f[dc1] * o_q + f[dc2] * o_z + c * f[dk1]) + f[c1] * o_qd) * q +
-        (p2 * (f[dc2] * o_q + f[dc3] * o_z + c * f[dk2]) + f[c2] * o_qd) * z +
-        (j_q + c * f[k1]) * qd + (p2 * f[dk0] - p * f[k3]) * nd -
-        (p * p2 * f[dk3] + w * f[k3]) * n;
+                                f[k0] * n_rate - (p * f[k3]) * n;
+    moment = omega.cross(momentum) + (p2 * f[dc0]) * omega +
+             (p2 * (f[dc1] * o_q + f[dc2] * o_z + c * f[dk1]) + f[c1] * o_qd) * q +
+             (p2 * (f[dc2] * o_q + f[dc3] * o_z + c * f[dk2]) + f[c2] * o_qd) * z +
+             (j_q + c * f[k1]) * qd + (p2 * f[dk0] - p * f[k3]) * n_rate -
+             (p * p2 * f[dk3] + w * f[k3]) * n;
 
     // On q: gyroscopic, centrifugal, and the section's own bias of eq. (16).
-    const S gyro = f[C1] * o_q + f[C0] * o_z;
+    const S gyro = f[spin_q] * o_q + f[spin_z] * o_z;
     const S on_qd = p2 * f[d_a] + body.damping;
-    const S on_q = f[d_b] * p * p + (f[in_b] - f[d_a]) * w + body.stiffness -
-                   (f[dc0] * oo + f[dc1] * o_q * o_q + 2.0 * f[dc2] * o_q * o_z +
-                    f[dc3] * o_z * o_z);
+    const S on_q =
+        f[d_b] * p * p + (f[in_b] - f[d_a]) * w + body.stiffness -
+        (f[dc0] * oo + f[dc1] * o_q * o_q + 2.0 * f[dc2] * o_q * o_z + f[dc3] * o_z * o_z);
     bending[0] = on_qd * xd + on_q * q_x - gyro * yd - j_q * omega.dot(base.x);
     bending[1] = on_qd * yd + on_q * q_y + gyro * xd - j_q * omega.dot(base.y);
   }

@@ -14,23 +14,22 @@ void forward_dynamics(const Chain& chain, const S* q, const S* qd, const S* forc
     S xx, xy, yy;              // inverse of the section's articulated mass D
     S u_x, u_y;                // D^-1 of the bending force at rest
   };
-  const int n = static_cast<int>(chain.bodies.size());
+  const auto n = static_cast<Index>(chain.bodies.size());
   Link<S> links[max_sections];
   Solved solved[max_sections];
   Mount<S> mount = root_of<S>(chain);
-  for (int i = 0; i < n; ++i) {
+  for (Index i = 0; i < n; ++i) {
     links[i].place(chain.bodies[i], mount, q[2 * i], q[2 * i + 1]);
     links[i].move(chain.bodies[i], qd[2 * i], qd[2 * i + 1]);
     mount = links[i].tip();
   }
 
   Articulated<S> rest = articulated_payload(chain.payload, mount);
-  for (int i = n - 1; i >= 0; --i) {
+  for (Index i = n - 1; i >= 0; --i) {
     const Link<S>& link = links[i];
     Solved& s = solved[i];
     // What the rest of the chain asks of this tip: its own share, and through W and D that of q.
-    const Vector3<S> f_tip =
-        rest.force + rest.G.transpose() * link.tip_omega + rest.M * link.tip_v;
+    const Vector3<S> f_tip = rest.force + rest.G.transpose() * link.tip_omega + rest.M * link.tip_v;
     const Vector3<S> m_tip = rest.moment + rest.J * link.tip_omega + rest.G * link.tip_v;
     const Matrix32<S> F = rest.G.transpose() * link.W + rest.M * link.D;
     const Matrix32<S> T = rest.J * link.W + rest.G * link.D;
@@ -46,10 +45,10 @@ void forward_dynamics(const Chain& chain, const S* q, const S* qd, const S* forc
     s.U_v = F + link.linear_coupling();
     s.U_omega = T + link.angular_coupling();
     for (int k = 0; k < 2; ++k) s.U_omega.col(k) += link.r.cross(F.col(k));
-    const S b_x = link.bending[0] - force[2 * i] + link.W.col(0).dot(m_tip) +
-                  link.D.col(0).dot(f_tip);
-    const S b_y = link.bending[1] - force[2 * i + 1] + link.W.col(1).dot(m_tip) +
-                  link.D.col(1).dot(f_tip);
+    const S b_x =
+        link.bending[0] - force[2 * i] + link.W.col(0).dot(m_tip) + link.D.col(0).dot(f_tip);
+    const S b_y =
+        link.bending[1] - force[2 * i + 1] + link.W.col(1).dot(m_tip) + link.D.col(1).dot(f_tip);
     s.u_x = s.xx * b_x + s.xy * b_y;
     s.u_y = s.xy * b_x + s.yy * b_y;
     if (i == 0) break;
@@ -67,13 +66,12 @@ void forward_dynamics(const Chain& chain, const S* q, const S* qd, const S* forc
     rest.G -= UD * V.transpose();
     rest.M -= VD * V.transpose();
     rest.force = f_tip + link.force - (V.col(0) * s.u_x + V.col(1) * s.u_y);
-    rest.moment = m_tip + link.r.cross(f_tip) + link.moment -
-                  (U.col(0) * s.u_x + U.col(1) * s.u_y);
+    rest.moment = m_tip + link.r.cross(f_tip) + link.moment - (U.col(0) * s.u_x + U.col(1) * s.u_y);
   }
 
   // At a base at rest weight is an acceleration upwards.
   Vector3<S> omega = Vector3<S>::Zero(), v = -chain.gravity.template cast<S>();
-  for (int i = 0; i < n; ++i) {
+  for (Index i = 0; i < n; ++i) {
     const Link<S>& link = links[i];
     const Solved& s = solved[i];
     const S w_x = s.U_omega.col(0).dot(omega) + s.U_v.col(0).dot(v);

@@ -9,12 +9,12 @@ namespace cdcr::detail {
 /// inertia forces back, eqs. (30), (33): O(n). Without `qdd` the bias, without `qd` too dU/dq.
 template <class S>
 void inverse_dynamics(const Chain& chain, const S* q, const S* qd, const S* qdd, S* force) {
-  const int n = static_cast<int>(chain.bodies.size());
+  const auto n = static_cast<Index>(chain.bodies.size());
   Link<S> links[max_sections];
   const S zero(0.0);
   Mount<S> mount = root_of<S>(chain);
   Vector3<S> alpha = Vector3<S>::Zero(), v = -chain.gravity.template cast<S>();
-  for (int i = 0; i < n; ++i) {
+  for (Index i = 0; i < n; ++i) {
     const Body& body = chain.bodies[i];
     Link<S>& link = links[i];
     link.place(body, mount, q[2 * i], q[2 * i + 1]);
@@ -27,10 +27,8 @@ void inverse_dynamics(const Chain& chain, const S* q, const S* qd, const S* qdd,
     link.force += body.mass * v + alpha.cross(h) + H.col(0) * a_x + H.col(1) * a_y;
     link.moment += link.second_moment() * alpha + h.cross(v) + N.col(0) * a_x + N.col(1) * a_y;
     const Vector3<S> own = link.own_mass();
-    link.bending[0] +=
-        own[0] * a_x + own[1] * a_y + N.col(0).dot(alpha) + H.col(0).dot(v);
-    link.bending[1] +=
-        own[1] * a_x + own[2] * a_y + N.col(1).dot(alpha) + H.col(1).dot(v);
+    link.bending[0] += own[0] * a_x + own[1] * a_y + N.col(0).dot(alpha) + H.col(0).dot(v);
+    link.bending[1] += own[1] * a_x + own[2] * a_y + N.col(1).dot(alpha) + H.col(1).dot(v);
 
     v += alpha.cross(link.r) + link.D.col(0) * a_x + link.D.col(1) * a_y + link.tip_v;
     alpha += link.W.col(0) * a_x + link.W.col(1) * a_y + link.tip_omega;
@@ -40,11 +38,10 @@ void inverse_dynamics(const Chain& chain, const S* q, const S* qd, const S* qdd,
   const Articulated<S> payload = articulated_payload(chain.payload, mount);
   Vector3<S> moment = payload.moment + payload.J * alpha + payload.G * v;
   Vector3<S> pull = payload.force + payload.G.transpose() * alpha + payload.M * v;
-  for (int i = n - 1; i >= 0; --i) {
+  for (Index i = n - 1; i >= 0; --i) {
     const Link<S>& link = links[i];
     for (int k = 0; k < 2; ++k) {
-      force[2 * i + k] =
-          link.bending[k] + link.W.col(k).dot(moment) + link.D.col(k).dot(pull);
+      force[2 * i + k] = link.bending[k] + link.W.col(k).dot(moment) + link.D.col(k).dot(pull);
     }
     moment += link.r.cross(pull) + link.moment;
     pull += link.force;

@@ -8,10 +8,10 @@ namespace cdcr::detail {
 /// (33), without the many terms that are then zero.
 template <class S>
 void potential_gradient(const Chain& chain, const S* q, S* gradient) {
-  const int n = static_cast<int>(chain.bodies.size());
+  const auto n = static_cast<Index>(chain.bodies.size());
   Link<S> links[max_sections];
   Mount<S> mount = root_of<S>(chain);
-  for (int i = 0; i < n; ++i) {
+  for (Index i = 0; i < n; ++i) {
     links[i].place(chain.bodies[i], mount, q[2 * i], q[2 * i + 1]);
     mount = links[i].Arc<S>::tip();
   }
@@ -22,7 +22,7 @@ void potential_gradient(const Chain& chain, const S* q, S* gradient) {
                          mount.z * S(payload.mass * payload.position[2]);
   double mass = payload.mass;        // of all beyond this tip
   Vector3<S> moment = arm.cross(g);  // of its weight about the tip
-  for (int i = n - 1; i >= 0; --i) {
+  for (Index i = n - 1; i >= 0; --i) {
     const Link<S>& link = links[i];
     const Body& body = chain.bodies[i];
     const Vector3<S> weight = (mass * chain.gravity).template cast<S>();

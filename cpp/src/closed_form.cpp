@@ -16,8 +16,7 @@ Matrix2d solve_mass(double a, double b, const Vector2d& q, const Matrix2d& X) no
 
 }  // namespace
 
-void mass_matrix(const Model& model, const ConstVectorRef& q,
-                 MatrixRef M) noexcept {
+void mass_matrix(const Model& model, const ConstVectorRef& q, MatrixRef M) noexcept {
   const double x = q[0], y = q[1];
   const Values v = model.table()(Group::inertia, x * x + y * y);
   M(0, 0) = v[0] + v[1] * x * x;
@@ -32,9 +31,8 @@ void bias(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
   section_bias(model, v, x, y, qd[0], qd[1], h[0], h[1]);
 }
 
-void inverse_dynamics(const Model& model, const ConstVectorRef& q,
-                      const ConstVectorRef& qd, const ConstVectorRef& qdd,
-                      VectorRef force) noexcept {
+void inverse_dynamics(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
+                      const ConstVectorRef& qdd, VectorRef force) noexcept {
   const double x = q[0], y = q[1];
   const Values v = model.table()(Group::inertia, x * x + y * y);
   double h_x = 0.0, h_y = 0.0;
@@ -59,16 +57,14 @@ double potential_energy(const Model& model, const ConstVectorRef& q) noexcept {
   return 0.5 * model.stiffness()[0] * sigma - l * (g.head<2>().dot(q) * v[0] + g[2] * v[1]);
 }
 
-void potential_gradient(const Model& model, const ConstVectorRef& q,
-                        VectorRef gradient) noexcept {
+void potential_gradient(const Model& model, const ConstVectorRef& q, VectorRef gradient) noexcept {
   const double x = q[0], y = q[1];
   gradient = model.stiffness()[0] * q;
   // Without gravity too, for the NaN beyond the bending limit.
   add_weight(model, x, y, x * x + y * y, gradient[0], gradient[1]);
 }
 
-void potential_hessian(const Model& model, const ConstVectorRef& q,
-                       MatrixRef H) noexcept {
+void potential_hessian(const Model& model, const ConstVectorRef& q, MatrixRef H) noexcept {
   const double x = q[0], y = q[1], sigma = x * x + y * y;
   const auto [G_A, G_S, dG_A, dG_S] = model.table()(Group::gravity, sigma);
   const auto second = model.table()(Group::second, sigma);

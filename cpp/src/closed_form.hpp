@@ -2,8 +2,9 @@
 
 #include "cdcr/model.hpp"
 
-// One section with nothing but a point on its tip: equations of motion in closed form, cpp/README.md
-// eqs. (8) to (19). What a time step calls is inline, since a call would cost a third of it.
+// One section with nothing but a point on its tip: equations of motion in closed form,
+// cpp/README.md eqs. (8) to (19). What a time step calls is inline, since a call would cost a third
+// of it.
 
 namespace cdcr::detail::closed_form {
 
@@ -19,8 +20,8 @@ inline void add_weight(const Model& model, double x, double y, double sigma, dou
 }
 
 /// h = (2 a' p + c) qd + (b' p^2 + (b - a') w) q + dU/dq, eq. (16).
-inline void section_bias(const Model& model, const ShapeTable::Values& inertia, double x, double y, double xd,
-                         double yd, double& h_x, double& h_y) noexcept {
+inline void section_bias(const Model& model, const ShapeTable::Values& inertia, double x, double y,
+                         double xd, double yd, double& h_x, double& h_y) noexcept {
   const auto [a, b, da, db] = inertia;
   const double p = x * xd + y * yd;
   const double w = xd * xd + yd * yd;

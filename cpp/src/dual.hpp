@@ -1,8 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <unsupported/Eigen/AutoDiff>
 #include <algorithm>
+#include <unsupported/Eigen/AutoDiff>
 
 #include "polynomial_table.hpp"
 

@@ -61,8 +61,7 @@ void Loads::add(const Wrench& wrench, Profile profile) {
   if (profile.function || (profile.linear && profile.times.size() > 1)) hold_ = false;
   break_points_.insert(break_points_.end(), profile.times.begin(), profile.times.end());
   std::sort(break_points_.begin(), break_points_.end());
-  break_points_.erase(std::unique(break_points_.begin(), break_points_.end()),
-                      break_points_.end());
+  break_points_.erase(std::unique(break_points_.begin(), break_points_.end()), break_points_.end());
   wrenches_.push_back(wrench);
   profiles_.push_back(std::move(profile));
 }

@@ -78,10 +78,11 @@ Model::Model(Robot robot, Formulation formulation)
     const auto series = series_of(robot_.sections[0], robot_.payload, formulation);
     table_ = std::make_shared<const detail::ShapeTable>(series);
   } else if (formulation != Formulation::exact) {
-    throw std::invalid_argument(
-        std::string("formulation must be exact for this robot, got ") + name(formulation) +
-        ": the paper's inertia is that of one section with equal, equally spaced disks, and nothing "
-        "but a point on its tip");
+    throw std::invalid_argument(std::string("formulation must be exact for this robot, got ") +
+                                name(formulation) +
+                                ": the paper's inertia is that of one section with equal, equally "
+                                "spaced disks, and nothing "
+                                "but a point on its tip");
   }
   singular_section_ = detail::find_singular_section(*chain_);
 }

@@ -46,7 +46,7 @@ class PolynomialTable {
     constexpr int width = N % 14 == 0 ? 14 : N % 8 == 0 ? 8 : N;
     using Few = Eigen::Array<double, width, 1>;
     for (int first = 0; first < N; first += width) {
-      const double* row = c + (num_powers - 1) * N + first;
+      const double* row = c + last_row + first;
       Few sum = Eigen::Map<const Few>(row);
       for (int k = 1; k < num_powers; ++k) {
         row -= N;
@@ -66,17 +66,18 @@ class PolynomialTable {
     double t = 0.0;
     const double* c = find(sigma, t);
     using Row = Eigen::Map<const Values>;
-    values = Row(c + (num_powers - 1) * N);
+    values = Row(c + last_row);
     slopes.setZero();
-    for (int k = num_powers - 2; k >= 0; --k) {
+    for (std::ptrdiff_t row = last_row - N; row >= 0; row -= N) {
       slopes = slopes * t + values;
-      values = values * t + Row(c + k * N);
+      values = values * t + Row(c + row);
     }
     slopes *= 2.0 / piece_width;
   }
 
  private:
   static constexpr std::ptrdiff_t block = std::ptrdiff_t{num_powers} * N;
+  static constexpr std::ptrdiff_t last_row = block - N;  // of the highest power
 
   /// Coefficients of the piece that sigma lies in; t in [-1, 1] is its place there.
   const double* find(double sigma, double& t) const noexcept {

@@ -15,8 +15,12 @@ constexpr int max_cables = 64;
 // Of a rotation's columns, and of an inertia relative to its largest entry.
 constexpr double tolerance = 1e-9;
 
-const Eigen::IOFormat rows(12, Eigen::DontAlignCols, ", ", ", ", "[", "]", "[", "]");
-const Eigen::IOFormat row(12, Eigen::DontAlignCols, ", ", ", ", "", "", "[", "]");
+Eigen::IOFormat rows() {
+  return {12, Eigen::DontAlignCols, ", ", ", ", "[", "]", "[", "]"};
+}
+Eigen::IOFormat row() {
+  return {12, Eigen::DontAlignCols, ", ", ", ", "", "", "[", "]"};
+}
 
 std::string indexed(const std::string& item, std::size_t k) {
   return item + "[" + std::to_string(k) + "]";
@@ -142,7 +146,7 @@ void check_base_orientation(const Matrix3d& R, Check& check) {
   const Matrix3d excess = R.transpose() * R - Matrix3d::Identity();  // NaN where it overflows
   const bool orthonormal = (excess.array().abs() <= tolerance).all();
   if (!orthonormal || R.determinant() < 0.0) {
-    check.refuse("base_orientation", "a right-handed rotation matrix, to 1e-9", R.format(rows));
+    check.refuse("base_orientation", "a right-handed rotation matrix, to 1e-9", R.format(rows()));
   }
 }
 
@@ -153,15 +157,15 @@ void check_payload_inertia(const Matrix3d& inertia, Check& check) {
   const Matrix3d relative = inertia / largest;
   if ((relative - relative.transpose()).cwiseAbs().maxCoeff() > tolerance) {
     check.refuse("payload_inertia", "symmetric, to 1e-9 of its largest entry",
-                 inertia.format(rows));
+                 inertia.format(rows()));
     return;
   }
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(relative, Eigen::EigenvaluesOnly);
-  const Vector3d moments = solver.eigenvalues();  // increasing
+  const Vector3d& moments = solver.eigenvalues();  // increasing
   if (moments[0] < -tolerance || moments[2] > moments[0] + moments[1] + tolerance) {
     check.refuse("payload_inertia",
                  "that of a body: principal moments >= 0, none above the sum of the others",
-                 Vector3d(largest * moments).transpose().format(row));
+                 Vector3d(largest * moments).transpose().format(row()));
   }
 }
 
@@ -172,11 +176,11 @@ void check_payload(const Robot& robot, Check& check) {
   if (robot.payload != 0.0) return;
   if (robot.payload_position.allFinite() && !robot.payload_position.isZero(0.0)) {
     check.refuse("payload_position", "zero where the payload is zero",
-                 robot.payload_position.transpose().format(row));
+                 robot.payload_position.transpose().format(row()));
   }
   if (robot.payload_inertia.allFinite() && !robot.payload_inertia.isZero(0.0)) {
     check.refuse("payload_inertia", "zero where the payload is zero",
-                 robot.payload_inertia.format(rows));
+                 robot.payload_inertia.format(rows()));
   }
 }
 

@@ -97,7 +97,7 @@ class Search {
 
   /// Newton step, or where K is singular the gradient's way with the largest stiffness.
   VectorXd newton_step() {
-    const VectorXd step = -K_.partialPivLu().solve(r_);
+    VectorXd step = -K_.partialPivLu().solve(r_);
     const double slope = r_.dot(K_ * step);
     if (step.allFinite() && slope < -0.5 * r_.squaredNorm()) return step;
     return -K_.transpose() * r_ / std::fmax(K_.squaredNorm(), 1e-300);
@@ -171,7 +171,8 @@ VectorXd without_weight(const Model& model, const VectorXd& command) {
 
 /// From other places, the same in every call.
 bool search_elsewhere(Search& search, VectorXd& q, int& searches) {
-  std::mt19937 engine(1);  // its numbers are the same everywhere
+  // Its numbers are the same everywhere.
+  std::mt19937 engine(1);  // NOLINT(bugprone-random-generator-seed): so must the answer be
   while (searches < max_searches) {
     ++searches;
     const double width = searches % 2 == 0 ? 3.0 : 8.0;  // [rad]

@@ -198,9 +198,7 @@ def simulate(
         )
     else:
         source = tension_input(model, tension, break_points)
-        raw = _core.simulate(
-            model, q0, qd0, t, source, chosen, options, progress, loads(wrenches)
-        )
+        raw = _core.simulate(model, q0, qd0, t, source, chosen, options, progress, loads(wrenches))
     run = Trajectory(
         model=model,
         t=raw.t,

@@ -47,17 +47,18 @@ static_assert(is_noexcept<decltype(&Simulator::time)>);
 // Overloaded functions have no single address.
 using Vector = const ConstVectorRef&;
 template <class... Arguments>
-using DynamicsFunction = void (*)(const Model&, Data&, Vector, Vector, Vector, Arguments...) noexcept;
-static_assert(static_cast<DynamicsFunction<VectorRef>>(&forward_dynamics) != nullptr);
-static_assert(static_cast<DynamicsFunction<const Wrenches&, VectorRef>>(&forward_dynamics) !=
-              nullptr);
-static_assert(static_cast<DynamicsFunction<MatrixRef, MatrixRef>>(&linearize) != nullptr);
-static_assert(static_cast<DynamicsFunction<const Wrenches&, MatrixRef, MatrixRef>>(&linearize) !=
-              nullptr);
+using DynamicsFunction = void (*)(const Model&, Data&, Vector, Vector, Vector,
+                                  Arguments...) noexcept;
+[[maybe_unused]] constexpr DynamicsFunction<VectorRef> forward = &forward_dynamics;
+[[maybe_unused]] constexpr DynamicsFunction<const Wrenches&, VectorRef> forward_under_wrenches =
+    &forward_dynamics;
+[[maybe_unused]] constexpr DynamicsFunction<MatrixRef, MatrixRef> linear = &linearize;
+[[maybe_unused]] constexpr DynamicsFunction<const Wrenches&, MatrixRef, MatrixRef>
+    linear_under_wrenches = &linearize;
 using Step = Status (Simulator::*)(Vector) noexcept;
 using StepUnderWrenches = Status (Simulator::*)(Vector, const Wrenches&) noexcept;
-static_assert(static_cast<Step>(&Simulator::step) != nullptr);
-static_assert(static_cast<StepUnderWrenches>(&Simulator::step) != nullptr);
+[[maybe_unused]] constexpr Step step = &Simulator::step;
+[[maybe_unused]] constexpr StepUnderWrenches step_under_wrenches = &Simulator::step;
 
 volatile double sink = 0.0;  // keeps results alive
 
@@ -91,9 +92,7 @@ TEST_CASE("dynamics and linearisation allocate nothing") {
     CHECK(allocations_of([&] { potential_gradient(model, data, q, v); }) == 0);
     CHECK(allocations_of([&] { potential_hessian(model, data, q, M); }) == 0);
     CHECK(allocations_of([&] { linearize(model, data, q, qd, F, A, B); }) == 0);
-    CHECK(allocations_of([&] {
-            state_jacobian(model, data, q, qd, F, no_wrenches(), A);
-          }) == 0);
+    CHECK(allocations_of([&] { state_jacobian(model, data, q, qd, F, no_wrenches(), A); }) == 0);
   });
 }
 

@@ -157,7 +157,7 @@ def test_an_unknown_key_and_times_out_of_order(tmp_path: Path) -> None:
         tmp_path, f"{BASE}{WRENCH}force = [1, 0, 0]\ntimes = [1, 0]\nfactors = [1, 1]\n"
     )
     assert told.startswith("wrenches[0]: ")
-    assert "increas" in told
+    assert "strictly increasing" in told
 
 
 def test_nothing_to_push_along_a_trajectory_that_is_not_simulated(tmp_path: Path) -> None:

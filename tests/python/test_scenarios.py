@@ -115,6 +115,7 @@ def test_mean_of_theta_over_whole_periods(scenario: Scenario, run: cdcr.Trajecto
 @pytest.mark.parametrize("method", ["bdf", "adams", "dopri5", "rk4"])
 def test_overrides_reach_the_integrator(scenario: Scenario, method: Any) -> None:
     assert isinstance(scenario.tension, tuple)
+    assert isinstance(scenario.q0, tuple)
     run = scenario.simulate(method=method, t_end=0.1, num_samples=3)
     plain = cdcr.simulate(
         cdcr.Model(scenario.robot),

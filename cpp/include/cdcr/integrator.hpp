@@ -24,7 +24,7 @@ struct Options {
 
 /// A length-driven cable turned slack or taut.
 struct SlackEvent {
-  double time = 0.0;   ///< [s]
+  double time = 0.0;  ///< [s]
   Index cable = 0;
   bool slack = false;  ///< slack from here on, or taut again
 };

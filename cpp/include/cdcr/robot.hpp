@@ -24,16 +24,16 @@ struct Disk {
 /// cables at cable_angles all have the section's cable_radius, cable_stiffness and cable_damping,
 /// and run through all sections before; Robot::cables takes what does not fit that.
 struct Section {
-  double length = 0.0;               ///< arc length of the backbone [m], > 0
-  double backbone_mass = 0.0;        ///< spread evenly along the length [kg], >= 0
-  double backbone_diameter = 0.0;    ///< [m], > 0
-  double youngs_modulus = 0.0;       ///< [Pa], > 0
-  double disk_mass = 0.0;            ///< of each disk [kg], >= 0
-  double disk_diameter = 0.0;        ///< [m], >= 0
-  int num_disks = 0;                 ///< 0 to 64
-  double cable_radius = 0.0;         ///< from backbone to cable [m], > 0 where there are cables
-  std::vector<double> cable_angles;  ///< gamma_j about Z from X [rad], 0 to 16 of them
-  double damping = 0.0;              ///< viscous, per bending component [N m s/rad], >= 0
+  double length = 0.0;                 ///< arc length of the backbone [m], > 0
+  double backbone_mass = 0.0;          ///< spread evenly along the length [kg], >= 0
+  double backbone_diameter = 0.0;      ///< [m], > 0
+  double youngs_modulus = 0.0;         ///< [Pa], > 0
+  double disk_mass = 0.0;              ///< of each disk [kg], >= 0
+  double disk_diameter = 0.0;          ///< [m], >= 0
+  int num_disks = 0;                   ///< 0 to 64
+  double cable_radius = 0.0;           ///< from backbone to cable [m], > 0 where there are cables
+  std::vector<double> cable_angles;    ///< gamma_j about Z from X [rad], 0 to 16 of them
+  double damping = 0.0;                ///< viscous, per bending component [N m s/rad], >= 0
   std::vector<double> disk_positions;  ///< fractions of the length; empty: equally spaced disks
   std::vector<double> disk_masses;     ///< one for each disk [kg]; empty: disk_mass for all
   std::vector<double> disk_diameters;  ///< one for each disk [m]; empty: disk_diameter for all
@@ -53,11 +53,11 @@ struct Section {
 /// damping, between the cable and its drive, which pulls and never pushes. One without is driven by
 /// tension.
 struct Cable {
-  double radius = 0.0;     ///< from the backbone [m], > 0
-  double angle = 0.0;      ///< gamma about Z from X [rad]
-  int end_section = 0;     ///< index of the section whose end disk holds it
-  double stiffness = 0.0;  ///< of the cable and its drive [N/m]; 0: driven by tension
-  double damping = 0.0;    ///< along with the stiffness [N s/m], >= 0
+  double radius = 0.0;             ///< from the backbone [m], > 0
+  double angle = 0.0;              ///< gamma about Z from X [rad]
+  int end_section = 0;             ///< index of the section whose end disk holds it
+  double stiffness = 0.0;          ///< of the cable and its drive [N/m]; 0: driven by tension
+  double damping = 0.0;            ///< along with the stiffness [N s/m], >= 0
   std::optional<double> friction;  ///< mu in all its holes, in place of Section::cable_friction
 
   [[nodiscard]] bool length_driven() const noexcept { return stiffness > 0.0; }
@@ -73,8 +73,8 @@ struct Robot {
   double payload = 0.0;                 ///< mass carried by the tip [kg], >= 0
   std::vector<Cable> cables;            ///< beside those of the sections, after them in order
   Matrix3d base_orientation = Matrix3d::Identity();  ///< of the first section, in the base frame
-  Vector3d payload_position = Vector3d::Zero();  ///< its centre of mass, in the tip frame [m]
-  Matrix3d payload_inertia = Matrix3d::Zero();   ///< about that, in the tip frame [kg m^2]
+  Vector3d payload_position = Vector3d::Zero();      ///< its centre of mass, in the tip frame [m]
+  Matrix3d payload_inertia = Matrix3d::Zero();       ///< about that, in the tip frame [kg m^2]
   double sliding_speed = 1e-3;  ///< cable speed that friction takes for sliding [m/s], > 0
 
   /// Every cable: section by section those at cable_angles, then `cables`.
