@@ -7,6 +7,15 @@ from typing import final, type_check_only
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from cdcr._core_robot import Cable as Cable
+from cdcr._core_robot import CoreWrench as CoreWrench
+from cdcr._core_robot import Loads as Loads
+from cdcr._core_robot import Robot as Robot
+from cdcr._core_robot import Section as Section
+from cdcr._core_statics import Allocation as Allocation
+from cdcr._core_statics import AllocationMethod as AllocationMethod
+from cdcr._core_statics import CoreModes as CoreModes
+from cdcr._core_statics import Equilibrium as Equilibrium
 from cdcr._wrench import Wrench
 
 _FloatArray = NDArray[np.float64]
@@ -52,160 +61,6 @@ class Formulation(enum.Enum):
 
 def status_message(status: Status) -> str: ...
 def polar_along(q: ArrayLike) -> tuple[_FloatArray, _FloatArray]: ...
-
-class Section(metaclass=_Bound):
-    def __init__(
-        self,
-        *,
-        length: float,
-        backbone_mass: float,
-        backbone_diameter: float,
-        youngs_modulus: float,
-        disk_mass: float,
-        disk_diameter: float,
-        num_disks: int,
-        disk_positions: Sequence[float],
-        disk_masses: Sequence[float],
-        disk_diameters: Sequence[float],
-        cable_radius: float,
-        cable_angles: Sequence[float],
-        cable_stiffness: float,
-        cable_damping: float,
-        cable_friction: float,
-        damping: float,
-    ) -> None: ...
-    def violations(self) -> list[str]: ...
-    def disks(self) -> list[tuple[float, float, float]]: ...
-    @property
-    def stiffness(self) -> float: ...
-
-class Cable(metaclass=_Bound):
-    def __init__(
-        self,
-        *,
-        radius: float,
-        angle: float,
-        end_section: int,
-        stiffness: float,
-        damping: float,
-        friction: float | None,
-    ) -> None: ...
-    @property
-    def radius(self) -> float: ...
-    @property
-    def angle(self) -> float: ...
-    @property
-    def end_section(self) -> int: ...
-    @property
-    def stiffness(self) -> float: ...
-    @property
-    def damping(self) -> float: ...
-    @property
-    def friction(self) -> float | None: ...
-
-class Robot(metaclass=_Bound):
-    def __init__(
-        self,
-        *,
-        sections: Sequence[Section],
-        gravity: ArrayLike,
-        payload: float,
-        cables: Sequence[Cable],
-        base_orientation: ArrayLike,
-        payload_position: ArrayLike,
-        payload_inertia: ArrayLike,
-        sliding_speed: float,
-    ) -> None: ...
-    def violations(self) -> list[str]: ...
-    def all_cables(self) -> list[Cable]: ...
-
-@final
-class Equilibrium(metaclass=_Bound):
-    """A point of rest and whether the robot stays there."""
-
-    @property
-    def q(self) -> _FloatArray: ...
-    @property
-    def tension(self) -> _FloatArray: ...
-    @property
-    def eigenvalues(self) -> _FloatArray: ...
-    @property
-    def stable(self) -> bool: ...
-    @property
-    def residual(self) -> float: ...
-    @property
-    def iterations(self) -> int: ...
-    @property
-    def load_steps(self) -> int: ...
-    @property
-    def searches(self) -> int: ...
-    @property
-    def status(self) -> Status: ...
-
-@final
-class Allocation(metaclass=_Bound):
-    @property
-    def tension(self) -> _FloatArray: ...
-    @property
-    def force(self) -> _FloatArray: ...
-    @property
-    def distance(self) -> float: ...
-    @property
-    def feasible(self) -> bool: ...
-    @property
-    def limiting(self) -> list[int]: ...
-    @property
-    def limits(self) -> list[str]: ...
-
-class AllocationMethod(enum.Enum):
-    """How tensions are found."""
-
-    automatic = 0
-    sections = 1
-    search = 2
-
-@final
-class CoreModes(metaclass=_Bound):
-    """Small vibrations about a shape."""
-
-    @property
-    def squared_frequency(self) -> _FloatArray: ...
-    @property
-    def frequency(self) -> _FloatArray: ...
-    @property
-    def shape(self) -> _FloatArray: ...
-    @property
-    def damping_ratio(self) -> _FloatArray: ...
-    @property
-    def eigenvalues(self) -> NDArray[np.complex128]: ...
-    @property
-    def stable(self) -> bool: ...
-
-@final
-class CoreWrench(metaclass=_Bound):
-    """A wrench as the core sees it; not validated."""
-
-    def __init__(
-        self, section: int, fraction: float, force: ArrayLike, moment: ArrayLike, local: bool
-    ) -> None: ...
-    @property
-    def force(self) -> _FloatArray: ...
-    @property
-    def moment(self) -> _FloatArray: ...
-
-@final
-class Loads(metaclass=_Bound):
-    """Wrenches over time."""
-
-    def __init__(self) -> None: ...
-    def add(self, wrench: CoreWrench) -> None: ...
-    def add_table(
-        self, wrench: CoreWrench, times: ArrayLike, factors: ArrayLike, linear: bool
-    ) -> None: ...
-    def add_function(
-        self, wrench: CoreWrench, function: Callable[[float], float], break_points: list[float]
-    ) -> None: ...
-    def at(self, t: float) -> list[CoreWrench]: ...
 
 class Model(metaclass=_Bound):
     def __init__(self, robot: Robot, formulation: Formulation) -> None: ...

@@ -1,4 +1,4 @@
-"""What constant curvature costs, as the table of cpp/README.md states it.
+"""What constant curvature costs, as the table of cpp/several-sections.md states it.
 
 Small planar vibration of the Table 1 robot with its one physical section cut into n parts of
 constant curvature, ten point disks, no rotary inertia. The beam itself is the limit of many parts.
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 import cdcr
 
-README = Path(__file__).parents[2] / "cpp" / "README.md"
+README = Path(__file__).parents[2] / "cpp" / "several-sections.md"
 
 TABLE_1 = cdcr.robots.amouri2020()
 MANY_PARTS = 100  # within 3e-5 of the limit, in the first two frequencies

@@ -1,0 +1,105 @@
+"""Types of the compiled core that describe robots and loads; `_core.pyi` hands them on."""
+
+from collections.abc import Callable, Sequence
+from typing import final, type_check_only
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+_FloatArray = NDArray[np.float64]
+
+@type_check_only
+class _Bound(type):
+    """Metaclass of classes bound by pybind11."""
+
+class Section(metaclass=_Bound):
+    def __init__(
+        self,
+        *,
+        length: float,
+        backbone_mass: float,
+        backbone_diameter: float,
+        youngs_modulus: float,
+        disk_mass: float,
+        disk_diameter: float,
+        num_disks: int,
+        disk_positions: Sequence[float],
+        disk_masses: Sequence[float],
+        disk_diameters: Sequence[float],
+        cable_radius: float,
+        cable_angles: Sequence[float],
+        cable_stiffness: float,
+        cable_damping: float,
+        cable_friction: float,
+        damping: float,
+    ) -> None: ...
+    def violations(self) -> list[str]: ...
+    def disks(self) -> list[tuple[float, float, float]]: ...
+    @property
+    def stiffness(self) -> float: ...
+
+class Cable(metaclass=_Bound):
+    def __init__(
+        self,
+        *,
+        radius: float,
+        angle: float,
+        end_section: int,
+        stiffness: float,
+        damping: float,
+        friction: float | None,
+    ) -> None: ...
+    @property
+    def radius(self) -> float: ...
+    @property
+    def angle(self) -> float: ...
+    @property
+    def end_section(self) -> int: ...
+    @property
+    def stiffness(self) -> float: ...
+    @property
+    def damping(self) -> float: ...
+    @property
+    def friction(self) -> float | None: ...
+
+class Robot(metaclass=_Bound):
+    def __init__(
+        self,
+        *,
+        sections: Sequence[Section],
+        gravity: ArrayLike,
+        payload: float,
+        cables: Sequence[Cable],
+        base_orientation: ArrayLike,
+        payload_position: ArrayLike,
+        payload_inertia: ArrayLike,
+        sliding_speed: float,
+    ) -> None: ...
+    def violations(self) -> list[str]: ...
+    def all_cables(self) -> list[Cable]: ...
+
+@final
+class CoreWrench(metaclass=_Bound):
+    """A wrench as the core sees it; not validated."""
+
+    def __init__(
+        self, section: int, fraction: float, force: ArrayLike, moment: ArrayLike, local: bool
+    ) -> None: ...
+    @property
+    def force(self) -> _FloatArray: ...
+    @property
+    def moment(self) -> _FloatArray: ...
+
+@final
+class Loads(metaclass=_Bound):
+    """Wrenches over time."""
+
+    def __init__(self) -> None: ...
+    def add(self, wrench: CoreWrench) -> None: ...
+    def add_table(
+        self, wrench: CoreWrench, times: ArrayLike, factors: ArrayLike, linear: bool
+    ) -> None: ...
+    def add_function(
+        self, wrench: CoreWrench, function: Callable[[float], float], break_points: list[float]
+    ) -> None: ...
+    def at(self, t: float) -> list[CoreWrench]: ...
