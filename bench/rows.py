@@ -121,6 +121,16 @@ def table(rows: Iterable[Row]) -> str:
     return layout(header, lines)
 
 
+def real_time(rows: Iterable[Row]) -> list[str]:
+    """How much faster than real time the fixed-step runs were, and at which step."""
+    return [
+        f"{row['name']}: {number(row['times real time'])} times real time, "
+        f"steps of {1e3 * row['step']:g} ms"
+        for row in rows
+        if "times real time" in row
+    ]
+
+
 class Spread:
     """One row over several runs: median, smallest and largest of its p50; median of its own."""
 

@@ -14,7 +14,7 @@ from datetime import datetime, timezone
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rows import append, judged, ratios, table
+from rows import append, judged, ratios, real_time, table
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -80,6 +80,7 @@ def main() -> None:
     started = datetime.now(timezone.utc).isoformat(timespec="seconds")
     rows = [judged({**row, "run": started}) for row in rows]
     print(table(rows))
+    print(*real_time(rows), sep="\n")
     for group in (built, about):
         print(", ".join(f"{key} {value}" for key, value in group.items()))
     if arguments.out:

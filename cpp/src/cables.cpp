@@ -46,6 +46,7 @@ void tensions_along(const Model& model, const ConstVectorRef& q, const ConstVect
 
 double friction_power(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
                       const ConstVectorRef& command) noexcept {
+  if (!model.has_friction()) return 0.0;
   double lost = 0.0, force[2 * max_sections] = {};
   for (Index j = 0; j < model.num_cables(); ++j) {
     const double tension = detail::base_tension(model, j, q.data(), qd.data(), command[j]);

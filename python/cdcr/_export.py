@@ -39,7 +39,7 @@ def quantities(run: Trajectory) -> list[Quantity]:
     """Everything a run has to say, first index time."""
     by_component = (len(run), run.model.num_sections, 2)
     vector = ("section", "component")
-    return [
+    found = [
         Quantity("q", vector, "rad", "bending vector", run.q.reshape(by_component)),
         Quantity("qd", vector, "rad/s", "rate of the bending vector", run.qd.reshape(by_component)),
         Quantity("tension", ("cable",), "N", "cable tension", run.tension),
@@ -50,6 +50,13 @@ def quantities(run: Trajectory) -> list[Quantity]:
         Quantity("potential_energy", (), "J", "elastic energy plus weight", run.potential_energy),
         Quantity("energy", (), "J", "total mechanical energy", run.energy),
     ]
+    if run.command is not None and any(c.stiffness > 0.0 for c in run.model.robot.all_cables):
+        what = "what was asked of the cable: tension [N], or length [m] where driven by length"
+        found += [
+            Quantity("command", ("cable",), "N or m", what, run.command),
+            Quantity("cable_energy", (), "J", "energy in the cables' springs", run.cable_energy),
+        ]
+    return found
 
 
 def coordinates(run: Trajectory) -> dict[str, tuple[list[Any], str, str]]:

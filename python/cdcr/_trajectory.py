@@ -151,6 +151,20 @@ class Trajectory:
         """Total mechanical energy (N,) [J]."""
         return _read_only(self.kinetic_energy + self.potential_energy)
 
+    @cached_property
+    def cable_energy(self) -> NDArray[np.float64]:
+        """Energy in the springs of cables driven by length (N,) [J]; not part of `energy`."""
+        assert self.command is not None
+        rows = zip(self.q, self.command, strict=True)
+        return _read_only(np.array([self.model.cable_energy(q, u) for q, u in rows]))
+
+    @cached_property
+    def friction_power(self) -> NDArray[np.float64]:
+        """Heat that friction of the cables makes (N,) [W], never negative."""
+        assert self.command is not None
+        rows = zip(self.q, self.qd, self.command, strict=True)
+        return _read_only(np.array([self.model.friction_power(*row) for row in rows]))
+
     @property
     def energy_error(self) -> NDArray[np.float64]:
         """Relative change of the total energy since the start (N,) [1].

@@ -3,6 +3,7 @@
 import re
 from dataclasses import replace
 from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -105,3 +106,19 @@ def test_a_function_of_lengths_is_checked_too(model: cdcr.Model) -> None:
     rest = model.rest_command()
     run = cdcr.simulate(model, ZEROS, ZEROS, t=[0.0, 0.1], tension=lambda t: rest)
     np.testing.assert_array_equal(run.q, np.zeros((2, 2)))
+
+
+def test_the_energy_of_the_springs_balances_and_is_saved(tmp_path: Path) -> None:
+    robot = cdcr.robots.amouri2020()  # nothing dissipates
+    section = replace(robot.sections[0], cable_stiffness=5e3)
+    model = cdcr.Model(replace(robot, sections=(section,)))
+    t = np.linspace(0.0, 1.0, 201)
+    run = cdcr.simulate(model, [0.4, 0.1], ZEROS, t=t, method="dopri5", rtol=1e-12)
+    total = run.energy + run.cable_energy
+    assert np.ptp(run.cable_energy) > 0.5 * total[0]  # kept by the springs for most of a swing
+    np.testing.assert_allclose(total, total[0], rtol=1e-8)
+    assert not run.friction_power.any()
+    header = run.save(tmp_path / "run.csv").read_text().splitlines()
+    names = next(line for line in header if not line.startswith("#"))
+    assert "cable_energy" in names
+    assert "command" in names

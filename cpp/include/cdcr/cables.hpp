@@ -32,7 +32,7 @@ void cable_force(const Model& model, const ConstVectorRef& q, const ConstVectorR
 void tensions_along(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
                     const ConstVectorRef& command, MatrixRef tension) noexcept;
 
-/// What friction turns into heat [W], never negative: -F.dl/dt - Q.qd.
+/// What friction turns into heat [W], -F.dl/dt - Q.qd: never negative, but for rounding.
 [[nodiscard]] double friction_power(const Model& model, const ConstVectorRef& q,
                                     const ConstVectorRef& qd,
                                     const ConstVectorRef& command) noexcept;
