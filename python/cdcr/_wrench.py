@@ -53,7 +53,7 @@ class Wrench:
     >>> pull = cdcr.Wrench(section=0, force=(0.2, 0.0, 0.0))
     >>> q = model.equilibrium([0.0, 0.0, 0.0], wrenches=[pull])
     >>> print(f"{cdcr.polar(q)[0]:.4f} rad")
-    0.2182 rad
+    0.2181 rad
     """
 
     section: int
