@@ -23,6 +23,7 @@ std::vector<double> to_list(const VectorXd& values) {
 
 Wrenches read_wrenches(const Model& model, const py::object& object) {
   Wrenches wrenches;
+  if (py::isinstance<py::tuple>(object) && py::len(object) == 0) return wrenches;  // the default
   const auto add = [&wrenches](const py::handle& item) {
     const std::string name = "wrenches[" + std::to_string(wrenches.size()) + "]";
     if (!py::hasattr(item, "_to_core")) {
