@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "cable_force.hpp"
+#include "cdcr/cables.hpp"
 #include "cdcr/dynamics.hpp"
 #include "cdcr/kinematics.hpp"
 #include "cdcr/statics.hpp"
@@ -33,13 +35,6 @@ double wrench_moment(const Robot& robot, const Wrenches& wrenches) {
   double sum = 0.0;
   for (const Wrench& w : wrenches) sum += w.force.norm() * robot_length(robot) + w.moment.norm();
   return sum;
-}
-
-/// Length that a cable driven by length misses, l - l_commanded [m]; no more than zero when slack.
-double stretch(const Model& model, Index j, const ConstVectorRef& q, double commanded) noexcept {
-  double length = model.straight_lengths()[j];
-  for (Index i = 0; i < q.size(); ++i) length -= model.actuation_matrix()(i, j) * q[i];
-  return length - commanded;
 }
 
 }  // namespace
@@ -75,7 +70,7 @@ void Balance::residual(const ConstVectorRef& q, VectorRef r) noexcept {
   for (Index j = 0; has_springs_ && j < model_.num_cables(); ++j) {
     const Cable& cable = model_.cables()[static_cast<std::size_t>(j)];
     if (!cable.length_driven()) continue;
-    const double longer = stretch(model_, j, q, command_[j]);
+    const double longer = cable_stretch(model_, j, q.data(), double{command_[j]});
     if (longer > 0.0) r -= model_.actuation_matrix().col(j) * (cable.stiffness * longer);
   }
   if (!wrenches_.empty()) {
@@ -99,12 +94,7 @@ void Balance::stiffness(const ConstVectorRef& q, MatrixRef K) noexcept {
 
 double Balance::energy(const ConstVectorRef& q) noexcept {
   double U = potential_energy(model_, data_, q) - constant_force_.dot(q);
-  for (Index j = 0; has_springs_ && j < model_.num_cables(); ++j) {
-    const Cable& cable = model_.cables()[static_cast<std::size_t>(j)];
-    if (!cable.length_driven()) continue;
-    const double longer = std::fmax(stretch(model_, j, q, command_[j]), 0.0);
-    U += 0.5 * cable.stiffness * longer * longer;
-  }
+  if (has_springs_) U += cable_energy(model_, q, command_);
   for (const Wrench& w : wrenches_) U -= w.force.dot(pose(model_, q, w.section, w.fraction).p);
   if (load_ == 1.0) return U;
   double elastic = 0.0;
@@ -148,8 +138,11 @@ void static_stiffness(const Model& model, const ConstVectorRef& q, const ConstVe
   const MatrixXd& B = model.actuation_matrix();
   for (Index j = 0; j < model.num_cables(); ++j) {
     const Cable& cable = model.cables()[static_cast<std::size_t>(j)];
-    if (!cable.length_driven() || !(detail::stretch(model, j, q, command[j]) > 0.0)) continue;
-    const Index rows = 2 * (Index{cable.end_section} + 1);
+    if (!cable.length_driven() ||
+        !(detail::cable_stretch(model, j, q.data(), double{command[j]}) > 0.0)) {
+      continue;
+    }
+    const Index rows = model.cable_rows()[static_cast<std::size_t>(j)];
     for (Index k = 0; k < rows; ++k) {
       K.col(k).head(rows) += B.col(j).head(rows) * (cable.stiffness * B(k, j));
     }

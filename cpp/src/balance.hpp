@@ -5,9 +5,9 @@
 
 namespace cdcr::detail {
 
-/// What is out of balance in a robot at rest, cpp/README.md eq. (18): r(q) = dU/dq - Q, where Q is
-/// that of the cables, without friction, and of wrenches. A load factor below one scales all but
-/// the bending stiffness.
+/// What is out of balance in a robot at rest, cpp/several-sections.md eqs. (40) to (43):
+/// r(q) = dU/dq - Q, where Q is that of the cables, without friction, and of wrenches. A load
+/// factor below one scales all but the bending stiffness.
 ///
 /// Refers to its arguments, which must outlive it. The functions allocate nothing.
 class Balance {

@@ -14,17 +14,26 @@ template <class S>
          B(2 * section + 1, cable) * rows[2 * section + 1];
 }
 
+/// Length that a cable driven by length misses, l - l_commanded [m]; negative when it hangs slack.
+template <class S>
+[[nodiscard]] S cable_stretch(const Model& model, Index j, const S* q, const S& command) {
+  S length(model.straight_lengths()[j]);
+  for (Index k = 0; k <= model.cables()[static_cast<std::size_t>(j)].end_section; ++k) {
+    length -= dot_rows(model.actuation_matrix(), j, k, q);
+  }
+  return length - command;
+}
+
 /// Pull of a length-driven cable's spring and damper; negative where it would have to push.
 template <class S>
 [[nodiscard]] S spring_pull(const Model& model, Index j, const S* q, const S* qd,
                             const S& command) {
   const Cable& cable = model.cables()[static_cast<std::size_t>(j)];
-  S length(model.straight_lengths()[j]), rate(0.0);
+  S rate(0.0);
   for (Index k = 0; k <= cable.end_section; ++k) {
-    length -= dot_rows(model.actuation_matrix(), j, k, q);
     rate -= dot_rows(model.actuation_matrix(), j, k, qd);
   }
-  return cable.stiffness * (length - command) + cable.damping * rate;
+  return cable.stiffness * cable_stretch(model, j, q, command) + cable.damping * rate;
 }
 
 /// Tension at the base, eq. (36).

@@ -62,8 +62,7 @@ double cable_energy(const Model& model, const ConstVectorRef& q,
   for (Index j = 0; j < model.num_cables(); ++j) {
     const Cable& cable = model.cables()[static_cast<std::size_t>(j)];
     if (!cable.length_driven()) continue;
-    const double stretch =
-        model.straight_lengths()[j] - model.actuation_matrix().col(j).dot(q) - command[j];
+    const double stretch = detail::cable_stretch(model, j, q.data(), double{command[j]});
     if (stretch > 0.0) energy += 0.5 * cable.stiffness * stretch * stretch;
   }
   return energy;

@@ -7,19 +7,10 @@
 #include "cdcr/cdcr.hpp"
 #include "support/allocations.hpp"
 #include "support/cases.hpp"
+#include "support/noexcept.hpp"
 
 namespace cdcr::test {
 namespace {
-
-/// Whether a function or member function is declared noexcept, read from its pointer's type.
-template <class Pointer>
-constexpr bool is_noexcept = false;
-template <class Result, class... Arguments>
-constexpr bool is_noexcept<Result (*)(Arguments...) noexcept> = true;
-template <class Result, class Class, class... Arguments>
-constexpr bool is_noexcept<Result (Class::*)(Arguments...) noexcept> = true;
-template <class Result, class Class, class... Arguments>
-constexpr bool is_noexcept<Result (Class::*)(Arguments...) const noexcept> = true;
 
 static_assert(is_noexcept<decltype(&mass_matrix)>);
 static_assert(is_noexcept<decltype(&bias)>);

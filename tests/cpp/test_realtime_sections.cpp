@@ -7,16 +7,10 @@
 #include "cdcr/cdcr.hpp"
 #include "support/allocations.hpp"
 #include "support/cable_robots.hpp"
+#include "support/noexcept.hpp"
 
 namespace cdcr::test {
 namespace {
-
-template <class Pointer>
-constexpr bool is_noexcept = false;
-template <class Result, class... Arguments>
-constexpr bool is_noexcept<Result (*)(Arguments...) noexcept> = true;
-template <class Result, class Class, class... Arguments>
-constexpr bool is_noexcept<Result (Class::*)(Arguments...) noexcept> = true;
 
 static_assert(is_noexcept<decltype(&cable_tensions)>);
 static_assert(is_noexcept<decltype(&cable_force)>);
@@ -27,12 +21,6 @@ static_assert(is_noexcept<decltype(&cable_energy)>);
 static_assert(is_noexcept<decltype(&rest_command)>);
 static_assert(is_noexcept<decltype(&add_wrench_force)>);
 static_assert(is_noexcept<decltype(&check_state)>);
-using Acceleration = void (*)(const Model&, Data&, const ConstVectorRef&, const ConstVectorRef&,
-                              const ConstVectorRef&, const Wrenches&, VectorRef) noexcept;
-// Overloads: that these compile is the check.
-[[maybe_unused]] constexpr Acceleration accelerate = &forward_dynamics;
-using Step = Status (Simulator::*)(const ConstVectorRef&, const Wrenches&) noexcept;
-[[maybe_unused]] constexpr Step step = &Simulator::step;
 
 volatile double sink = 0.0;  // keeps results alive
 

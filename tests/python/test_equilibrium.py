@@ -87,3 +87,19 @@ def test_refusals() -> None:
         model.commands([math.nan] * 6, np.zeros(9))
     with pytest.raises(cdcr.ConvergenceError, match="bent beyond 3 pi"):
         cdcr.Model(cdcr.robots.rao2021()).equilibrium([0.0, 0.0, 0.0, 200.0, 0.0, 0.0])
+
+
+def test_strong_loads_without_an_energy_come_to_rest() -> None:
+    """Newtons and moments on a soft robot: one in a hundred needs more than a first search."""
+    section = cdcr.robots.amouri2020().sections[0]
+    model = cdcr.Model(cdcr.Robot(sections=[section, section]))
+    random = np.random.default_rng(1)
+    for _ in range(500):
+        wrenches = [
+            cdcr.Wrench(section=i, force=random.normal(size=3) * 2.0, moment=random.normal(size=3))
+            for i in (0, 1)
+        ]
+        answer = model.find_equilibrium(np.zeros(6), wrenches=wrenches)
+        assert answer.status is cdcr.Status.ok
+        left = model.bias(answer.q, np.zeros(4)) - model.wrench_force(answer.q, wrenches)
+        np.testing.assert_allclose(left, np.zeros(4), rtol=0.0, atol=1e3 * ROUNDING)
