@@ -10,24 +10,40 @@
 
 namespace cdcr::detail {
 
+// How every table is cut: sigma up to (3 pi)^2 = max_bending^2, a piece for each pi^2.
+inline constexpr int num_pieces = 9;
+inline constexpr int num_powers = 16;  // the next is below 1e-17 of the value in every piece
+inline constexpr double sigma_limit = max_bending * max_bending;
+inline constexpr double piece_width = sigma_limit / num_pieces;
+inline constexpr long double half_width = piece_width / 2.0L;
+
+/// Middle of a piece.
+constexpr long double piece_centre(int piece) {
+  return (2 * piece + 1) * half_width;
+}
+
+/// The piece that a sigma within the limit lies in; t is its place in [-1, 1] there.
+inline int find_piece(double sigma, double& t) noexcept {
+  const double position = sigma * (1.0 / piece_width);
+  int piece = static_cast<int>(position);
+  if (piece == num_pieces) piece = num_pieces - 1;
+  t = 2.0 * (position - piece) - 1.0;
+  return piece;
+}
+
 /// N functions of sigma = theta^2 as piecewise polynomials, one piece for each pi^2, fixed at
 /// construction: reading them costs 15 N multiply-adds and no trigonometric function.
 template <int N>
 class PolynomialTable {
  public:
-  static constexpr int num_pieces = 9;   // sigma up to (3 pi)^2 = max_bending^2
-  static constexpr int num_powers = 16;  // the next is below 1e-17 of the value in every piece
-  static constexpr double piece_width = max_bending * max_bending / num_pieces;
   using Values = Eigen::Array<double, N, 1>;
 
   /// From N power series about sigma = 0.
   explicit PolynomialTable(const std::vector<Series>& functions)
       : coefficients_(static_cast<std::size_t>(num_pieces * block)) {
-    const long double half_width = piece_width / 2.0L;
     for (int piece = 0; piece < num_pieces; ++piece) {
       for (std::size_t f = 0; f < N; ++f) {
-        const Series c =
-            recentred(functions[f], (2 * piece + 1) * half_width, half_width, num_powers);
+        const Series c = recentred(functions[f], piece_centre(piece), half_width, num_powers);
         double* to = coefficients_.data() + piece * block + f;
         for (std::size_t k = 0; k < num_powers; ++k) to[k * N] = static_cast<double>(c[k]);
       }
@@ -36,7 +52,7 @@ class PolynomialTable {
 
   /// NaN beyond the largest bending angle and for NaN. Real-time safe.
   void operator()(double sigma, Values& values) const noexcept {
-    if (!(sigma <= max_bending * max_bending)) {
+    if (!(sigma <= sigma_limit)) {
       values.setConstant(std::numeric_limits<double>::quiet_NaN());
       return;
     }
@@ -58,7 +74,7 @@ class PolynomialTable {
 
   /// Values and their derivatives with respect to sigma.
   void operator()(double sigma, Values& values, Values& slopes) const noexcept {
-    if (!(sigma <= max_bending * max_bending)) {
+    if (!(sigma <= sigma_limit)) {
       values.setConstant(std::numeric_limits<double>::quiet_NaN());
       slopes = values;
       return;
@@ -79,13 +95,9 @@ class PolynomialTable {
   static constexpr std::ptrdiff_t block = std::ptrdiff_t{num_powers} * N;
   static constexpr std::ptrdiff_t last_row = block - N;  // of the highest power
 
-  /// Coefficients of the piece that sigma lies in; t in [-1, 1] is its place there.
+  /// Coefficients of the piece that sigma lies in; t is its place there.
   const double* find(double sigma, double& t) const noexcept {
-    const double position = sigma * (1.0 / piece_width);
-    int piece = static_cast<int>(position);
-    if (piece == num_pieces) piece = num_pieces - 1;
-    t = 2.0 * (position - piece) - 1.0;
-    return coefficients_.data() + piece * block;
+    return coefficients_.data() + find_piece(sigma, t) * block;
   }
 
   std::vector<double> coefficients_;  // [piece][power][function]

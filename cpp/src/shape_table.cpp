@@ -5,21 +5,17 @@
 #include <limits>
 
 #include "cdcr/model.hpp"
-#include "recentred.hpp"
+#include "polynomial_table.hpp"
 #include "section_series.hpp"
 
 namespace cdcr::detail {
 namespace {
 
-constexpr int num_pieces = 9;   // sigma up to (3 pi)^2 = max_bending^2
-constexpr int num_powers = 16;  // the next is below 1e-17 of the value in every piece
 constexpr int num_groups = 3;
 constexpr std::ptrdiff_t block = 4 * std::ptrdiff_t{num_powers};
-constexpr double piece_width = max_bending * max_bending / num_pieces;
-constexpr double sigma_limit = max_bending * max_bending;
 
 /// Coefficients of df/dsigma = f'(t)/half_width.
-Series derivative(const Series& f, long double half_width) {
+Series derivative(const Series& f) {
   Series d;
   for (std::size_t k = 1; k < f.size(); ++k) {
     d.push_back(f[k] * static_cast<long double>(k) / half_width);
@@ -33,8 +29,7 @@ ShapeTable::ShapeTable(const SectionSeries& s)
     : coefficients_(static_cast<std::size_t>(num_pieces) * num_groups * block) {
   const Series* functions[4] = {&s.a, &s.b, &s.G_A, &s.G_S};
   for (int piece = 0; piece < num_pieces; ++piece) {
-    const long double half_width = piece_width / 2.0L;
-    const long double centre = (2 * piece + 1) * half_width;
+    const long double centre = piece_centre(piece);
     const auto put = [&](Group group, int place, const Series& c) {
       double* to = &coefficients_[(piece * num_groups + static_cast<int>(group)) * block + place];
       for (std::ptrdiff_t k = 0; k < num_powers; ++k) to[4 * k] = static_cast<double>(c[k]);
@@ -43,10 +38,10 @@ ShapeTable::ShapeTable(const SectionSeries& s)
       const Group group = f < 2 ? Group::inertia : Group::gravity;
       // Two more than the table keeps, for f''.
       const Series c = recentred(*functions[f], centre, half_width, num_powers + 2);
-      const Series first = derivative(c, half_width);
+      const Series first = derivative(c);
       put(group, f % 2, c);
       put(group, f % 2 + 2, first);
-      put(Group::second, f, derivative(first, half_width));
+      put(Group::second, f, derivative(first));
     }
   }
 }
@@ -56,10 +51,8 @@ ShapeTable::Values ShapeTable::operator()(Group group, double sigma) const noexc
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     return {nan, nan, nan, nan};
   }
-  const double position = sigma * (1.0 / piece_width);
-  int piece = static_cast<int>(position);
-  if (piece == num_pieces) piece = num_pieces - 1;
-  const double t = 2.0 * (position - piece) - 1.0;
+  double t = 0.0;
+  const int piece = find_piece(sigma, t);
   const double u = t * t;
   const double* c = coefficients_.data() + (piece * num_groups + static_cast<int>(group)) * block;
   // Powers 0 to 3 modulo 4 apart: four short dependency chains in place of one long one.

@@ -20,6 +20,7 @@ static_assert(is_noexcept<decltype(&friction_power)>);
 static_assert(is_noexcept<decltype(&cable_energy)>);
 static_assert(is_noexcept<decltype(&rest_command)>);
 static_assert(is_noexcept<decltype(&add_wrench_force)>);
+static_assert(is_noexcept<decltype(&static_stiffness)>);
 static_assert(is_noexcept<decltype(&check_state)>);
 
 volatile double sink = 0.0;  // keeps results alive
@@ -81,6 +82,8 @@ TEST_CASE("dynamics of three sections under everything allocate nothing") {
     CHECK(allocations_of([&] { linearize(model, data, q, qd, command, wrenches, A, B); }) == 0);
     CHECK(allocations_of([&] { state_jacobian(model, data, q, qd, command, wrenches, A); }) == 0);
     CHECK(A.allFinite());
+    CHECK(allocations_of([&] { static_stiffness(model, q, command, wrenches, M); }) == 0);
+    CHECK(M.allFinite());
   });
 }
 
