@@ -14,6 +14,7 @@
 
 #include "body_table.hpp"
 #include "moments.hpp"
+#include "recentred.hpp"
 
 namespace cdcr::detail {
 namespace {
@@ -59,10 +60,18 @@ Series times_argument(Series f) {
   return f;
 }
 
-Series derivative(const Series& f) {
-  Series d(f.size(), 0.0L);
-  for (std::size_t j = 0; j + 1 < f.size(); ++j) d[j] = static_cast<long double>(j + 1) * f[j + 1];
-  return d;
+/// What one element contributes, as series in y^2: the same for every section.
+struct ElementSeries {
+  Series cosine = even_function(0), S = even_function(1), A = even_function(2),
+         G = even_function(3);
+  Series A2 = A * A, S2 = S * S, AS = A * S, S_cosine = S * cosine, cosine2 = cosine * cosine;
+  Series k1 = G - AS, k2 = times_argument(A2), k3 = A * derivative(S) - S * derivative(A);
+};
+
+Series constant(long double value) {
+  Series f(num_terms, 0.0L);
+  f[0] = value;
+  return f;
 }
 
 /// sum over elements of weight x^p f(x^2 sigma), as a series in sigma.
@@ -73,37 +82,42 @@ Series sum(const Moments& weight, int p, Series f) {
 
 }  // namespace
 
-std::vector<Series> body_series(const Section& section) {
+BodyTable body_table(const Section& section) {
+  static const ElementSeries element;
   const Moments mass = Moments::of_mass(section, 0.0L);
   const Moments inertia = Moments::of_inertia(section);
   const long double l = section.length, l2 = l * l;
-  const Series cosine = even_function(0), S = even_function(1), A = even_function(2),
-               G = even_function(3);
-  Series one(S.size(), 0.0L);
-  one[0] = 1.0L;
-  const Series A2 = A * A, S2 = S * S, AS = A * S;
-
   std::vector<Series> f(num_shape_functions);
-  f[h0] = l * sum(mass, 1, S);
-  f[h1] = l * sum(mass, 2, A);
-  f[c0] = 2.0L * l2 * sum(mass, 2, A) + sum(inertia, 0, one);
-  f[c1] = sum(inertia, 2, S2) - l2 * sum(mass, 4, A2);
-  f[c2] = sum(inertia, 1, S * cosine) - l2 * sum(mass, 3, AS);
-  f[c3] = sum(inertia, 0, cosine * cosine) - l2 * sum(mass, 2, S2);
-  f[k0] = l2 * sum(mass, 3, AS) + sum(inertia, 1, one);
-  f[k1] = sum(inertia, 3, G - AS);
-  f[k2] = l2 * sum(mass, 4, A2) + sum(inertia, 2, times_argument(A2));
-  f[k3] = 2.0L * l2 * sum(mass, 5, A * derivative(S) - S * derivative(A));
+  f[h0] = l * sum(mass, 1, element.S);
+  f[h1] = l * sum(mass, 2, element.A);
+  f[c0] = 2.0L * l2 * sum(mass, 2, element.A) + constant(inertia(0));
+  f[c1] = sum(inertia, 2, element.S2) - l2 * sum(mass, 4, element.A2);
+  f[c2] = sum(inertia, 1, element.S_cosine) - l2 * sum(mass, 3, element.AS);
+  f[c3] = sum(inertia, 0, element.cosine2) - l2 * sum(mass, 2, element.S2);
+  f[k0] = l2 * sum(mass, 3, element.AS) + constant(inertia(1));
+  f[k1] = sum(inertia, 3, element.k1);
+  f[k2] = l2 * sum(mass, 4, element.A2) + sum(inertia, 2, element.k2);
+  f[k3] = 2.0L * l2 * sum(mass, 5, element.k3);
   const SectionSeries alone = exact_series(section, 0.0);
   f[in_a] = alone.a;
   f[in_b] = alone.b;
-  const int derivatives[][2] = {{dh0, h0}, {dh1, h1}, {ddh0, dh0}, {ddh1, dh1}, {dc0, c0},
-                                {dc1, c1}, {dc2, c2}, {dc3, c3},   {dk0, k0},   {dk1, k1},
-                                {dk2, k2}, {dk3, k3}, {d_a, in_a}, {d_b, in_b}};
-  for (const auto& [to, from] : derivatives) f[to] = derivative(f[from]);
-  f[spin_q] = 3.0L * f[k1] - 2.0L * f[dk0] + 2.0L * times_argument(f[dk1]) - f[k3];
-  f[spin_z] = 2.0L * f[k2] + 2.0L * times_argument(f[dk2]);
-  return f;
+  f[spin_q] =
+      3.0L * f[k1] - 2.0L * derivative(f[k0]) + 2.0L * times_argument(derivative(f[k1])) - f[k3];
+  f[spin_z] = 2.0L * f[k2] + 2.0L * times_argument(derivative(f[k2]));
+  return BodyTable(f, {{dh0, h0},
+                       {dh1, h1},
+                       {ddh0, dh0},
+                       {ddh1, dh1},
+                       {dc0, c0},
+                       {dc1, c1},
+                       {dc2, c2},
+                       {dc3, c3},
+                       {dk0, k0},
+                       {dk1, k1},
+                       {dk2, k2},
+                       {dk3, k3},
+                       {d_a, in_a},
+                       {d_b, in_b}});
 }
 
 const ArcTable& arc_table() {
@@ -112,12 +126,9 @@ const ArcTable& arc_table() {
     f[arc_s] = even_function(1);
     f[arc_a] = even_function(2);
     f[arc_g] = even_function(3);
-    f[arc_da] = derivative(f[arc_a]);
-    f[arc_ds] = derivative(f[arc_s]);
-    f[arc_dg] = derivative(f[arc_g]);
-    f[arc_dda] = derivative(f[arc_da]);
-    f[arc_dds] = derivative(f[arc_ds]);
-    return ArcTable(f);
+    return ArcTable(
+        f,
+        {{arc_da, arc_a}, {arc_ds, arc_s}, {arc_dg, arc_g}, {arc_dda, arc_da}, {arc_dds, arc_ds}});
   }();
   return table;
 }

@@ -36,8 +36,8 @@ using ArcValues = Eigen::Array<S, num_arc_functions, 1>;
 using BodyTable = PolynomialTable<num_shape_functions>;
 using ArcTable = PolynomialTable<num_arc_functions>;
 
-/// The power series of all ShapeFunctions of a section that carries no payload.
-[[nodiscard]] std::vector<Series> body_series(const Section& section);
+/// The ShapeFunctions of a section that carries no payload.
+[[nodiscard]] BodyTable body_table(const Section& section);
 
 /// Made at the first call; constructors of Model make it, so that nothing is made in a loop.
 [[nodiscard]] const ArcTable& arc_table();

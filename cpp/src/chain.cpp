@@ -21,6 +21,15 @@ Payload payload_of(const Robot& robot) {
   return {robot.payload, c, about_tip};
 }
 
+/// Whether two sections have the same inertia: then they share a table.
+bool moves_alike(const Section& a, const Section& b) {
+  return a.length == b.length && a.backbone_mass == b.backbone_mass &&
+         a.backbone_diameter == b.backbone_diameter && a.num_disks == b.num_disks &&
+         a.disk_mass == b.disk_mass && a.disk_diameter == b.disk_diameter &&
+         a.disk_positions == b.disk_positions && a.disk_masses == b.disk_masses &&
+         a.disk_diameters == b.disk_diameters;
+}
+
 }  // namespace
 
 Chain::Chain(const Robot& robot)
@@ -28,8 +37,12 @@ Chain::Chain(const Robot& robot)
   for (const Section& s : robot.sections) {
     double mass = s.backbone_mass;
     for (const Disk& disk : s.disks()) mass += disk.mass;
-    bodies.push_back(
-        {BodyTable(body_series(s)), &arc_table(), s.length, mass, s.stiffness(), s.damping});
+    std::shared_ptr<const BodyTable> table;
+    for (std::size_t i = 0; i < bodies.size() && !table; ++i) {
+      if (moves_alike(robot.sections[i], s)) table = bodies[i].table;
+    }
+    if (!table) table = std::make_shared<const BodyTable>(body_table(s));
+    bodies.push_back({table, &arc_table(), s.length, mass, s.stiffness(), s.damping});
   }
 }
 

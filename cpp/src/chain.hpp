@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <memory>
 #include <vector>
 
 #include "body_table.hpp"
@@ -21,7 +22,7 @@ using Matrix32 = Eigen::Matrix<S, 3, 2>;
 
 /// One section of a chain.
 struct Body {
-  BodyTable table;
+  std::shared_ptr<const BodyTable> table;  // shared by sections that are equal
   const ArcTable* arcs;
   double length, mass, stiffness, damping;
 };
@@ -115,7 +116,7 @@ struct Link : Arc<S> {
   /// What does not depend on qd.
   void place(const Body& body, const Mount<S>& mount, const S& x, const S& y) {
     Arc<S>::place(body, mount, x, y);
-    read(body.table, S(x * x + y * y), f);
+    read(*body.table, S(x * x + y * y), f);
     n = base.y * x - base.x * y;
     qd_x = qd_y = S(0.0);
   }

@@ -2,7 +2,9 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <initializer_list>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "cdcr/model.hpp"
@@ -38,14 +40,22 @@ class PolynomialTable {
  public:
   using Values = Eigen::Array<double, N, 1>;
 
-  /// From N power series about sigma = 0.
-  explicit PolynomialTable(const std::vector<Series>& functions)
+  /// From power series about sigma = 0. A pair (d, f) says that function d, whose series is empty,
+  /// is the derivative of f; that of a derivative stands after it.
+  PolynomialTable(const std::vector<Series>& functions,
+                  std::initializer_list<std::pair<int, int>> derivatives)
       : coefficients_(static_cast<std::size_t>(num_pieces * block)) {
+    std::vector<Series> c(N);
     for (int piece = 0; piece < num_pieces; ++piece) {
       for (std::size_t f = 0; f < N; ++f) {
-        const Series c = recentred(functions[f], piece_centre(piece), half_width, num_powers);
-        double* to = coefficients_.data() + piece * block + f;
-        for (std::size_t k = 0; k < num_powers; ++k) to[k * N] = static_cast<double>(c[k]);
+        if (functions[f].empty()) continue;
+        // Two more than the table keeps, for second derivatives.
+        c[f] = recentred(functions[f], piece_centre(piece), half_width, num_powers + 2);
+      }
+      for (const auto& [d, f] : derivatives) c[d] = derivative(c[f], half_width);
+      double* to = coefficients_.data() + piece * block;
+      for (std::size_t k = 0; k < num_powers; ++k) {
+        for (std::size_t f = 0; f < N; ++f) *to++ = static_cast<double>(c[f][k]);
       }
     }
   }

@@ -22,4 +22,11 @@ inline Series recentred(Series f, long double centre, long double half_width, st
   return f;
 }
 
+/// Coefficients of df/dx of a series in x/unit; as many as f has, the last of them zero.
+inline Series derivative(const Series& f, long double unit = 1.0L) {
+  Series d(f.size(), 0.0L);
+  for (std::size_t k = 1; k < f.size(); ++k) d[k - 1] = f[k] * static_cast<long double>(k) / unit;
+  return d;
+}
+
 }  // namespace cdcr::detail

@@ -14,15 +14,6 @@ namespace {
 constexpr int num_groups = 3;
 constexpr std::ptrdiff_t block = 4 * std::ptrdiff_t{num_powers};
 
-/// Coefficients of df/dsigma = f'(t)/half_width.
-Series derivative(const Series& f) {
-  Series d;
-  for (std::size_t k = 1; k < f.size(); ++k) {
-    d.push_back(f[k] * static_cast<long double>(k) / half_width);
-  }
-  return d;
-}
-
 }  // namespace
 
 ShapeTable::ShapeTable(const SectionSeries& s)
@@ -38,10 +29,10 @@ ShapeTable::ShapeTable(const SectionSeries& s)
       const Group group = f < 2 ? Group::inertia : Group::gravity;
       // Two more than the table keeps, for f''.
       const Series c = recentred(*functions[f], centre, half_width, num_powers + 2);
-      const Series first = derivative(c);
+      const Series first = derivative(c, half_width);
       put(group, f % 2, c);
       put(group, f % 2 + 2, first);
-      put(Group::second, f, derivative(first));
+      put(Group::second, f, derivative(first, half_width));
     }
   }
 }
