@@ -32,6 +32,8 @@ struct Payload {
   double mass = 0.0;
   Vector3d position = Vector3d::Zero();
   Matrix3d inertia = Matrix3d::Zero();  // about the tip
+
+  [[nodiscard]] bool has_inertia() const noexcept { return mass != 0.0 || !inertia.isZero(0.0); }
 };
 
 /// A robot made ready for the recursions.
@@ -128,31 +130,45 @@ struct Link : Arc<S> {
     return mount;
   }
 
-  /// Terms that come from velocities alone, eqs. (28) to (30).
+  /// Terms that come from velocities alone, eqs. (28) to (30). A base that does not turn leaves
+  /// moment and force out: the root passes nothing on.
+  template <bool turns = true>
   void move(const Body& body, const S& xd, const S& yd) {
     qd_x = xd;
     qd_y = yd;
     const Vector3<S>& omega = base.omega;
     const Vector3<S>& z = base.z;
     const Vector3<S> qd = base.x * xd + base.y * yd;
-    const Vector3<S> n_rate = base.y * xd - base.x * yd;
     const S p = q_x * xd + q_y * yd, w = xd * xd + yd * yd, c = q_x * yd - q_y * xd;
     const S pp4 = 4.0 * p * p;
 
     // Tip: rates of its turning and moving relative to the base.
+    const S l = body.length;
+    const Vector3<S> turning_rate =
+        c * ((2.0 * p) * (arc[arc_da] * z + arc[arc_dg] * q) + arc[arc_g] * qd);
+    const Vector3<S> moving_rate =
+        l * ((4.0 * p * arc[arc_da]) * qd + (2.0 * w * arc[arc_da] + pp4 * arc[arc_dda]) * q +
+             (2.0 * w * arc[arc_ds] + pp4 * arc[arc_dds]) * z);
+    // On q: the section's own bias of eq. (16).
+    const S on_qd = 2.0 * p * f[d_a] + body.damping;
+    const S on_q = f[d_b] * p * p + (f[in_b] - f[d_a]) * w + body.stiffness;
+    if constexpr (!turns) {
+      tip_omega = turning_rate;
+      tip_v = moving_rate;
+      bending[0] = on_qd * xd + on_q * q_x;
+      bending[1] = on_qd * yd + on_q * q_y;
+      return;
+    }
     const Vector3<S> turning = W.col(0) * xd + W.col(1) * yd;
     const Vector3<S> moving = D.col(0) * xd + D.col(1) * yd;
-    tip_omega = omega.cross(turning) +
-                c * ((2.0 * p) * (arc[arc_da] * z + arc[arc_dg] * q) + arc[arc_g] * qd);
-    const S l = body.length;
-    tip_v = omega.cross(Vector3<S>(omega.cross(r) + 2.0 * moving)) +
-            l * ((4.0 * p * arc[arc_da]) * qd + (2.0 * w * arc[arc_da] + pp4 * arc[arc_dda]) * q +
-                 (2.0 * w * arc[arc_ds] + pp4 * arc[arc_dds]) * z);
+    tip_omega = omega.cross(turning) + turning_rate;
+    tip_v = omega.cross(Vector3<S>(omega.cross(r) + 2.0 * moving)) + moving_rate;
 
     // Linear momentum m v + omega x h + dh/dt.
     const Vector3<S> h = f[h1] * q + f[h0] * z;
     const Vector3<S> dh = 2.0 * (f[dh1] * q + f[dh0] * z);
     const Vector3<S> h_rate = f[h1] * qd + p * dh;
+    const Vector3<S> n_rate = base.y * xd - base.x * yd;
     force = omega.cross(Vector3<S>(omega.cross(h) + 2.0 * h_rate)) + (4.0 * p * f[dh1]) * qd +
             w * dh + pp4 * (f[ddh1] * q + f[ddh0] * z);
 
@@ -168,14 +184,12 @@ struct Link : Arc<S> {
              (j_q + c * f[k1]) * qd + (p2 * f[dk0] - p * f[k3]) * n_rate -
              (p * p2 * f[dk3] + w * f[k3]) * n;
 
-    // On q: gyroscopic, centrifugal, and the section's own bias of eq. (16).
+    // On q: gyroscopic and centrifugal.
     const S gyro = f[spin_q] * o_q + f[spin_z] * o_z;
-    const S on_qd = p2 * f[d_a] + body.damping;
-    const S on_q =
-        f[d_b] * p * p + (f[in_b] - f[d_a]) * w + body.stiffness -
-        (f[dc0] * oo + f[dc1] * o_q * o_q + 2.0 * f[dc2] * o_q * o_z + f[dc3] * o_z * o_z);
-    bending[0] = on_qd * xd + on_q * q_x - gyro * yd - j_q * omega.dot(base.x);
-    bending[1] = on_qd * yd + on_q * q_y + gyro * xd - j_q * omega.dot(base.y);
+    const S along_q =
+        on_q - (f[dc0] * oo + f[dc1] * o_q * o_q + 2.0 * f[dc2] * o_q * o_z + f[dc3] * o_z * o_z);
+    bending[0] = on_qd * xd + along_q * q_x - gyro * yd - j_q * omega.dot(base.x);
+    bending[1] = on_qd * yd + along_q * q_y + gyro * xd - j_q * omega.dot(base.y);
   }
 
   /// First moment of mass about the base.

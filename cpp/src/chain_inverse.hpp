@@ -18,17 +18,25 @@ void inverse_dynamics(const Chain& chain, const S* q, const S* qd, const S* qdd,
     const Body& body = chain.bodies[i];
     Link<S>& link = links[i];
     link.place(body, mount, q[2 * i], q[2 * i + 1]);
-    link.move(body, qd ? qd[2 * i] : zero, qd ? qd[2 * i + 1] : zero);
+    const S xd = qd ? qd[2 * i] : zero, yd = qd ? qd[2 * i + 1] : zero;
     const S a_x = qdd ? qdd[2 * i] : zero, a_y = qdd ? qdd[2 * i + 1] : zero;
 
     // Inertia forces of the accelerations, on top of those of the velocities.
-    const Vector3<S> h = link.first_moment();
-    const Matrix32<S> H = link.linear_coupling(), N = link.angular_coupling();
-    link.force += body.mass * v + alpha.cross(h) + H.col(0) * a_x + H.col(1) * a_y;
-    link.moment += link.second_moment() * alpha + h.cross(v) + N.col(0) * a_x + N.col(1) * a_y;
+    const Matrix32<S> H = link.linear_coupling();
     const Vector3<S> own = link.own_mass();
-    link.bending[0] += own[0] * a_x + own[1] * a_y + N.col(0).dot(alpha) + H.col(0).dot(v);
-    link.bending[1] += own[1] * a_x + own[2] * a_y + N.col(1).dot(alpha) + H.col(1).dot(v);
+    if (i == 0) {  // its base neither turns nor asks what acts on it
+      link.template move<false>(body, xd, yd);
+    } else {
+      link.move(body, xd, yd);
+      const Vector3<S> h = link.first_moment();
+      const Matrix32<S> N = link.angular_coupling();
+      link.force += body.mass * v + alpha.cross(h) + H.col(0) * a_x + H.col(1) * a_y;
+      link.moment += link.second_moment() * alpha + h.cross(v) + N.col(0) * a_x + N.col(1) * a_y;
+      link.bending[0] += N.col(0).dot(alpha);
+      link.bending[1] += N.col(1).dot(alpha);
+    }
+    link.bending[0] += own[0] * a_x + own[1] * a_y + H.col(0).dot(v);
+    link.bending[1] += own[1] * a_x + own[2] * a_y + H.col(1).dot(v);
 
     v += alpha.cross(link.r) + link.D.col(0) * a_x + link.D.col(1) * a_y + link.tip_v;
     alpha += link.W.col(0) * a_x + link.W.col(1) * a_y + link.tip_omega;
@@ -43,6 +51,7 @@ void inverse_dynamics(const Chain& chain, const S* q, const S* qd, const S* qdd,
     for (int k = 0; k < 2; ++k) {
       force[2 * i + k] = link.bending[k] + link.W.col(k).dot(moment) + link.D.col(k).dot(pull);
     }
+    if (i == 0) break;
     moment += link.r.cross(pull) + link.moment;
     pull += link.force;
   }
