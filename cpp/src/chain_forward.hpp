@@ -34,8 +34,7 @@ void forward_dynamics(const Chain& chain, const S* q, const S* qd, const S* forc
   const auto eliminate = [&](Index i, auto carries) {
     const Link<S>& link = links[i];
     Solved& s = solved[i];
-    const Vector3<S> own = link.own_mass();
-    S xx = own[0], xy = own[1], yy = own[2];
+    Vector3<S> mass = link.own_mass();  // xx, xy, yy
     S b_x = link.bending[0] - force[2 * i], b_y = link.bending[1] - force[2 * i + 1];
     Vector3<S> f_tip, m_tip;
     Matrix32<S> F, T;
@@ -45,19 +44,19 @@ void forward_dynamics(const Chain& chain, const S* q, const S* qd, const S* forc
       m_tip = rest.moment + rest.J * link.tip_omega + rest.G * link.tip_v;
       F = rest.G.transpose() * link.W + rest.M * link.D;
       T = rest.J * link.W + rest.G * link.D;
-      xx += link.W.col(0).dot(T.col(0)) + link.D.col(0).dot(F.col(0));
-      xy += link.W.col(0).dot(T.col(1)) + link.D.col(0).dot(F.col(1));
-      yy += link.W.col(1).dot(T.col(1)) + link.D.col(1).dot(F.col(1));
+      mass[0] += link.W.col(0).dot(T.col(0)) + link.D.col(0).dot(F.col(0));
+      mass[1] += link.W.col(0).dot(T.col(1)) + link.D.col(0).dot(F.col(1));
+      mass[2] += link.W.col(1).dot(T.col(1)) + link.D.col(1).dot(F.col(1));
       b_x += link.W.col(0).dot(m_tip) + link.D.col(0).dot(f_tip);
       b_y += link.W.col(1).dot(m_tip) + link.D.col(1).dot(f_tip);
       s.U_v = F + link.linear_coupling();
     } else {
       s.U_v = link.linear_coupling();
     }
-    const S inverse = 1.0 / (xx * yy - xy * xy);
-    s.xx = yy * inverse;
-    s.xy = -xy * inverse;
-    s.yy = xx * inverse;
+    const S inverse = 1.0 / (mass[0] * mass[2] - mass[1] * mass[1]);
+    s.xx = mass[2] * inverse;
+    s.xy = -mass[1] * inverse;
+    s.yy = mass[0] * inverse;
     s.u_x = s.xx * b_x + s.xy * b_y;
     s.u_y = s.xy * b_x + s.yy * b_y;
     if (i == 0) return;  // its base neither turns nor passes anything on
