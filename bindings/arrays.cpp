@@ -80,7 +80,7 @@ VectorArgument read_bending(const Model& model, const py::handle& object, const 
     if (theta <= max_bending) continue;
     std::ostringstream text;
     text << name << " must bend each section by at most 3 pi rad, got " << theta
-         << " rad in section " << i;
+         << " rad in section " << i + 1;
     refuse(text);
   }
   return q;

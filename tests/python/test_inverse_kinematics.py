@@ -152,7 +152,7 @@ def test_a_section_of_its_own_limit() -> None:
     model, limits = MODELS[3], np.array([0.1, 0.5, 2.0])
     answer = model.inverse_kinematics([0.5, 0.0, 0.0], max_theta=limits)
     assert (thetas(answer.q) <= limits).all()
-    assert "section 0 stands at its max_theta of 0.1 rad" in answer.message
+    assert "section 1 stands at its max_theta of 0.1 rad" in answer.message
     one = MODELS[1].inverse_kinematics([0.1, 0.0, 0.0], max_theta=[0.1])
     assert thetas(one.q)[0] == pytest.approx(0.1)
 
@@ -196,7 +196,7 @@ REFUSED: list[tuple[dict[str, Any], str]] = [
     ({"q0": [0.0, 0.0, 0.0, math.nan]}, "q0[3] must be finite, got nan"),
     (
         {"q0": [0.0, 0.0, 10.0, 0.0]},
-        "q0 must bend each section by at most 3 pi rad, got 10 rad in section 1",
+        "q0 must bend each section by at most 3 pi rad, got 10 rad in section 2",
     ),
     ({"max_theta": 0.0}, "max_theta must be > 0 and at most 3 pi rad, got 0"),
     ({"max_theta": [1.0, 10.0]}, "max_theta[1] must be > 0 and at most 3 pi rad, got 10"),

@@ -123,7 +123,7 @@ def test_bad_states_are_refused_and_change_nothing(model: cdcr.Model) -> None:
     sim.reset(Q0, QD0)
     with refuses("q must have shape (2,), got (1,)"):
         sim.reset([0.0], QD0)
-    with refuses("q must bend each section by at most 3 pi rad, got 10 rad in section 0"):
+    with refuses("q must bend each section by at most 3 pi rad, got 10 rad in section 1"):
         sim.reset([10.0, 0.0], QD0)
     with refuses("qd[1] must be finite, got nan"):
         sim.reset(Q0, [0.0, math.nan])
