@@ -124,7 +124,7 @@ def test_a_profile_must_give_a_finite_number(model: cdcr.Model, method: Any, val
         (
             ([0.0, 1.0, 0.5], [1.0, 1.0, 1.0]),
             "the times of a wrench's profile must be finite and strictly increasing, "
-            "got 0.5 s at index 2",
+            "got 0.5 s at index 2 after 1 s",
         ),
         (([0.0, 1.0], [1.0]), "the factors of a wrench's profile must have shape (2,), got (1,)"),
         (([0.0, np.nan], [1.0, 1.0]), "the times of a wrench's profile[1] must be finite, got nan"),
