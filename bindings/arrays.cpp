@@ -5,21 +5,29 @@
 #include <sstream>
 #include <vector>
 
+#include "states.hpp"
+
 namespace cdcr::python {
 namespace {
 
-template <class Sizes>
-std::string shape_text(const Sizes& sizes) {
+/// The sizes of an array's dimensions.
+std::vector<Index> sizes_of(const Array& array) {
+  return {array.shape(), array.shape() + array.ndim()};
+}
+
+/// "(4, 2)", as Python writes it; for what is wanted also "any" and "...".
+std::string shape_text(const std::vector<Index>& sizes) {
   std::string text = "(";
   for (const Index size : sizes) {
     if (text.size() > 1) text += ", ";
-    text += size < 0 ? std::string("any") : std::to_string(size);
+    text += size == leading ? "..." : size == any_size ? "any" : std::to_string(size);
   }
   return text + (sizes.size() == 1 ? ",)" : ")");
 }
 
-/// "[1]" or "[0, 1]" for the flat index of an entry.
+/// "[1]" or "[0, 1]" for the flat index of an entry; nothing where there are no dimensions.
 std::string index_text(Index flat, const std::vector<Index>& sizes) {
+  if (sizes.empty()) return "";
   std::string text;
   for (std::size_t i = sizes.size(); i-- > 0;) {
     if (!text.empty()) text.insert(0, ", ");
@@ -35,7 +43,14 @@ std::string index_text(Index flat, const std::vector<Index>& sizes) {
 
 Array convert(const py::handle& object, const char* name, std::initializer_list<Index> shape) {
   // An array that is already right is taken as it is, past the conversion.
-  if (Array::check_(object)) return py::reinterpret_borrow<Array>(object);
+  if (py::isinstance<py::array>(object)) {
+    static const py::handle float64 = py::dtype::of<double>().release();
+    const auto array = py::reinterpret_borrow<py::array>(object);
+    const bool in_rows = (static_cast<unsigned>(array.flags()) & unsigned{py::array::c_style}) != 0;
+    if (in_rows && array.dtype().is(float64)) {
+      return py::reinterpret_borrow<Array>(object);
+    }
+  }
   try {
     return Array(py::reinterpret_borrow<py::object>(object));
   } catch (const py::error_already_set& error) {
@@ -48,59 +63,105 @@ Array convert(const py::handle& object, const char* name, std::initializer_list<
   refuse(text);
 }
 
+/// Refuses a section bent beyond max_bending, in any state.
+void check_bending(const Model& model, const Array& q, const char* name) {
+  const Index size = model.num_coordinates(), end = q.size();
+  const double* data = q.data();
+  for (Index first = 0; first < end; first += size) {
+    const Eigen::Map<const VectorXd> state(data + first, size);
+    for (Index i = 0; i < model.num_sections(); ++i) {
+      const double theta = state.segment<2>(model.first_coordinate(i)).norm();
+      if (theta <= max_bending) continue;
+      std::vector<Index> before = sizes_of(q);
+      before.pop_back();
+      std::ostringstream text;
+      text << name << index_text(first / size, before)
+           << " must bend each section by at most 3 pi rad, got " << theta << " rad in section "
+           << i + 1;
+      refuse(text);
+    }
+  }
+}
+
+/// Refuses a negative command, in any state.
+void check_tension(const Model& model, const Array& tension) {
+  const double* data = tension.data();
+  for (Index i = 0, end = tension.size(); i < end; ++i) {
+    if (data[i] >= 0.0) continue;
+    const Index cable = i % model.num_cables();
+    std::ostringstream text;
+    text << "tension" << index_text(i, sizes_of(tension)) << " must be >= 0 ";
+    if (model.cables()[static_cast<std::size_t>(cable)].length_driven()) {
+      text << "m (the length commanded of a length-driven cable)";
+    } else {
+      text << "N (a cable cannot push)";
+    }
+    text << ", got " << data[i];
+    refuse(text);
+  }
+}
+
 }  // namespace
 
 Array read_array(const py::handle& object, const char* name, std::initializer_list<Index> shape) {
-  const Array array = convert(object, name, shape);
-  const bool fits =
-      std::equal(shape.begin(), shape.end(), array.shape(), array.shape() + array.ndim(),
-                 [](Index wanted, Index got) { return wanted < 0 || wanted == got; });
-  const auto got = [&array] {
-    return std::vector<Index>(array.shape(), array.shape() + array.ndim());
-  };
+  Array array = convert(object, name, shape);
+  const bool stacked = shape.size() > 0 && *shape.begin() == leading;
+  const Index before = stacked ? array.ndim() - static_cast<Index>(shape.size()) + 1 : 0;
+  const bool fits = before >= 0 && std::equal(shape.begin() + (stacked ? 1 : 0), shape.end(),
+                                              array.shape() + before, array.shape() + array.ndim(),
+                                              [](Index wanted, Index got) {
+                                                return wanted == any_size || wanted == got;
+                                              });
   if (!fits) {
     std::ostringstream text;
-    text << name << " must have shape " << shape_text(shape) << ", got " << shape_text(got());
+    text << name << " must have shape " << shape_text(shape) << ", got "
+         << shape_text(sizes_of(array));
     refuse(text);
   }
   const double* data = array.data();
-  for (Index i = 0; i < array.size(); ++i) {
+  for (Index i = 0, end = array.size(); i < end; ++i) {
     if (std::isfinite(data[i])) continue;
     std::ostringstream text;
-    text << name << index_text(i, got()) << " must be finite, got " << data[i];
+    text << name << index_text(i, sizes_of(array)) << " must be finite, got " << data[i];
     refuse(text);
   }
   return array;
 }
 
 VectorArgument read_bending(const Model& model, const py::handle& object, const char* name) {
-  VectorArgument q(object, name, model.num_coordinates());
-  for (Index i = 0; i < model.num_sections(); ++i) {
-    const double theta = (*q).segment<2>(2 * i).norm();
-    if (theta <= max_bending) continue;
-    std::ostringstream text;
-    text << name << " must bend each section by at most 3 pi rad, got " << theta
-         << " rad in section " << i + 1;
-    refuse(text);
-  }
-  return q;
+  Array q = read_array(object, name, {model.num_coordinates()});
+  check_bending(model, q, name);
+  return VectorArgument(std::move(q));
 }
 
 VectorArgument read_tension(const Model& model, const py::handle& object) {
-  VectorArgument tension(object, "tension", model.num_cables());
-  for (Index j = 0; j < model.num_cables(); ++j) {
-    if ((*tension)[j] >= 0.0) continue;
-    std::ostringstream text;
-    text << "tension[" << j << "] must be >= 0 ";
-    if (model.cables()[static_cast<std::size_t>(j)].length_driven()) {
-      text << "m (the length commanded of a length-driven cable)";
-    } else {
-      text << "N (a cable cannot push)";
-    }
-    text << ", got " << (*tension)[j];
-    refuse(text);
-  }
+  Array tension = read_array(object, "tension", {model.num_cables()});
+  check_tension(model, tension);
+  return VectorArgument(std::move(tension));
+}
+
+StateArgument read_bendings(const Model& model, const py::handle& object) {
+  StateArgument q("q", object, model.num_coordinates());
+  check_bending(model, q.array, q.name);
+  return q;
+}
+
+StateArgument read_rates(const Model& model, const py::handle& object, const char* name) {
+  return {name, object, model.num_coordinates()};
+}
+
+StateArgument read_tensions(const Model& model, const py::handle& object) {
+  StateArgument tension("tension", object, model.num_cables());
+  check_tension(model, tension.array);
   return tension;
+}
+
+void refuse_leading(const StateArgument& argument, const std::vector<Index>& before) {
+  std::ostringstream text;
+  text << argument.name << " must have shape (..., " << argument.size
+       << ") with leading dimensions that broadcast with " << shape_text(before) << ", got "
+       << shape_text(sizes_of(argument.array));
+  refuse(text);
 }
 
 py::array_t<double> to_array(const Eigen::Ref<const VectorXd>& vector) {

@@ -14,8 +14,11 @@ namespace cdcr::python {
 namespace py = pybind11;
 using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
+/// In the shape wanted: a dimension of any size, and, at the front, any number of dimensions.
+inline constexpr Index any_size = -1, leading = -2;
+
 /// Reads an argument as finite float64 numbers of one shape, or raises ValueError naming the
-/// argument, what was given and what is wanted. A dimension of -1 takes any size.
+/// argument, what was given and what is wanted.
 [[nodiscard]] Array read_array(const py::handle& object, const char* name,
                                std::initializer_list<Index> shape);
 
@@ -23,7 +26,9 @@ using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 class VectorArgument {
  public:
   VectorArgument(const py::handle& object, const char* name, Index size)
-      : array_(read_array(object, name, {size})), map_(array_.data(), array_.size()) {}
+      : VectorArgument(read_array(object, name, {size})) {}
+  explicit VectorArgument(Array array)
+      : array_(std::move(array)), map_(array_.data(), array_.size()) {}
 
   [[nodiscard]] const Eigen::Map<const VectorXd>& operator*() const { return map_; }
 
@@ -32,12 +37,28 @@ class VectorArgument {
   Eigen::Map<const VectorXd> map_;
 };
 
-/// A bending vector (2n): also refuses a section bent beyond max_bending.
+/// An argument of one state in its last dimension; those before count states.
+struct StateArgument {
+  StateArgument(const char* argument, const py::handle& object, Index state_size)
+      : name(argument), size(state_size), array(read_array(object, name, {leading, size})) {}
+
+  const char* name;
+  Index size;
+  Array array;
+};
+
+/// A bending vector (d): also refuses a section bent beyond max_bending.
 [[nodiscard]] VectorArgument read_bending(const Model& model, const py::handle& object,
                                           const char* name);
 
 /// Commands of the cables (num_cables), tensions or lengths: also refuses a negative one.
 [[nodiscard]] VectorArgument read_tension(const Model& model, const py::handle& object);
+
+/// The same of arrays of states: any leading dimensions go before the last one.
+[[nodiscard]] StateArgument read_bendings(const Model& model, const py::handle& object);
+[[nodiscard]] StateArgument read_rates(const Model& model, const py::handle& object,
+                                       const char* name);
+[[nodiscard]] StateArgument read_tensions(const Model& model, const py::handle& object);
 
 /// A sequence of cdcr.Wrench, or one, each constant and in its range.
 [[nodiscard]] Wrenches read_wrenches(const Model& model, const py::object& object);

@@ -1,6 +1,7 @@
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "cdcr/coordinates.hpp"
+#include "docs.hpp"
 
 namespace cdcr::python {
 
@@ -11,7 +12,7 @@ void bind_coordinates(py::module_& m) {
   m.def(
       "polar_along",
       [](const py::object& q) {
-        const Array array = read_array(q, "q", {-1, -1});
+        const Array array = read_array(q, "q", {any_size, any_size});
         if (array.shape(1) % 2 != 0) {
           throw py::value_error("q must have two columns for each section, got " +
                                 std::to_string(array.shape(1)) + " columns");
@@ -21,7 +22,11 @@ void bind_coordinates(py::module_& m) {
         polar_along(rows, theta, phi);
         return py::make_tuple(to_rows(theta), to_rows(phi));
       },
-      "q"_a, "theta and phi (N, n) [rad] along a run q (N, 2n), phi continuous.");
+      "q"_a,
+      Doc("Polar form of bending vectors along a run, phi continuous: cpp/README.md eq. (1).",
+          {"q : (N, 2n) array_like\n    Bending vectors of one sample in each row [rad].\n"},
+          "theta, phi : (N, n) array\n    Bending and orientation angles [rad].",
+          docs::bad_argument));
 }
 
 }  // namespace cdcr::python

@@ -1,7 +1,8 @@
-#include "arrays.hpp"
 #include "bind.hpp"
 #include "cdcr/dynamics.hpp"
 #include "cdcr/linearization.hpp"
+#include "docs.hpp"
+#include "states.hpp"
 
 namespace cdcr::python {
 namespace {
@@ -9,27 +10,24 @@ namespace {
 namespace py = pybind11;
 using namespace py::literals;
 
-VectorArgument read_rate(const Model& model, const py::handle& object, const char* name) {
-  return {object, name, model.num_coordinates()};
-}
-
-/// Applies f to every row of q (N, 2n) and, where given, qd (N, 2n), without the GIL.
-template <class F>
-py::array_t<double> for_each_row(const Model& self, const py::object& q, const py::object* qd,
-                                 F&& f) {
-  const Index m = self.num_coordinates();
-  const Array rows = read_array(q, "q", {-1, m});
-  const Array rates = qd != nullptr ? read_array(*qd, "qd", {rows.shape(0), m}) : rows;
-  VectorXd values(rows.shape(0));
-  {
-    const py::gil_scoped_release unlocked;
-    Data data(self);
-    for (Index i = 0; i < values.size(); ++i) {
-      values[i] = f(data, Eigen::Map<const VectorXd>(rows.data() + i * m, m),
-                    Eigen::Map<const VectorXd>(rates.data() + i * m, m));
-    }
-  }
-  return to_array(values);
+py::tuple linearize_states(const Model& self, const py::object& q, const py::object& qd,
+                           const py::object& tension, const py::object& wrenches) {
+  require_inertia(self);
+  const Wrenches loads = read_wrenches(self, wrenches);
+  const States states{read_bendings(self, q), read_rates(self, qd, "qd"),
+                      read_tensions(self, tension)};
+  const Index num_states = 2 * self.num_coordinates(), num_cables = self.num_cables();
+  py::array_t<double> all_A = states.output({num_states, num_states});
+  py::array_t<double> all_B = states.output({num_states, num_cables});
+  double *a = all_A.mutable_data(), *b = all_B.mutable_data();
+  Data data(self);
+  MatrixXd A(num_states, num_states), B(num_states, num_cables);
+  states.each([&](Index i, const auto& x, const auto& xd, const auto& command) {
+    linearize(self, data, x, xd, command, loads, A, B);
+    Eigen::Map<RowMatrixXd>(a + i * A.size(), num_states, num_states) = A;
+    Eigen::Map<RowMatrixXd>(b + i * B.size(), num_states, num_cables) = B;
+  });
+  return py::make_tuple(std::move(all_A), std::move(all_B));
 }
 
 }  // namespace
@@ -40,98 +38,86 @@ void bind_dynamics(PyModel& model) {
           "mass_matrix",
           [](const Model& self, const py::object& q) {
             Data data(self);
-            MatrixXd M(self.num_coordinates(), self.num_coordinates());
-            mass_matrix(self, data, *read_bending(self, q, "q"), M);
-            return to_rows(M);
+            const Index d = self.num_coordinates();
+            return States{read_bendings(self, q)}.matrices(
+                d, d, [&](auto& x, auto& M) { mass_matrix(self, data, x, M); });
           },
-          "q"_a)
+          "q"_a,
+          Doc("Mass matrix M(q): cpp/README.md eq. (11), cpp/several-sections.md eq. (34).",
+              {docs::q}, "(..., d, d) array\n    Symmetric [kg m^2].", docs::bad_states))
       .def(
           "bias",
           [](const Model& self, const py::object& q, const py::object& qd) {
             Data data(self);
-            py::array_t<double> h(self.num_coordinates());
-            bias(self, data, *read_bending(self, q, "q"), *read_rate(self, qd, "qd"),
-                 Eigen::Map<VectorXd>(h.mutable_data(), h.size()));
-            return h;
+            return States{read_bendings(self, q), read_rates(self, qd, "qd")}.vectors(
+                self.num_coordinates(),
+                [&](auto& x, auto& xd, auto& out) { bias(self, data, x, xd, out); });
           },
-          "q"_a, "qd"_a)
+          "q"_a, "qd"_a,
+          Doc("Coriolis, damping, elastic and gravity terms h(q, qd): cpp/README.md eq. (16),\n"
+              "cpp/several-sections.md eq. (33).",
+              {docs::q, docs::qd}, "(..., d) array\n    Generalised force [N m].",
+              docs::bad_states))
       .def(
           "forward_dynamics",
           [](const Model& self, const py::object& q, const py::object& qd,
              const py::object& tension, const py::object& wrenches) {
             require_inertia(self);
             Data data(self);
-            py::array_t<double> qdd(self.num_coordinates());
-            forward_dynamics(self, data, *read_bending(self, q, "q"), *read_rate(self, qd, "qd"),
-                             *read_tension(self, tension), read_wrenches(self, wrenches),
-                             Eigen::Map<VectorXd>(qdd.mutable_data(), qdd.size()));
-            return qdd;
+            const Wrenches loads = read_wrenches(self, wrenches);
+            return States{read_bendings(self, q), read_rates(self, qd, "qd"),
+                          read_tensions(self, tension)}
+                .vectors(self.num_coordinates(), [&](auto& x, auto& xd, auto& command, auto& out) {
+                  forward_dynamics(self, data, x, xd, command, loads, out);
+                });
           },
-          "q"_a, "qd"_a, "tension"_a, "wrenches"_a = py::tuple())
+          "q"_a, "qd"_a, "tension"_a, "wrenches"_a = py::tuple(),
+          Doc("Accelerations under cables and wrenches: cpp/README.md eqs. (12), (16),\n"
+              "cpp/several-sections.md eq. (32).",
+              {docs::q, docs::qd, docs::tension, docs::wrenches},
+              "(..., d) array\n    Accelerations qdd [rad/s^2].", docs::bad_states))
       .def(
           "inverse_dynamics",
           [](const Model& self, const py::object& q, const py::object& qd, const py::object& qdd) {
             Data data(self);
-            py::array_t<double> force(self.num_coordinates());
-            inverse_dynamics(self, data, *read_bending(self, q, "q"), *read_rate(self, qd, "qd"),
-                             *read_rate(self, qdd, "qdd"),
-                             Eigen::Map<VectorXd>(force.mutable_data(), force.size()));
-            return force;
+            return States{read_bendings(self, q), read_rates(self, qd, "qd"),
+                          read_rates(self, qdd, "qdd")}
+                .vectors(self.num_coordinates(), [&](auto& x, auto& xd, auto& xdd, auto& out) {
+                  inverse_dynamics(self, data, x, xd, xdd, out);
+                });
           },
-          "q"_a, "qd"_a, "qdd"_a)
+          "q"_a, "qd"_a, "qdd"_a,
+          Doc("Generalised force that produces given accelerations: cpp/README.md eq. (16),\n"
+              "cpp/several-sections.md eq. (33).",
+              {docs::q, docs::qd,
+               "qdd : (..., d) array_like\n"
+               "    Accelerations [rad/s^2].\n"},
+              "(..., d) array\n    Generalised force [N m].", docs::bad_states))
       .def(
-          "kinetic_energy",
-          [](const Model& self, const py::object& q, const py::object& qd) {
-            Data data(self);
-            return kinetic_energy(self, data, *read_bending(self, q, "q"),
-                                  *read_rate(self, qd, "qd"));
-          },
-          "q"_a, "qd"_a)
-      .def(
-          "potential_energy",
-          [](const Model& self, const py::object& q) {
-            Data data(self);
-            return potential_energy(self, data, *read_bending(self, q, "q"));
-          },
-          "q"_a)
-      .def(
-          "kinetic_energies",
-          [](const Model& self, const py::object& q, const py::object& qd) {
-            return for_each_row(self, q, &qd, [&self](Data& data, const auto& x, const auto& xd) {
-              return kinetic_energy(self, data, x, xd);
-            });
-          },
-          "q"_a, "qd"_a)
-      .def(
-          "potential_energies",
-          [](const Model& self, const py::object& q) {
-            return for_each_row(self, q, nullptr, [&self](Data& data, const auto& x, const auto&) {
-              return potential_energy(self, data, x);
-            });
-          },
-          "q"_a)
-      .def(
-          "linearize",
-          [](const Model& self, const py::object& q, const py::object& qd,
-             const py::object& tension, const py::object& wrenches) {
-            require_inertia(self);
-            Data data(self);
-            const Index num_states = 2 * self.num_coordinates();
-            MatrixXd A(num_states, num_states), B(num_states, self.num_cables());
-            linearize(self, data, *read_bending(self, q, "q"), *read_rate(self, qd, "qd"),
-                      *read_tension(self, tension), read_wrenches(self, wrenches), A, B);
-            return py::make_tuple(to_rows(A), to_rows(B));
-          },
-          "q"_a, "qd"_a, "tension"_a, "wrenches"_a = py::tuple())
+          "linearize", &linearize_states, "q"_a, "qd"_a, "tension"_a, "wrenches"_a = py::tuple(),
+          Doc("Derivatives A, B of d(q, qd)/dt by state and command, cpp/README.md eq. (19).\n\n"
+              "Exact, at rest or moving, through cables and wrenches too. At the kinks of a cable\n"
+              "(just slack; rubbing at a straight section) one side is taken.",
+              {docs::q, docs::qd, docs::tension, docs::wrenches},
+              "A : (..., 2d, 2d) array\n"
+              "    By the state (q, qd) [rad, rad/s], of its rate [rad/s, rad/s^2].\n"
+              "B : (..., 2d, num_cables) array\n"
+              "    By the command [N], or [m] for cables driven by length.",
+              docs::bad_states))
       .def(
           "wrench_force",
           [](const Model& self, const py::object& q, const py::object& wrenches) {
-            VectorXd force = VectorXd::Zero(self.num_coordinates());
-            add_wrench_force(self, *read_bending(self, q, "q"), read_wrenches(self, wrenches),
-                             force);
-            return to_array(force);
+            const Wrenches loads = read_wrenches(self, wrenches);
+            return States{read_bendings(self, q)}.vectors(self.num_coordinates(),
+                                                          [&](auto& x, auto& out) {
+                                                            out.setZero();
+                                                            add_wrench_force(self, x, loads, out);
+                                                          });
           },
-          "q"_a, "wrenches"_a);
+          "q"_a, "wrenches"_a,
+          Doc("Generalised force of wrenches, cpp/several-sections.md eq. (35).",
+              {docs::q, docs::wrenches}, "(..., d) array\n    Generalised force [N m].",
+              docs::bad_states));
 }
 
 }  // namespace cdcr::python

@@ -3,9 +3,10 @@
 #include <optional>
 #include <sstream>
 
-#include "arrays.hpp"
 #include "bind.hpp"
 #include "cdcr/inverse_kinematics.hpp"
+#include "docs.hpp"
+#include "states.hpp"
 
 namespace cdcr::python {
 namespace {
@@ -13,8 +14,17 @@ namespace {
 namespace py = pybind11;
 using namespace py::literals;
 
-py::tuple to_tuple(const Pose& pose) {
-  return py::make_tuple(to_rows(pose.R), to_array(pose.p));
+/// R and p that `place` gives for each state.
+template <class F>
+py::tuple poses(const States<1>& states, F&& place) {
+  py::array_t<double> all_R = states.output({3, 3}), all_p = states.output({3});
+  double *R = all_R.mutable_data(), *p = all_p.mutable_data();
+  states.each([&](Index i, const auto& x) {
+    const Pose pose = place(x);
+    Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(R + 9 * i) = pose.R;
+    Eigen::Map<Vector3d>(p + 3 * i) = pose.p;
+  });
+  return py::make_tuple(std::move(all_R), std::move(all_p));
 }
 
 void check_place(const Model& model, Index section, double fraction) {
@@ -66,57 +76,60 @@ py::tuple find_bending(const Model& self, const py::object& p, const py::object&
 }  // namespace
 
 void bind_kinematics(PyModel& model) {
+  constexpr const char* frame =
+      "R : (..., 3, 3) array\n"
+      "    Rotation matrices; their columns are the axes of the frame [-].\n"
+      "p : (..., 3) array\n"
+      "    Positions [m].";
   model
       .def(
           "pose",
           [](const Model& self, const py::object& q, Index section, double fraction) {
-            const VectorArgument bending = read_bending(self, q, "q");
+            const States states{read_bendings(self, q)};
             check_place(self, section, fraction);
-            return to_tuple(pose(self, *bending, section, fraction));
+            return poses(states, [&](auto& x) { return pose(self, x, section, fraction); });
           },
-          "q"_a, "section"_a, "fraction"_a)
+          "q"_a, "section"_a, "fraction"_a,
+          Doc("Frame of the backbone at a fraction of a section, in the base frame:\n"
+              "cpp/README.md eqs. (2), (3).",
+              {docs::q, docs::section, docs::fraction}, frame, docs::bad_states))
       .def(
           "tip",
           [](const Model& self, const py::object& q) {
-            return to_tuple(tip(self, *read_bending(self, q, "q")));
+            return poses(States{read_bendings(self, q)}, [&](auto& x) { return tip(self, x); });
           },
-          "q"_a)
+          "q"_a,
+          Doc("Frame at the end of the last section, in the base frame: cpp/README.md eqs. (2), "
+              "(3).",
+              {docs::q}, frame, docs::bad_states))
       .def(
           "tips",
           [](const Model& self, const py::object& q) {
-            const Array rows = read_array(q, "q", {-1, self.num_coordinates()});
-            RowMatrixXd tips(rows.shape(0), 3);
-            {
-              const py::gil_scoped_release unlocked;
-              const Index m = self.num_coordinates();
-              for (Index i = 0; i < tips.rows(); ++i) {
-                const Eigen::Map<const VectorXd> row(rows.data() + i * m, m);
-                tips.row(i) = tip(self, row).p.transpose();
-              }
-            }
-            return to_rows(tips);
+            return States{read_bendings(self, q)}.vectors(
+                3, [&](auto& x, auto& p) { p = tip(self, x).p; });
           },
-          "q"_a)
+          "q"_a,
+          Doc("Tip positions alone, the p of `tip`.", {docs::q},
+              "(..., 3) array\n    Positions in the base frame [m].", docs::bad_states))
       .def(
           "jacobian",
           [](const Model& self, const py::object& q, Index section, double fraction) {
-            const VectorArgument bending = read_bending(self, q, "q");
+            const States states{read_bendings(self, q)};
             check_place(self, section, fraction);
-            MatrixXd J(6, self.num_coordinates());
-            jacobian(self, *bending, section, fraction, J);
-            return to_rows(J);
+            return states.matrices(6, self.num_coordinates(), [&](auto& x, auto& J) {
+              jacobian(self, x, section, fraction, J);
+            });
           },
-          "q"_a, "section"_a, "fraction"_a)
-      .def(
-          "cable_lengths",
-          [](const Model& self, const py::object& q) {
-            VectorXd lengths(self.num_cables());
-            cable_lengths(self, *read_bending(self, q, "q"), lengths);
-            return to_array(lengths);
-          },
-          "q"_a);
+          "q"_a, "section"_a, "fraction"_a,
+          Doc("Geometric Jacobian of a frame of the backbone, in the base frame: cpp/README.md\n"
+              "eqs. (4), (5).",
+              {docs::q, docs::section, docs::fraction},
+              "(..., 6, d) array\n"
+              "    Rows of the linear velocity [m/rad], then of the angular velocity [rad/rad].",
+              docs::bad_states));
   model.def("_inverse_kinematics", &find_bending, "p"_a, "R"_a, "q0"_a, py::kw_only(),
-            "max_theta"_a, "orientation_weight"_a, "tolerance"_a, "seeds"_a, "iterations"_a);
+            "max_theta"_a, "orientation_weight"_a, "tolerance"_a, "seeds"_a, "iterations"_a,
+            Doc("See cdcr.Model.inverse_kinematics."));
 }
 
 }  // namespace cdcr::python

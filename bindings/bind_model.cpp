@@ -2,6 +2,7 @@
 
 #include "arrays.hpp"
 #include "bind.hpp"
+#include "docs.hpp"
 
 namespace cdcr::python {
 
@@ -15,17 +16,29 @@ void bind_model(py::module_& m) {
       .value("printed", Formulation::printed)
       .value("printed_taylor", Formulation::printed_taylor)
       .finalize();
-  PyModel model(m, "Model");
-  model.def(py::init<Robot, Formulation>(), "robot"_a, "formulation"_a)
-      .def_property_readonly("num_sections", &Model::num_sections)
-      .def_property_readonly("num_coordinates", &Model::num_coordinates)
-      .def_property_readonly("num_cables", &Model::num_cables)
-      .def_property_readonly("has_inertia", &Model::has_inertia)
-      .def_property_readonly("has_friction", &Model::has_friction)
-      .def("actuation_matrix", [](const Model& self) { return to_rows(self.actuation_matrix()); });
+  PyModel model(m, "Model", "The equations of motion of a robot; see cdcr.Model.");
+  model
+      .def(py::init<Robot, Formulation>(), "robot"_a, "formulation"_a,
+           Doc("A robot made ready for computing.",
+               {"robot : Robot\n    The robot.\n",
+                "formulation : Formulation\n    Which inertia functions to use.\n"},
+               "", docs::bad_argument))
+      .def_property_readonly("num_sections", &Model::num_sections, "Number n of sections.")
+      .def_property_readonly("num_coordinates", &Model::num_coordinates,
+                             "Number d of coordinates q, two for each section.")
+      .def_property_readonly("num_cables", &Model::num_cables, "Number of all cables.")
+      .def_property_readonly("has_inertia", &Model::has_inertia,
+                             "Whether the robot has dynamics: every motion moves some mass.")
+      .def_property_readonly("has_friction", &Model::has_friction,
+                             "Whether a cable rubs in its holes.")
+      .def(
+          "actuation_matrix", [](const Model& self) { return to_rows(self.actuation_matrix()); },
+          Doc("Matrix B of Q = B F, tensions to generalised force: cpp/README.md eq. (6).", {},
+              "(d, num_cables) array\n    A copy [m]; the same for all shapes."));
   bind_cables(model);
   bind_kinematics(model);
   bind_dynamics(model);
+  bind_energy(model);
   bind_statics(m, model);
   bind_modes(m, model);
 }

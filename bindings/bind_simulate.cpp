@@ -8,6 +8,7 @@
 #include "cdcr/cvode.hpp"
 #include "cdcr/pid.hpp"
 #include "cdcr/simulate.hpp"
+#include "docs.hpp"
 
 namespace cdcr::python {
 namespace {
@@ -50,6 +51,16 @@ Trajectory run(const Model& model, const py::object& q0, const py::object& qd0, 
                   loads);
 }
 
+py::list slack_events(const Trajectory& run) {
+  py::list events;
+  for (const SlackEvent& event : run.slack_events) {
+    events.append(py::make_tuple(event.time, event.cable, event.slack));
+  }
+  return events;
+}
+
+constexpr const char* an_input = "TensionInput\n    What a run takes.";
+
 }  // namespace
 
 void bind_simulate(py::module_& m) {
@@ -74,19 +85,26 @@ void bind_simulate(py::module_& m) {
            }),
            py::kw_only(), "rtol"_a = defaults.rtol, "atol"_a = defaults.atol,
            "step"_a = defaults.step, "max_step"_a = defaults.max_step,
-           "max_steps"_a = defaults.max_steps)
-      .def_readonly("rtol", &Options::rtol)
-      .def_readonly("atol", &Options::atol)
-      .def_readonly("step", &Options::step)
-      .def_readonly("max_step", &Options::max_step)
-      .def_readonly("max_steps", &Options::max_steps);
+           "max_steps"_a = defaults.max_steps,
+           Doc("Take the options of ``cdcr.simulate``.",
+               {"rtol, atol : float\n    Tolerances of one step [-], [rad] and [rad/s].\n",
+                "step, max_step : float\n    Step of rk4, largest step of the others [s].\n",
+                "max_steps : int\n    Internal steps in one run.\n"},
+               "", docs::bad_argument))
+      .def_readonly("rtol", &Options::rtol, "Relative tolerance of one step [-].")
+      .def_readonly("atol", &Options::atol, "Absolute tolerance of one step [rad], [rad/s].")
+      .def_readonly("step", &Options::step, "Step of rk4 [s].")
+      .def_readonly("max_step", &Options::max_step,
+                    "Largest step of adaptive methods [s]; 0: no limit.")
+      .def_readonly("max_steps", &Options::max_steps, "Internal steps in one run.");
 
-  py::class_<Stats>(m, "Stats", "What a run cost.")
-      .def_readonly("steps", &Stats::steps)
-      .def_readonly("rejected", &Stats::rejected)
-      .def_readonly("evaluations", &Stats::evaluations)
-      .def_readonly("jacobians", &Stats::jacobians)
-      .def_readonly("newton_failures", &Stats::newton_failures)
+  py::class_<Stats>(m, "Stats", "What a run cost, counted by the integrator.")
+      .def_readonly("steps", &Stats::steps, "Internal steps accepted.")
+      .def_readonly("rejected", &Stats::rejected, "Steps thrown away by the error test.")
+      .def_readonly("evaluations", &Stats::evaluations, "Evaluations of the equations of motion.")
+      .def_readonly("jacobians", &Stats::jacobians, "Evaluations of their Jacobian.")
+      .def_readonly("newton_failures", &Stats::newton_failures,
+                    "Newton iterations that did not converge.")
       .def(py::pickle(
           [](const Stats& s) {
             return py::make_tuple(s.steps, s.rejected, s.evaluations, s.jacobians,
@@ -104,13 +122,15 @@ void bind_simulate(py::module_& m) {
                ", newton_failures=" + std::to_string(s.newton_failures) + ")";
       });
 
-  py::class_<TensionInput>(m, "TensionInput", "Tensions as a function of time.")
+  py::class_<TensionInput>(m, "TensionInput", "Commands of the cables as a function of time.")
       .def_static(
           "constant",
           [](const Model& model, const py::object& tension) {
             return TensionInput::constant(*read_tension(model, tension));
           },
-          "model"_a, "tension"_a)
+          "model"_a, "tension"_a,
+          Doc("The same commands at all times.", {docs::model, docs::one_tension}, an_input,
+              docs::bad_argument))
       .def_static(
           "table",
           [](const Model& model, const py::object& t, const py::object& tension, bool linear) {
@@ -122,39 +142,67 @@ void bind_simulate(py::module_& m) {
                                        linear ? TensionInput::Interpolation::linear
                                               : TensionInput::Interpolation::previous);
           },
-          "model"_a, "t"_a, "tension"_a, "linear"_a)
+          "model"_a, "t"_a, "tension"_a, "linear"_a,
+          Doc("Commands at given times.",
+              {docs::model, "t : (N,) array_like\n    Strictly increasing times [s].\n",
+               "tension : (N, num_cables) array_like\n"
+               "    Tensions [N]; lengths [m] for cables driven by length.\n",
+               "linear : bool\n    Connect them, or hold each until the next time.\n"},
+              an_input, docs::bad_argument))
       .def_static(
           "function",
           [](const Model& model, py::function function, std::vector<double> break_points) {
             return call_python(std::move(function), model.num_cables(), std::move(break_points));
           },
-          "model"_a, "function"_a, "break_points"_a);
+          "model"_a, "function"_a, "break_points"_a,
+          Doc("A Python function, called once for each evaluation.",
+              {docs::model,
+               "function : callable\n"
+               "    Called with t [s], q (d,) [rad], qd (d,) [rad/s]; returns the commands.\n",
+               "break_points : sequence of float\n    Times at which it is not smooth [s].\n"},
+              an_input, docs::bad_argument));
 
-  py::class_<Trajectory>(m, "Trajectory", "A run as the core returns it.")
-      .def_property_readonly("t", [](const Trajectory& self) { return to_array(self.t); })
-      .def_property_readonly("q", [](const Trajectory& self) { return to_rows(self.q); })
-      .def_property_readonly("qd", [](const Trajectory& self) { return to_rows(self.qd); })
-      .def_property_readonly("tension",
-                             [](const Trajectory& self) { return to_rows(self.tension); })
-      .def_property_readonly("command",
-                             [](const Trajectory& self) { return to_rows(self.command); })
+  py::class_<Trajectory>(m, "Trajectory", "A run as the core returns it; see cdcr.Trajectory.")
       .def_property_readonly(
-          "slack_events",
-          [](const Trajectory& self) {
-            py::list events;
-            for (const SlackEvent& event : self.slack_events) {
-              events.append(py::make_tuple(event.time, event.cable, event.slack));
-            }
-            return events;
-          })
-      .def_readonly("status", &Trajectory::status)
-      .def_readonly("message", &Trajectory::message)
-      .def_readonly("stats", &Trajectory::stats);
+          "t", [](const Trajectory& self) { return to_array(self.t); },
+          "Output times reached (N,) [s].")
+      .def_property_readonly(
+          "q", [](const Trajectory& self) { return to_rows(self.q); },
+          "Bending vectors (N, d) [rad].")
+      .def_property_readonly(
+          "qd", [](const Trajectory& self) { return to_rows(self.qd); },
+          "Their rates (N, d) [rad/s].")
+      .def_property_readonly(
+          "tension", [](const Trajectory& self) { return to_rows(self.tension); },
+          "Tensions at the base (N, num_cables) [N].")
+      .def_property_readonly(
+          "command", [](const Trajectory& self) { return to_rows(self.command); },
+          "What was asked of the cables (N, num_cables), [N] or [m].")
+      .def_property_readonly("slack_events", &slack_events,
+                             "Time [s], cable and whether slack, in the order of time.")
+      .def_readonly("status", &Trajectory::status, "How the run ended.")
+      .def_readonly("message", &Trajectory::message, "Empty for ok; else when, why, what to try.")
+      .def_readonly("stats", &Trajectory::stats, "What the run cost.");
 
+  constexpr const char* start =
+      "q0, qd0 : (d,) array_like\n    Bending vectors [rad] and rates [rad/s] at t[0].\n"
+      "t : (N,) array_like\n    Output times, increasing [s].\n";
+  constexpr const char* rest =
+      "method : Method\n    How to integrate.\n"
+      "options : Options\n    Tolerances, steps and limits.\n"
+      "progress : callable or None\n    Told the time reached [s] now and then.\n"
+      "loads : Loads\n    Wrenches over time.\n";
+  constexpr const char* a_run = "Trajectory\n    The samples up to the end, or to a failure.";
   m.def("simulate", &run<const TensionInput>, "model"_a, "q0"_a, "qd0"_a, "t"_a, "input"_a,
-        "method"_a, "options"_a, "progress"_a, "loads"_a);
+        "method"_a, "options"_a, "progress"_a, "loads"_a,
+        Doc("A run under commands; see cdcr.simulate.",
+            {docs::model, start, "input : TensionInput\n    Commands over time.\n", rest}, a_run,
+            docs::bad_argument));
   m.def("simulate_controlled", &run<Controller>, "model"_a, "q0"_a, "qd0"_a, "t"_a, "controller"_a,
-        "method"_a, "options"_a, "progress"_a, "loads"_a);
+        "method"_a, "options"_a, "progress"_a, "loads"_a,
+        Doc("A run under a controller; see cdcr.simulate.",
+            {docs::model, start, "controller : Controller\n    Asked once each period.\n", rest},
+            a_run, docs::bad_argument));
 }
 
 }  // namespace cdcr::python

@@ -1,6 +1,7 @@
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "cdcr/simulator.hpp"
+#include "docs.hpp"
 
 namespace cdcr::python {
 
@@ -8,27 +9,57 @@ namespace py = pybind11;
 using namespace py::literals;
 
 void bind_simulator(py::module_& m) {
-  py::class_<Simulator>(m, "Simulator")
+  py::class_<Simulator>(
+      m, "Simulator",
+      "The robot inside a control loop: one period at a time, commands held over the period.\n\n"
+      "Runge-Kutta 4 on the equations of motion, cpp/README.md eq. (16). A failed step leaves the\n"
+      "last good state in place.\n\n"
+      "Parameters\n----------\n"
+      "model : Model\n    The robot.\n"
+      "step : float, default 1e-3\n    Control period [s], > 0.\n"
+      "substeps : int, default 1\n    Equal Runge-Kutta steps in each period, >= 1.\n\n"
+      "Raises\n------\n"
+      "ValueError\n    For a step or a number of substeps out of its range, or a robot without "
+      "inertia.\n\n"
+      "Examples\n--------\n"
+      ">>> import cdcr\n"
+      ">>> simulator = cdcr.Simulator(cdcr.Model(cdcr.robots.amouri2020()), step=1e-3)\n"
+      ">>> simulator.reset([0.5, 0.0], [0.0, 0.0])\n"
+      ">>> simulator.step([5.0, 0.0, 0.0])\n"
+      "<Status.ok: 0>")
       .def(py::init<const Model&, double, int>(), "model"_a, py::kw_only(), "step"_a = 1e-3,
-           "substeps"_a = 1)
+           "substeps"_a = 1,
+           Doc("Make a simulator, which has no state until `reset`.",
+               {docs::model, "step : float, default 1e-3\n    Control period [s], > 0.\n",
+                "substeps : int, default 1\n    Runge-Kutta steps in each period, >= 1.\n"}))
       .def(
           "reset",
           [](Simulator& self, const py::object& q, const py::object& qd, double time) {
             self.reset(*read_bending(self.model(), q, "q"),
                        *VectorArgument(qd, "qd", self.model().num_coordinates()), time);
           },
-          "q"_a, "qd"_a, "time"_a = 0.0)
+          "q"_a, "qd"_a, "time"_a = 0.0,
+          Doc("Set state and time.",
+              {docs::one_q, docs::one_qd, "time : float, default 0\n    The time [s].\n"}, "",
+              docs::bad_argument))
       .def(
           "step",
           [](Simulator& self, const py::object& tension, const py::object& wrenches) {
             return self.step(*read_tension(self.model(), tension),
                              read_wrenches(self.model(), wrenches));
           },
-          "tension"_a, "wrenches"_a = py::tuple())
-      .def_property_readonly("q", [](const Simulator& self) { return to_array(self.q()); })
-      .def_property_readonly("qd", [](const Simulator& self) { return to_array(self.qd()); })
-      .def_property_readonly("time", &Simulator::time)
-      .def_property_readonly("period", &Simulator::period);
+          "tension"_a, "wrenches"_a = py::tuple(),
+          Doc("Advance one period under constant commands and wrenches.",
+              {docs::one_tension, docs::wrenches},
+              "Status\n    ``ok``, or why the state is still the one before.", docs::bad_argument))
+      .def_property_readonly(
+          "q", [](const Simulator& self) { return to_array(self.q()); },
+          "Bending vectors (d,) [rad].")
+      .def_property_readonly(
+          "qd", [](const Simulator& self) { return to_array(self.qd()); },
+          "Their rates (d,) [rad/s].")
+      .def_property_readonly("time", &Simulator::time, "Time reached [s].")
+      .def_property_readonly("period", &Simulator::period, "Control period [s].");
 }
 
 }  // namespace cdcr::python

@@ -2,6 +2,7 @@
 
 #include "bind.hpp"
 #include "cdcr/status.hpp"
+#include "docs.hpp"
 
 namespace cdcr::python {
 
@@ -15,7 +16,8 @@ void bind_status(pybind11::module_& m) {
   status.finalize();
   m.def(
       "status_message", [](Status s) { return message(s); }, py::arg("status"),
-      "What happened and what to try next; empty for ok.");
+      Doc("What happened and what to try next, in one sentence.",
+          {"status : Status\n    How a computation ended.\n"}, "str\n    Empty for ok."));
 }
 
 }  // namespace cdcr::python

@@ -7,6 +7,7 @@
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "cdcr/loads.hpp"
+#include "docs.hpp"
 
 namespace cdcr::python {
 
@@ -50,20 +51,29 @@ Wrenches read_wrenches(const Model& model, const py::object& object) {
 }
 
 void bind_wrench(py::module_& m) {
-  py::class_<Wrench>(m, "CoreWrench", "A wrench as the core sees it; not validated.")
+  py::class_<Wrench>(m, "CoreWrench", "A wrench as the core takes it, unchecked; see cdcr.Wrench.")
       .def(py::init([](Index section, double fraction, const Vector3d& force,
                        const Vector3d& moment, bool local) {
              return Wrench{section, fraction, force, moment,
                            local ? Wrench::Frame::local : Wrench::Frame::base};
            }),
-           "section"_a, "fraction"_a, "force"_a, "moment"_a, "local"_a)
-      .def_property_readonly("force", [](const Wrench& self) { return to_array(self.force); })
-      .def_property_readonly("moment", [](const Wrench& self) { return to_array(self.moment); });
+           "section"_a, "fraction"_a, "force"_a, "moment"_a, "local"_a,
+           Doc("Take the fields.",
+               {docs::section, docs::fraction,
+                "force, moment : (3,) array_like\n    Force [N] and moment [N m].\n",
+                "local : bool\n    Whether they turn with the backbone.\n"}))
+      .def_property_readonly(
+          "force", [](const Wrench& self) { return to_array(self.force); }, "Force (3,) [N].")
+      .def_property_readonly(
+          "moment", [](const Wrench& self) { return to_array(self.moment); },
+          "Moment (3,) about the point where the force acts [N m].");
 
-  py::class_<Loads>(m, "Loads", "Wrenches over time.")
-      .def(py::init<>())
+  constexpr const char* base = "wrench : CoreWrench\n    The wrench where the factor is 1.\n";
+  py::class_<Loads>(m, "Loads", "Wrenches over time, as a run takes them; see cdcr.Wrench.")
+      .def(py::init<>(), Doc("Make loads without a wrench."))
       .def(
-          "add", [](Loads& self, const Wrench& wrench) { self.add(wrench); }, "wrench"_a)
+          "add", [](Loads& self, const Wrench& wrench) { self.add(wrench); }, "wrench"_a,
+          Doc("Add a constant wrench.", {base}))
       .def(
           "add_table",
           [](Loads& self, const Wrench& wrench, const py::object& times, const py::object& factors,
@@ -72,7 +82,12 @@ void bind_wrench(py::module_& m) {
             const VectorArgument f(factors, "the factors of a wrench's profile", (*t).size());
             self.add(wrench, {to_list(*t), to_list(*f), linear, {}});
           },
-          "wrench"_a, "times"_a, "factors"_a, "linear"_a)
+          "wrench"_a, "times"_a, "factors"_a, "linear"_a,
+          Doc("Add a wrench whose size a table gives.",
+              {base, "times : (N,) array_like\n    Strictly increasing times [s].\n",
+               "factors : (N,) array_like\n    The factor at each [-].\n",
+               "linear : bool\n    Connect them, or hold each until the next time.\n"},
+              "", docs::bad_argument))
       .def(
           "add_function",
           [](Loads& self, const Wrench& wrench, py::function function,
@@ -86,7 +101,10 @@ void bind_wrench(py::module_& m) {
             };
             self.add(wrench, {std::move(break_points), {}, false, call});
           },
-          "wrench"_a, "function"_a, "break_points"_a)
+          "wrench"_a, "function"_a, "break_points"_a,
+          Doc("Add a wrench whose size a function of time gives.",
+              {base, "function : callable\n    Called with t [s], returns the factor.\n",
+               "break_points : sequence of float\n    Times at which it is not smooth [s].\n"}))
       .def(
           "at",
           [](const Loads& self, double t) {
@@ -94,7 +112,9 @@ void bind_wrench(py::module_& m) {
             self.evaluate(t, t, std::numeric_limits<double>::infinity(), now);
             return now;
           },
-          "t"_a);
+          "t"_a,
+          Doc("The wrenches at one time.", {"t : float\n    The time [s].\n"},
+              "list of CoreWrench\n    One for each added."));
 }
 
 }  // namespace cdcr::python

@@ -2,8 +2,11 @@
 
 #include "bind.hpp"
 #include "cdcr/version.hpp"
+#include "docs.hpp"
 
 PYBIND11_MODULE(_core, m) {
+  pybind11::options options;
+  options.disable_function_signatures();  // cdcr::python::Doc writes them
   m.doc() = "Compiled core of cdcr. Use the package cdcr; names here may change.";
   m.attr("__version__") = cdcr::version;
   m.attr("max_bending") = cdcr::max_bending;
@@ -16,4 +19,5 @@ PYBIND11_MODULE(_core, m) {
   cdcr::python::bind_control(m);
   cdcr::python::bind_simulate(m);
   cdcr::python::bind_simulator(m);
+  cdcr::python::show_constructors(m);
 }

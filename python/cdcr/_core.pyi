@@ -1,8 +1,8 @@
-"""Types of the compiled core (bindings/). Shapes and units are as in the C++ headers."""
+"""Types of the compiled core (bindings/), which holds the documentation itself."""
 
 import enum
 from collections.abc import Callable, Sequence
-from typing import final, type_check_only
+from typing import Any, TypeAlias, final, type_check_only
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,12 +13,12 @@ from cdcr._core_robot import Loads as Loads
 from cdcr._core_robot import Robot as Robot
 from cdcr._core_robot import Section as Section
 from cdcr._core_statics import Allocation as Allocation
-from cdcr._core_statics import AllocationMethod as AllocationMethod
 from cdcr._core_statics import CoreModes as CoreModes
 from cdcr._core_statics import Equilibrium as Equilibrium
 from cdcr._wrench import Wrench
 
 _FloatArray = NDArray[np.float64]
+_FloatOrArray: TypeAlias = Any  # a float for one state, else an array
 
 @type_check_only
 class _Bound(type):
@@ -92,10 +92,12 @@ class Model(metaclass=_Bound):
         wrenches: Wrench | Sequence[Wrench] = (),
     ) -> _FloatArray: ...
     def inverse_dynamics(self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> _FloatArray: ...
-    def kinetic_energy(self, q: ArrayLike, qd: ArrayLike) -> float: ...
-    def potential_energy(self, q: ArrayLike) -> float: ...
-    def kinetic_energies(self, q: ArrayLike, qd: ArrayLike) -> _FloatArray: ...
-    def potential_energies(self, q: ArrayLike) -> _FloatArray: ...
+    def kinetic_energy(self, q: ArrayLike, qd: ArrayLike) -> _FloatOrArray: ...
+    def potential_energy(self, q: ArrayLike) -> _FloatOrArray: ...
+    kinetic_energies = kinetic_energy
+    potential_energies = potential_energy
+    def potential_gradient(self, q: ArrayLike) -> _FloatArray: ...
+    def potential_hessian(self, q: ArrayLike) -> _FloatArray: ...
     def linearize(
         self,
         q: ArrayLike,
@@ -103,26 +105,13 @@ class Model(metaclass=_Bound):
         tension: ArrayLike,
         wrenches: Wrench | Sequence[Wrench] = (),
     ) -> tuple[_FloatArray, _FloatArray]: ...
-    def wrench_force(self, q: ArrayLike, wrenches: Wrench | Sequence[Wrench]) -> _FloatArray:
-        """Generalised force (2n,) [N m] of wrenches, J^T w."""
-
-    def cable_tensions(self, q: ArrayLike, qd: ArrayLike, tension: ArrayLike) -> _FloatArray:
-        """Tensions at the base (num_cables,) [N], also of cables driven by length."""
-
-    def tensions_along(self, q: ArrayLike, qd: ArrayLike, tension: ArrayLike) -> _FloatArray:
-        """Tensions at the base and beyond each section (n + 1, num_cables) [N]."""
-
-    def cable_force(self, q: ArrayLike, qd: ArrayLike, tension: ArrayLike) -> _FloatArray:
-        """Generalised force (2n,) [N m] of the cables, friction included."""
-
-    def friction_power(self, q: ArrayLike, qd: ArrayLike, tension: ArrayLike) -> float:
-        """Heat that friction of the cables makes [W], never negative."""
-
-    def cable_energy(self, q: ArrayLike, tension: ArrayLike) -> float:
-        """Energy in the springs of cables driven by length [J]."""
-
-    def rest_command(self) -> _FloatArray:
-        """No tension, and straight lengths [m] of cables driven by length (num_cables,)."""
+    def wrench_force(self, q: ArrayLike, wrenches: Wrench | Sequence[Wrench]) -> _FloatArray: ...
+    def cable_tensions(self, q: ArrayLike, qd: ArrayLike, tension: ArrayLike) -> _FloatArray: ...
+    def tensions_along(self, q: ArrayLike, qd: ArrayLike, tension: ArrayLike) -> _FloatArray: ...
+    def cable_force(self, q: ArrayLike, qd: ArrayLike, tension: ArrayLike) -> _FloatArray: ...
+    def friction_power(self, q: ArrayLike, qd: ArrayLike, tension: ArrayLike) -> _FloatOrArray: ...
+    def cable_energy(self, q: ArrayLike, tension: ArrayLike) -> _FloatOrArray: ...
+    def rest_command(self) -> _FloatArray: ...
     def find_equilibrium(
         self,
         tension: ArrayLike,
@@ -139,9 +128,9 @@ class Model(metaclass=_Bound):
     def find_tension(
         self,
         force: ArrayLike,
-        min_tension: float,
-        max_tension: float,
-        method: AllocationMethod = ...,
+        min_tension: float = 0.0,
+        max_tension: float = ...,
+        method: str = "automatic",
     ) -> Allocation: ...
     def _inverse_kinematics(
         self,

@@ -1,6 +1,5 @@
 """Types of the compiled core that hold answers of statics; `_core.pyi` hands them on."""
 
-import enum
 from typing import final, type_check_only
 
 import numpy as np
@@ -51,13 +50,6 @@ class Allocation(metaclass=_Bound):
     def limiting(self) -> list[int]: ...
     @property
     def limits(self) -> list[str]: ...
-
-class AllocationMethod(enum.Enum):
-    """How tensions are found."""
-
-    automatic = 0
-    sections = 1
-    search = 2
 
 @final
 class CoreModes(metaclass=_Bound):

@@ -101,6 +101,15 @@ class InverseRun:
 
         Between its times a table is a line or a hold, which the motion is not: the coarser the
         times, the further the robot strays. `tension_at` is exact at every time.
+
+        Parameters
+        ----------
+        interpolation : {"linear", "previous"}, optional
+            As in `TensionTable`.
+
+        Returns
+        -------
+        TensionTable
         """
         return TensionTable(self.t, self.tension, interpolation)
 
@@ -109,6 +118,16 @@ class InverseRun:
 
         Continuous in time, so ``cdcr.simulate(..., tension=run.tension_at)`` follows the motion as
         well as its tolerances allow.
+
+        Parameters
+        ----------
+        t : float
+            Time within the reference [s].
+
+        Returns
+        -------
+        (num_cables,) array
+            Tensions [N].
 
         Raises
         ------
@@ -180,8 +199,7 @@ def inverse_run(
     """
     _check(model, reference, infeasible)
     warn_beyond_taylor_range(model, reference.q)
-    states = zip(reference.q, reference.qd, reference.qdd, strict=True)
-    force = np.array([model.inverse_dynamics(*state) for state in states])
+    force = model.inverse_dynamics(reference.q, reference.qd, reference.qdd)
     answers = [model.find_tension(one, min_tension, max_tension) for one in force]
     feasible = np.array([answer.feasible for answer in answers])
     if infeasible == "raise" and not np.all(feasible):

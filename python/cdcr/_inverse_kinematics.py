@@ -12,7 +12,7 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False, slots=True, repr=False)
 class InverseKinematics:
-    """Answer of `Model.inverse_kinematics`.
+    """Answer of `Model.inverse_kinematics`: cpp/README.md eq. (7), cpp/several-sections.md (48).
 
     Attributes
     ----------
@@ -21,7 +21,7 @@ class InverseKinematics:
     position : (3,) array
         Tip position reached [m].
     rotation : (3, 3) array
-        Tip orientation reached.
+        Tip orientation reached, a rotation matrix in the base frame.
     distance : float
         From the point asked for [m].
     angle : float

@@ -20,7 +20,7 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Modes:
-    """Answer of `Model.modes`.
+    """Answer of `Model.modes`: cpp/several-sections.md eqs. (44), (45).
 
     Attributes
     ----------
@@ -34,9 +34,9 @@ class Modes:
     squared_frequency : (2n,) array
         Their squares [rad^2/s^2], negative in the directions in which the robot falls away.
     shape : (2n, 2n) array
-        A mode shape in each column, of unit modal mass: shape.T @ M @ shape = 1.
+        A mode shape in each column, of unit modal mass: shape.T @ M @ shape = 1 [rad/(m sqrt(kg))].
     damping_ratio : (2n,) array
-        Of each mode alone, 1 is critical; 0 where the frequency is 0.
+        Of each mode alone, 1 is critical; 0 where the frequency is 0 [-].
     eigenvalues : (4n,) complex array
         Of the damped robot, couplings of the modes included, by magnitude [1/s].
     stable : bool
@@ -68,7 +68,19 @@ class Modes:
         return -self.eigenvalues.real
 
     def plot(self, count: int = 4, **options: Any) -> Any:
-        """Draw the first modes; the options are those of `cdcr.plotting.plot_modes`."""
+        """Draw the first modes. Needs the extra ``plot``.
+
+        Parameters
+        ----------
+        count : int
+            Modes to draw at most, the slowest first.
+        **options
+            As in `cdcr.plotting.plot_modes`.
+
+        Returns
+        -------
+        Figure
+        """
         from cdcr.plotting import plot_modes
 
         return plot_modes(self, count, **options)

@@ -207,7 +207,17 @@ class Reference:
         return self._angles[1]
 
     def at(self, t: ArrayLike) -> Reference:
-        """Return the same motion at other times (M,) within its own [s], at least two."""
+        """Return the same motion at other times.
+
+        Parameters
+        ----------
+        t : (M,) array_like
+            Times within its own, at least two [s].
+
+        Returns
+        -------
+        Reference
+        """
         times = _motion.checked_times(t)
         q, qd, qdd = self.evaluate(times)
         return Reference(times, q, qd, qdd, self.derivative_error, self.motion or self._quintic)
@@ -223,7 +233,7 @@ class Reference:
         Returns
         -------
         (3, 2n) or (3, M, 2n) array
-            In rad, rad/s, rad/s^2.
+            In order [rad], [rad/s], [rad/s^2].
 
         Raises
         ------

@@ -16,8 +16,6 @@ if TYPE_CHECKING:
 
 FloatArray = NDArray[np.float64]
 
-METHODS = tuple(method.name for method in _core.AllocationMethod)
-
 
 class ConvergenceError(RuntimeError):
     """A search ended without an answer; the message says what to try next."""
@@ -60,11 +58,7 @@ def allocate(
     model: _core.Model, force: ArrayLike, min_tension: float, max_tension: float, method: str
 ) -> FloatArray:
     """Return tensions for a force; see Model.allocate."""
-    if method not in METHODS:
-        raise ValueError(f"method must be one of {METHODS}, got {method!r}")
-    answer = model.find_tension(
-        force, min_tension, max_tension, method=_core.AllocationMethod[method]
-    )
+    answer = model.find_tension(force, min_tension, max_tension, method)
     if not answer.feasible:
         limits = ", ".join(answer.limits)
         reason = f"limited by {limits}" if limits else "no cable pulls that way"

@@ -26,11 +26,21 @@ __all__ = ["SlackEvent", "Trajectory"]
 
 
 class SlackEvent(NamedTuple):
-    """A length-driven cable turned slack or taut."""
+    """A length-driven cable turned slack or taut.
 
-    time: float  #: [s]
-    cable: int  #: index of the cable
-    slack: bool  #: slack from here on, or taut again
+    Attributes
+    ----------
+    time : float
+        When [s].
+    cable : int
+        Index of the cable.
+    slack : bool
+        Slack from here on, or taut again.
+    """
+
+    time: float
+    cable: int
+    slack: bool
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -139,12 +149,12 @@ class Trajectory:
     @cached_property
     def kinetic_energy(self) -> NDArray[np.float64]:
         """Kinetic energy (N,) [J]."""
-        return _read_only(self.model.kinetic_energies(self.q, self.qd))
+        return _read_only(self.model.kinetic_energy(self.q, self.qd))
 
     @cached_property
     def potential_energy(self) -> NDArray[np.float64]:
         """Elastic energy plus weight (N,) [J]; the weight's is zero at the base."""
-        return _read_only(self.model.potential_energies(self.q))
+        return _read_only(self.model.potential_energy(self.q))
 
     @cached_property
     def energy(self) -> NDArray[np.float64]:
@@ -155,15 +165,13 @@ class Trajectory:
     def cable_energy(self) -> NDArray[np.float64]:
         """Energy in the springs of cables driven by length (N,) [J]; not part of `energy`."""
         assert self.command is not None
-        rows = zip(self.q, self.command, strict=True)
-        return _read_only(np.array([self.model.cable_energy(q, u) for q, u in rows]))
+        return _read_only(self.model.cable_energy(self.q, self.command))
 
     @cached_property
     def friction_power(self) -> NDArray[np.float64]:
         """Heat that friction of the cables makes (N,) [W], never negative."""
         assert self.command is not None
-        rows = zip(self.q, self.qd, self.command, strict=True)
-        return _read_only(np.array([self.model.friction_power(*row) for row in rows]))
+        return _read_only(self.model.friction_power(self.q, self.qd, self.command))
 
     @property
     def energy_error(self) -> NDArray[np.float64]:
@@ -235,7 +243,7 @@ class Trajectory:
 
         Parameters
         ----------
-        times : array_like, optional
+        times : (M,) array_like, optional
             Times within the run [s]; by default `num` of them, evenly spaced.
         num : int
             How many shapes when `times` is not given.

@@ -109,7 +109,17 @@ class Wrench:
             object.__setattr__(self, name, value)
 
     def at(self, t: float) -> Wrench:
-        """Return the constant wrench that this one is at time t [s]."""
+        """Return the constant wrench that this one is at one time.
+
+        Parameters
+        ----------
+        t : float
+            The time [s].
+
+        Returns
+        -------
+        Wrench
+        """
         now = _loads((self,)).at(t)[0]
         return Wrench(
             section=self.section,

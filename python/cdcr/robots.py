@@ -148,6 +148,15 @@ def names() -> tuple[str, ...]:
 def get(name: str) -> Robot:
     """Return the robot of that name, with its options at their defaults.
 
+    Parameters
+    ----------
+    name : str
+        One of `names`.
+
+    Returns
+    -------
+    Robot
+
     Raises
     ------
     ValueError

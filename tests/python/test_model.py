@@ -101,20 +101,6 @@ def test_the_actuation_matrix_is_a_copy(model: cdcr.Model) -> None:
     np.testing.assert_array_equal(model.actuation_matrix(), expected)
 
 
-def test_rows_are_those_of_the_single_methods(model: cdcr.Model) -> None:
-    random = np.random.default_rng(1)
-    q, qd = random.uniform(-2.0, 2.0, (7, 2)), random.uniform(-5.0, 5.0, (7, 2))
-    np.testing.assert_array_equal(model.tips(q), [model.tip(row)[1] for row in q])
-    np.testing.assert_array_equal(
-        model.potential_energies(q), [model.potential_energy(row) for row in q]
-    )
-    np.testing.assert_array_equal(
-        model.kinetic_energies(q, qd),
-        [model.kinetic_energy(*rows) for rows in zip(q, qd, strict=True)],
-    )
-    assert model.tips(np.zeros((0, 2))).shape == (0, 3)
-
-
 def test_the_tip_is_the_end_of_the_last_section(model: cdcr.Model) -> None:
     for found, expected in zip(model.pose(Q, 0, 1.0), model.tip(Q), strict=True):
         np.testing.assert_array_equal(found, expected)

@@ -80,8 +80,8 @@ def gravity_ratio() -> Claim:
 
     def percent(theta: float) -> float:
         elastic = model().potential_energy([theta, 0.0])
-        straight = standing.potential_energy([0.0, 0.0])
-        return 100.0 * abs(standing.potential_energy([theta, 0.0]) - straight - elastic) / elastic
+        straight, bent = standing.potential_energy([[0.0, 0.0], [theta, 0.0]])
+        return float(100.0 * abs(bent - straight - elastic) / elastic)
 
     start, end = percent(_NEARLY_STRAIGHT), percent(EDGE)
     return Claim(

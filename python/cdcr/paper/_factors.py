@@ -23,6 +23,11 @@ class Factors(NamedTuple):
 
     Those of thetad^2 are H1 and H3 (backbone: translation, rotation), H5 and H7 (disks); those of
     phid^2 are H2 and H4, H6 and H8. Eq. (9) has H1/3 and H2/4.
+
+    Attributes
+    ----------
+    H1, H2, H3, H4, H5, H6, H7, H8 : float or (...) array
+        Each of the shape of the angles [1].
     """
 
     H1: Any
@@ -40,7 +45,7 @@ def factors(theta: ArrayLike, kind: str = "exact", num_disks: int = 10) -> Facto
 
     Parameters
     ----------
-    theta : array_like
+    theta : (...) array_like
         Bending angles [rad], up to ``cdcr.max_bending`` to either side.
     kind : {"exact", "taylor", "printed", "printed-taylor"}, optional
         What follows from paper eqs. (1) to (4); the same cut after theta^4; what eqs. (10), (11)
@@ -131,7 +136,7 @@ def inertia(theta: ArrayLike, robot: Robot, kind: str = "exact") -> tuple[Any, A
 
     Parameters
     ----------
-    theta : array_like
+    theta : (...) array_like
         Bending angles [rad].
     robot : Robot
         Of one section.
@@ -140,7 +145,7 @@ def inertia(theta: ArrayLike, robot: Robot, kind: str = "exact") -> tuple[Any, A
 
     Returns
     -------
-    M11, M22 : array
+    M11, M22 : float or (...) array
         Of thetad^2 and phid^2 in twice the kinetic energy, each of the shape of `theta` [kg m^2].
 
     Raises

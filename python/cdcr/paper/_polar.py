@@ -76,7 +76,17 @@ class PolarModel:
             )
 
     def mass_matrix(self, theta: ArrayLike) -> FloatArray:
-        """Return diag(M11, M22), paper eq. (21), shape (..., 2, 2) [kg m^2].
+        """Return diag(M11, M22), paper eq. (21).
+
+        Parameters
+        ----------
+        theta : (...) array_like
+            Bending angles [rad].
+
+        Returns
+        -------
+        (..., 2, 2) array
+            Mass matrices [kg m^2].
 
         Raises
         ------
@@ -100,16 +110,16 @@ class PolarModel:
 
         Parameters
         ----------
-        theta, phi : array_like
+        theta, phi : (...) array_like
             Bending and orientation angles [rad].
-        thetad, phid : array_like
+        thetad, phid : (...) array_like
             Their rates [rad/s].
         tension : (..., num_cables) array_like
             Cable tensions [N], none negative.
 
         Returns
         -------
-        thetadd, phidd : array
+        thetadd, phidd : float or (...) array
             Accelerations [rad/s^2].
 
         Raises
@@ -134,13 +144,37 @@ class PolarModel:
         return thetadd / M11, phidd / M22
 
     def kinetic_energy(self, theta: ArrayLike, thetad: ArrayLike, phid: ArrayLike) -> Any:
-        """Return T = (M11 thetad^2 + M22 phid^2)/2 [J]."""
+        """Return T = (M11 thetad^2 + M22 phid^2)/2, paper eq. (9).
+
+        Parameters
+        ----------
+        theta : (...) array_like
+            Bending angles [rad].
+        thetad, phid : (...) array_like
+            Rates of bending and orientation angle [rad/s].
+
+        Returns
+        -------
+        float or (...) array
+            Energy [J].
+        """
         bending, turning = _finite(thetad, "thetad"), _finite(phid, "phid")
         (M11, M22), _ = inertia_and_slopes(checked_angles(theta), self.robot, self.formulation)
         return (M11 * bending**2 + M22 * turning**2) / 2.0
 
     def potential_energy(self, theta: ArrayLike, phi: ArrayLike) -> Any:
-        """Return elastic energy, paper eq. (18), plus weight, the latter zero at the base [J]."""
+        """Return elastic energy, paper eq. (18), plus weight, the latter zero at the base.
+
+        Parameters
+        ----------
+        theta, phi : (...) array_like
+            Bending and orientation angles [rad].
+
+        Returns
+        -------
+        float or (...) array
+            Energy [J].
+        """
         angle, direction = checked_angles(theta), _finite(phi, "phi")
         x, weight, along, _ = self._weights(direction)
         y = angle[..., np.newaxis] * x

@@ -38,7 +38,20 @@ def animate(
     overwrite: bool = False,
     progress: Callable[[int, int], None] | None = None,
 ) -> Path:
-    """Write a film of a run; see Trajectory.animate."""
+    """Write a film of a run, as `Trajectory.animate` does.
+
+    Parameters
+    ----------
+    run : Trajectory
+        The run.
+    path, fps, speed, overwrite, progress
+        As in `Trajectory.animate`.
+
+    Returns
+    -------
+    Path
+        The file written.
+    """
     path = film_path(Path(path))
     for name, value in {"fps": fps, "speed": speed}.items():
         if not (math.isfinite(value) and value > 0.0):

@@ -45,7 +45,17 @@ STRAIGHT = 0.05  # share of the largest bending below which phi of several secti
 
 
 def plot_run(run: Trajectory) -> StyledFigure:
-    """Draw a run over time; see Trajectory.plot."""
+    """Draw a run over time, as `Trajectory.plot` does.
+
+    Parameters
+    ----------
+    run : Trajectory
+        The run.
+
+    Returns
+    -------
+    Figure
+    """
     left = [plot_theta, plot_phi, plot_tension]
     right = [_plot_tip, _plot_energy] + ([_plot_energy_error] if _is_free(run) else [])
     with style():

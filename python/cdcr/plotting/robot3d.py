@@ -145,7 +145,19 @@ def plot_robot(
 def plot_run_robot(
     run: Trajectory, times: ArrayLike | None = None, *, num: int = 5, ax: Any = None
 ) -> Any:
-    """Draw the robot at several times of a run; see Trajectory.plot_robot."""
+    """Draw the robot at several times of a run, as `Trajectory.plot_robot` does.
+
+    Parameters
+    ----------
+    run : Trajectory
+        The run.
+    times, num, ax
+        As in `Trajectory.plot_robot`.
+
+    Returns
+    -------
+    Axes3D
+    """
     if times is None:
         times = np.linspace(run.t[0], run.t[-1], num)
     chosen = np.atleast_1d(np.asarray(times, dtype=np.float64))

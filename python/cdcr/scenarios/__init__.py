@@ -49,6 +49,15 @@ def names() -> tuple[str, ...]:
 def get(name: str) -> Scenario:
     """Return the scenario of that name.
 
+    Parameters
+    ----------
+    name : str
+        One of `names`.
+
+    Returns
+    -------
+    Scenario
+
     Raises
     ------
     ValueError

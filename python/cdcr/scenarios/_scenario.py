@@ -105,13 +105,42 @@ class Scenario:
         return Model(self.robot, formulation=self.formulation)
 
     def start(self, model: Model) -> tuple[float, ...]:
-        """Return the bending vectors (2n,) at t = 0 [rad]."""
+        """Return where a run starts.
+
+        Parameters
+        ----------
+        model : Model
+            The scenario's own.
+
+        Returns
+        -------
+        tuple of float
+            Bending vectors (2n,) at t = 0 [rad].
+        """
         return self.q0(model) if callable(self.q0) else self.q0
 
     def times(
         self, t_end: float | None = None, num_samples: int | None = None
     ) -> NDArray[np.float64]:
-        """Return the output times (N,) [s]; another end alone leaves their spacing."""
+        """Return the output times of a run; another end alone leaves their spacing.
+
+        Parameters
+        ----------
+        t_end : float, optional
+            End of the run [s].
+        num_samples : int, optional
+            Number of times, both ends included.
+
+        Returns
+        -------
+        (N,) array
+            Times [s].
+
+        Raises
+        ------
+        ValueError
+            For an argument out of its range, or a scenario in which nothing runs.
+        """
         if not self.has_run:
             raise ValueError(
                 f"nothing runs in the scenario {self.name!r}: it is a picture of the model alone"
@@ -183,9 +212,29 @@ class Scenario:
         )
 
     def summary(self, run: Trajectory | None = None) -> tuple[Finding, ...]:
-        """Return what is worth knowing about this scenario and a run of it."""
+        """Return what is worth knowing about this scenario and a run of it.
+
+        Parameters
+        ----------
+        run : Trajectory, optional
+            The run; None where nothing runs.
+
+        Returns
+        -------
+        tuple of Finding
+        """
         return self.tell(self, run)
 
     def figure(self, run: Trajectory | None = None) -> Figure:
-        """Return a picture of this scenario and a run of it. Needs the extra ``plot``."""
+        """Return a picture of this scenario and a run of it. Needs the extra ``plot``.
+
+        Parameters
+        ----------
+        run : Trajectory, optional
+            The run; None where nothing runs.
+
+        Returns
+        -------
+        Figure
+        """
         return self.draw(self, run)

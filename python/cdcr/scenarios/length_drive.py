@@ -60,7 +60,7 @@ def _smooth(x: FloatArray) -> FloatArray:
 def lengths(model: Model, t_end: float) -> TensionTable:
     """Return the lengths that the wanted shapes give the cables, less the pretension."""
     t = np.linspace(0.0, t_end, max(2, round(t_end / ROWS) + 1))
-    rows = [model.cable_lengths(q) - SHORTER for q in wanted(t)]
+    rows = model.cable_lengths(wanted(t)) - SHORTER
     return TensionTable(t, np.array(rows))
 
 
@@ -84,11 +84,11 @@ def balance(run: Trajectory) -> tuple[float, float, float]:
     sections = run.model.robot.sections
     damping = np.repeat([section.damping for section in sections], 2)
     stiffness = np.array([cable.stiffness for cable in run.model.robot.all_cables])
-    length = np.array([run.model.cable_lengths(q) for q in run.q])
+    length = run.model.cable_lengths(run.q)
     assert run.command is not None
     spring = stiffness * np.maximum(length - run.command, 0.0)
-    stored = [run.model.cable_energy(run.q[k], run.command[k]) for k in (0, -1)]
-    gained = float(run.energy[-1] - run.energy[0]) + stored[1] - stored[0]
+    total = run.energy + run.cable_energy
+    gained = float(total[-1] - total[0])
     given = -float(np.sum(integral(spring, run.command)))
     taken = float(integral(run.qd**2 @ damping, run.t))
     taken += float(np.sum(integral(run.tension - spring, length)))
