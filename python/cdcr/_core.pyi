@@ -16,7 +16,7 @@ from cdcr._core_statics import Allocation as Allocation
 from cdcr._core_statics import AllocationMethod as AllocationMethod
 from cdcr._core_statics import CoreModes as CoreModes
 from cdcr._core_statics import Equilibrium as Equilibrium
-from cdcr._wrench import Wrench
+from cdcr.model.wrench import Wrench
 
 _FloatArray = NDArray[np.float64]
 

@@ -15,8 +15,8 @@ from matplotlib.figure import Figure
 from rich.console import Console
 from typer.testing import CliRunner, Result
 
-from cdcr import _figures, _figures_page
-from cdcr._cli_app import app
+from cdcr.cli import gallery, page
+from cdcr.cli.app import app
 
 NAMES = [n for n in cdcr.scenarios.names() if cdcr.scenarios.get(n).paper_figure]
 FILES = {f"{name}{suffix}" for name in NAMES for suffix in (".png", ".svg")} | {"index.html"}
@@ -66,7 +66,7 @@ def first(tmp_path_factory: Any) -> tuple[Path, Result]:
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
     """Draw empty pictures, and leave out the audit, where they do not matter."""
     monkeypatch.setattr(cdcr.scenarios.Scenario, "figure", lambda self, run: Figure())
-    monkeypatch.setattr(_figures_page, "_claims", list)
+    monkeypatch.setattr(page, "_claims", list)
 
 
 def test_all_files_are_written(first: tuple[Path, Result]) -> None:
@@ -115,8 +115,8 @@ def test_what_is_in_the_audit_is_escaped(monkeypatch: pytest.MonkeyPatch) -> Non
     class Claim:
         where, claim, computed, verdict = "Fig. 1", "a < b", "a & b", "holds"
 
-    monkeypatch.setattr(_figures_page, "_claims", lambda: [Claim()])
-    text = _figures_page.page([cdcr.scenarios.get("pid")])
+    monkeypatch.setattr(page, "_claims", lambda: [Claim()])
+    text = page.page([cdcr.scenarios.get("pid")])
     assert "<td>a &lt; b</td><td>a &amp; b</td>" in text
     assert Page(text).open == []
 
@@ -142,11 +142,9 @@ def test_existing_files_are_kept_unless_told_otherwise(tmp_path: Path) -> None:
 
 @pytest.mark.usefixtures("quick")
 def test_the_same_picture_is_the_same_file(tmp_path: Path) -> None:
-    files = _figures.write_figures(tmp_path)
+    files = gallery.write_figures(tmp_path)
     before = [path.read_bytes() for path in files]
-    assert [
-        path.read_bytes() for path in _figures.write_figures(tmp_path, overwrite=True)
-    ] == before
+    assert [path.read_bytes() for path in gallery.write_figures(tmp_path, overwrite=True)] == before
 
 
 @pytest.mark.parametrize("error", [KeyboardInterrupt, RuntimeError])
@@ -160,14 +158,14 @@ def test_what_stops_it_leaves_nothing(
 
     monkeypatch.setattr(cdcr.scenarios.Scenario, "figure", fail)
     with pytest.raises(error):
-        _figures.write_figures(tmp_path / "a" / "b")
+        gallery.write_figures(tmp_path / "a" / "b")
     assert names_in(tmp_path) == set()
 
 
 @pytest.mark.usefixtures("quick")
 def test_progress_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     told: list[tuple[int, str]] = []
-    _figures.write_figures(tmp_path, progress=lambda done, name: told.append((done, name)))
+    gallery.write_figures(tmp_path, progress=lambda done, name: told.append((done, name)))
     assert told == list(enumerate((*NAMES, "index.html")))
 
 
@@ -175,11 +173,11 @@ def test_progress_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> No
 def test_the_bar_is_on_the_console_it_is_given(tmp_path: Path) -> None:
     from io import StringIO
 
-    from cdcr import _cli_figures
+    from cdcr.cli import figures
 
     stream = StringIO()
     console = Console(file=stream, force_terminal=True, width=80)
-    files = _cli_figures.figures(tmp_path, overwrite=False, console=console)
+    files = figures.figures(tmp_path, overwrite=False, console=console)
     assert {path.name for path in files} == FILES
     assert "%" in stream.getvalue()
 

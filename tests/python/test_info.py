@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 import cdcr
-from cdcr._stability import stable_step
+from cdcr.model.stability import stable_step
 
 pytest.importorskip("typer")
 
-from cdcr._cli_info import mode_rows
-from cdcr._info import at_rest
-from cdcr.scenarios import length_drive
+from cdcr.cli.info import mode_rows
+from cdcr.model.rest import at_rest
+from cdcr.scenarios.studies import length_drive
 from command import cdcr_
 
 REL = 1e-9  # eigenvalues and differences of well-conditioned matrices

@@ -125,7 +125,7 @@ def test_errors_of_the_inertias(told: Told) -> None:
 
 
 def test_eq_21_as_printed_would_make_the_straight_robot_differ_by_direction() -> None:
-    from cdcr.scenarios.kinetic_energy_terms import as_printed
+    from cdcr.scenarios.studies.kinetic_energy_terms import as_printed
 
     theta = 1e-4
     M11, M22 = as_printed(np.array([theta]), cdcr.robots.amouri2020())
@@ -146,7 +146,7 @@ def test_gravity(told: Told) -> None:
 
 
 def test_gravity_ratio_is_continuous_at_the_straight_robot() -> None:
-    from cdcr.scenarios.gravity_ratio import energy_ratio, stiffness
+    from cdcr.scenarios.studies.gravity_ratio import energy_ratio, stiffness
 
     start = 1.0 - stiffness("upright") / stiffness("no gravity")
     near = energy_ratio(1e-3, "upright")[0]
@@ -177,7 +177,7 @@ def test_step_tension_settles_nowhere_but_swings_about_14_978(told: Told) -> Non
 
 
 def test_two_cables(told: Told) -> None:
-    from cdcr.scenarios.two_cables import settled
+    from cdcr.scenarios.studies.two_cables import settled
 
     scenario, run, found = told("two-cables")
     assert "ours" in scenario.source
@@ -219,7 +219,7 @@ def test_plane_tracking(told: Told) -> None:
 
 @pytest.mark.parametrize("name", ["circle-tracking", "plane-tracking"])
 def test_rates_of_a_sweep_are_its_derivatives(name: str) -> None:
-    from cdcr.scenarios import circle_tracking, plane_tracking
+    from cdcr.scenarios.library import circle_tracking, plane_tracking
 
     sweep = circle_tracking.CIRCLE if name.startswith("circle") else plane_tracking.PLANE
     h = 1e-4

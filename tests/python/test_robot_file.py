@@ -16,8 +16,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 import cdcr
-from cdcr._robot_file import robot_text
-from cdcr._robot_schema import CableTable, RobotTable, SectionTable
+from cdcr.robot.file import robot_text
+from cdcr.robot.schema import CableTable, RobotTable, SectionTable
 from robot_file import FILE, load, replaced
 
 not_negative = st.floats(min_value=0.0, allow_infinity=False)

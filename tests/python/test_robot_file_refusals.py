@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from cdcr._robot_schema import CableTable, RobotTable, SectionTable
+from cdcr.robot.schema import CableTable, RobotTable, SectionTable
 from robot_file import FILE, load, replaced
 
 CABLE = "[[cables]]\nradius = 0.01\nangle = 0.5\nend_section = 0\n"

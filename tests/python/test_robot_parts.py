@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import cdcr
-from cdcr._section import Disk
+from cdcr.robot.section import Disk
 from description import refusal
 
 # Sums of a few products of numbers below 1, each rounded once.

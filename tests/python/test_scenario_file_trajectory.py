@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 import cdcr
-from cdcr._inverse import inverse_run
-from cdcr._reference import Reference
-from cdcr._scenario_file import load_scenario
-from cdcr._trajectory_file import read_trajectory
+from cdcr.motion.inverse import inverse_run
+from cdcr.motion.reference import Reference
 from cdcr.scenarios import Scenario
+from cdcr.scenarios.file.reader import load_scenario
+from cdcr.scenarios.file.trajectory import read_trajectory
 
 # The motion's own arithmetic [rad], [rad/s], [rad/s^2], and what follows from it [N].
 ROUNDING = 1e-13

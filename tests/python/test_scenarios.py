@@ -9,7 +9,7 @@ import pytest
 
 import cdcr
 from cdcr.scenarios import Scenario
-from cdcr.scenarios._findings import (
+from cdcr.scenarios.metrics import (
     energy_drift,
     oscillation_period,
     static_theta,

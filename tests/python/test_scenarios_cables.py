@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import cdcr
-from cdcr.scenarios import length_drive, pull_release, subdivision
-from cdcr.scenarios._integral import integral
+from cdcr.scenarios.studies import length_drive, pull_release, subdivision
+from cdcr.scenarios.studies.energy import integral
 
 TABLE = 1e-3  # the trapezoidal rule on samples; the runs themselves are far better
 SMEARED = 0.05  # friction turns over a small range of speeds, not at once

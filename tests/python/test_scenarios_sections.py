@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 
 import cdcr
-from cdcr.scenarios import Scenario, hanging_arm, payload_drop, three_sections
-from cdcr.scenarios._energy import cable_work, dissipated, energy_gap, fine_run
-from cdcr.scenarios._findings import findings, static_theta
-from cdcr.scenarios._sections import HANGING, HORIZONTAL, distance, settling_time
+from cdcr.scenarios import Scenario
+from cdcr.scenarios.library import hanging_arm, payload_drop
+from cdcr.scenarios.metrics import findings, static_theta
+from cdcr.scenarios.studies import three_sections
+from cdcr.scenarios.studies.energy import cable_work, dissipated, energy_gap, fine_run
+from cdcr.scenarios.studies.sections import HANGING, HORIZONTAL, distance, settling_time
 
 NAMES = ("three-sections", "hanging-arm", "payload-drop")
 

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 import cdcr
-from cdcr._scenario_file import load_scenario
-from cdcr._tension_shapes import Pulse, Ramp, Shape, Sine, Step, TensionShapes
 from cdcr.scenarios import Scenario
+from cdcr.scenarios.file.reader import load_scenario
+from cdcr.scenarios.file.shapes import Pulse, Ramp, Shape, Sine, Step, TensionShapes
 
 # One evaluation of a sum of a few terms near 10 N.
 ROUNDING = 1e-14

@@ -12,8 +12,8 @@ from cdcr.plotting.geometry import PIECES
 from cdcr.plotting.style import ALARM, BLACK, GREY, StyledFigure, line_colors, style
 
 if TYPE_CHECKING:
-    from cdcr._model import Model
-    from cdcr._modes import Modes
+    from cdcr.model.model import Model
+    from cdcr.model.modes import Modes
 
 __all__ = ["plot_modes"]
 

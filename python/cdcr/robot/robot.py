@@ -1,0 +1,283 @@
+"""Robots: sections from base to tip, and what acts on them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, fields, replace
+from itertools import accumulate, chain
+from os import PathLike
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from cdcr import _core
+from cdcr.base.check import Check
+from cdcr.base.quantity import quantity
+from cdcr.robot.cable import Cable
+from cdcr.robot.parts import Parts, part_counts, parts_of
+from cdcr.robot.section import Section
+
+Vector = tuple[float, float, float]
+Matrix = tuple[Vector, Vector, Vector]  # three rows
+
+_ZERO: Vector = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Robot:
+    """A cable-driven continuum robot: its sections from base to tip, and what acts on all of them.
+
+    Parameters
+    ----------
+    sections : sequence of Section
+        From base to tip, 1 to 32 of them.
+    gravity : sequence of float, default (0, 0, 0)
+        Gravity in the base frame [m/s^2]; (0, 0, -9.81) for a robot that stands upright.
+    payload : float, default 0
+        Mass at the tip [kg], >= 0.
+    cables : sequence of Cable, default ()
+        Up to 64 cables beside those of the sections, which come first in every command.
+    base_orientation : (3, 3) array_like, default identity
+        Rotation matrix of the first section in the base frame, in which gravity and all results
+        are told. The straight robot points along its third column.
+    payload_position : sequence of float, default (0, 0, 0)
+        Centre of mass of the payload in the frame of the tip [m].
+    payload_inertia : (3, 3) array_like, default zero
+        Of the payload about its centre of mass, in the frame of the tip [kg m^2].
+    sliding_speed : float, default 1e-3
+        Speed at which a cable counts as sliding, for friction [m/s], > 0.
+
+    Raises
+    ------
+    ValueError
+        With one sentence for each field that is out of its range, one a line.
+
+    Examples
+    --------
+    >>> import dataclasses
+    >>> import cdcr
+    >>> section = cdcr.Section(length=0.8, backbone_mass=0.03, backbone_diameter=0.005,
+    ...                        youngs_modulus=9.5e9, cable_radius=0.02, cable_angles=[0, 2, 4])
+    >>> robot = cdcr.Robot(sections=[section])
+    >>> dataclasses.replace(robot, payload=0.1).payload
+    0.1
+    """
+
+    sections: tuple[Section, ...] = field(
+        metadata=quantity("base to tip", "", "a sequence of 1 to 32 cdcr.Section")
+    )
+    gravity: Vector = field(
+        default=_ZERO, metadata=quantity("in the base frame", "m/s^2", "three numbers in m/s^2")
+    )
+    payload: float = field(
+        default=0.0, metadata=quantity("mass at the tip", "kg", "a number >= 0 kg and finite")
+    )
+    cables: tuple[Cable, ...] = field(
+        default=(),
+        metadata=quantity(
+            "beside those of the sections", "", "a sequence of 0 to 64 cdcr.Cable", rare=True
+        ),
+    )
+    base_orientation: Matrix = field(
+        default=((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
+        metadata=quantity(
+            "rotation of the first section, by rows", "", "three rows of three numbers", rare=True
+        ),
+    )
+    payload_position: Vector = field(
+        default=_ZERO,
+        metadata=quantity("centre of mass, in the tip frame", "m", "three numbers in m", rare=True),
+    )
+    payload_inertia: Matrix = field(
+        default=(_ZERO, _ZERO, _ZERO),
+        metadata=quantity(
+            "about its centre of mass", "kg m^2", "three rows of three numbers in kg m^2", rare=True
+        ),
+    )
+    sliding_speed: float = field(
+        default=1e-3,
+        metadata=quantity(
+            "of a cable, for friction", "m/s", "a number > 0 m/s and finite", rare=True
+        ),
+    )
+
+    if TYPE_CHECKING:  # any sequence goes in, a tuple comes out
+
+        def __init__(
+            self,
+            *,
+            sections: Sequence[Section],
+            gravity: Sequence[float] | NDArray[np.floating[Any]] = ...,
+            payload: float = ...,
+            cables: Sequence[Cable] = ...,
+            base_orientation: ArrayLike = ...,
+            payload_position: Sequence[float] | NDArray[np.floating[Any]] = ...,
+            payload_inertia: ArrayLike = ...,
+            sliding_speed: float = ...,
+        ) -> None: ...
+
+    def __post_init__(self) -> None:
+        """Keep every value as a plain float or tuple, or refuse it."""
+        check = Check()
+        for item in fields(self):
+            name, wanted, value = item.name, item.metadata["wanted"], getattr(self, item.name)
+            unit = item.metadata["unit"]
+            plain: object
+            if name in ("sections", "cables"):
+                kind = Section if name == "sections" else Cable
+                plain = _things(check, name, value, wanted, kind)
+            elif name in ("gravity", "payload_position"):
+                plain = _vector(check, name, value, wanted, f"a number in {unit}")
+            elif name in ("base_orientation", "payload_inertia"):
+                plain = _matrix(check, name, value, wanted)
+            else:
+                plain = check.number(name, value, wanted)
+            object.__setattr__(self, name, plain)
+        check.done()
+        check.done(self._to_core().violations())
+
+    @property
+    def mass(self) -> float:
+        """Mass of all sections and the payload [kg]."""
+        return sum(section.mass for section in self.sections) + self.payload
+
+    @property
+    def length(self) -> float:
+        """Arc length of all sections together [m]."""
+        return sum(section.length for section in self.sections)
+
+    @property
+    def num_cables(self) -> int:
+        """Number of all cables."""
+        return sum(len(section.cable_angles) for section in self.sections) + len(self.cables)
+
+    @property
+    def all_cables(self) -> tuple[Cable, ...]:
+        """Every cable in the order of the commands: section by section, then `cables`."""
+        names = [item.name for item in fields(Cable)]
+        return tuple(
+            Cable(**{name: getattr(cable, name) for name in names})
+            for cable in self._to_core().all_cables()
+        )
+
+    def subdivide(self, parts: Parts) -> Robot:
+        """Return the same robot with every section cut into equal constant-curvature parts.
+
+        Every disk stays where it is, and cables run through all parts of a section. The more
+        parts, the nearer the robot comes to a beam that bends freely. ``cdcr.subdivide_state`` and
+        ``cdcr.merge_state`` take states there and back.
+
+        Parameters
+        ----------
+        parts : int or sequence of int
+            Parts of every section, or of each one, base to tip; each 1 to 32, and no more than 32
+            of all together.
+
+        Returns
+        -------
+        Robot
+
+        Raises
+        ------
+        ValueError
+            Where `parts` is not that.
+
+        Examples
+        --------
+        >>> import cdcr
+        >>> robot = cdcr.robots.amouri2020().subdivide(5)
+        >>> len(robot.sections), robot.sections[0].num_disks, robot.num_cables
+        (5, 2, 3)
+        """
+        counts = part_counts(len(self.sections), parts)
+        cut = [parts_of(*pair) for pair in zip(self.sections, counts, strict=True)]
+        last = [end - 1 for end in accumulate(counts)]
+        cables = [replace(cable, end_section=last[cable.end_section]) for cable in self.cables]
+        return replace(self, sections=tuple(chain.from_iterable(cut)), cables=tuple(cables))
+
+    @classmethod
+    def load(cls, path: str | PathLike[str]) -> Robot:
+        """Read a robot from a TOML file, as `save` writes it.
+
+        Parameters
+        ----------
+        path : str or path
+            The file. A section gives its cables either as ``cable_angles`` [rad] or as
+            ``cable_angles_deg`` [deg].
+
+        Returns
+        -------
+        Robot
+
+        Raises
+        ------
+        FileNotFoundError
+            Where there is no such file.
+        ValueError
+            Naming file, key and what is allowed, for broken TOML, unknown or missing keys, wrong
+            types and values out of range.
+        """
+        from cdcr.robot.file import load_robot
+
+        return load_robot(cls, path)
+
+    def save(self, path: str | PathLike[str], *, overwrite: bool = False) -> None:
+        """Write the robot to a TOML file; `load` gives back an equal robot.
+
+        Parameters
+        ----------
+        path : str or path
+            The file; it appears whole or not at all.
+        overwrite : bool, default False
+            Whether a file of that name may be replaced.
+
+        Raises
+        ------
+        FileExistsError
+            Where there is such a file and `overwrite` is False.
+        FileNotFoundError
+            Where there is no such folder.
+        """
+        from cdcr.robot.file import save_robot
+
+        save_robot(self, path, overwrite=overwrite)
+
+    def _to_core(self) -> _core.Robot:
+        plain = {item.name: getattr(self, item.name) for item in fields(self)}
+        plain["sections"] = [section._to_core() for section in self.sections]
+        plain["cables"] = [cable._to_core() for cable in self.cables]
+        return _core.Robot(**plain)
+
+
+def _things(
+    check: Check, name: str, value: object, wanted: str, kind: type[Section | Cable]
+) -> tuple[Any, ...]:
+    """Return any sequence of sections or cables as a tuple."""
+    things = check.items(name, value, wanted)
+    for i, thing in enumerate(things):
+        if not isinstance(thing, kind):
+            check.refuse(f"{name}[{i}]", f"a cdcr.{kind.__name__}", thing)
+    return things
+
+
+def _vector(check: Check, name: str, value: object, wanted: str, each: str) -> tuple[float, ...]:
+    """Return any sequence of three numbers as a tuple."""
+    before = len(check.sentences)
+    vector = check.numbers(name, value, wanted, each)
+    if len(vector) != 3 and len(check.sentences) == before:
+        check.refuse(name, wanted, value)
+    return vector
+
+
+def _matrix(check: Check, name: str, value: object, wanted: str) -> tuple[tuple[float, ...], ...]:
+    """Return three rows of three numbers, in sequences of any kind or an array, as tuples."""
+    rows = list(value) if isinstance(value, np.ndarray) and value.ndim == 2 else value
+    before = len(check.sentences)
+    matrix = tuple(
+        _vector(check, f"{name}[{i}]", row, "three numbers", "a number")
+        for i, row in enumerate(check.items(name, rows, wanted))
+    )
+    if len(matrix) != 3 and len(check.sentences) == before:
+        check.refuse(name, wanted, value)
+    return matrix

@@ -1,0 +1,196 @@
+"""What a scenario is: a robot, what is done to it, and what is told and drawn about it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cdcr._core import Controller
+from cdcr.base.check import Check
+from cdcr.model.model import Model
+from cdcr.model.wrench import Wrench
+from cdcr.robot.robot import Robot
+from cdcr.runs.simulate import MethodName, TensionTable, simulate
+from cdcr.runs.trajectory import Trajectory
+from cdcr.scenarios.metrics import Finding, findings
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+MAX_SAMPLES = 10_000_000  # about a gigabyte of trajectory
+
+
+def _figure(scenario: Scenario, run: Trajectory) -> Figure:
+    from cdcr.scenarios.figures.run import run_figure
+
+    return run_figure(scenario, run)
+
+
+def paper_source(where: str) -> str:
+    """Return the citation of a place in the origin paper."""
+    return f"Amouri, Mahfoudi, Zaatri (2020), {where}, doi 10.46604/ijeti.2020.4422"
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Scenario:
+    """Something to see that can be repeated: data, and how to summarise and draw it.
+
+    Most are runs. One without `t_end` is a picture of the model alone, in which nothing runs.
+
+    Parameters
+    ----------
+    name, title, description, source : str
+        What it is called, what happens in it, and where its numbers come from.
+    paper_figure : int, optional
+        Number of the figure of the origin paper that it redraws.
+    robot : Robot
+        The robot.
+    q0 : tuple of float, 2n, or callable
+        Bending vectors [rad] at t = 0, or a function of the model that returns them.
+    qd0 : tuple of float, 2n
+        Their rates [rad/s].
+    tension : tuple of float, num_cables, or TensionTable or callable
+        Cable tensions [N], constant or over time, or a function of the model and the end of the run
+        [s] that returns them.
+    controller : callable, optional
+        From the model to a controller that pulls the cables, in place of `tension`.
+    wrenches : tuple of Wrench
+        Forces and moments on the robot.
+    t_end : float, optional
+        End of the run [s]; 0 where nothing runs.
+    num_samples : int, default 1001
+        Number of samples, evenly spaced, both ends included.
+    formulation : str
+        Of the model's equations.
+    method : str
+        Integration method: "bdf", "adams", "dopri5" or "rk4".
+    rtol, atol, step, max_step, max_steps : optional
+        Tolerances of the adaptive methods, step of rk4 [s], largest step [s] and number of steps.
+    tell : callable
+        From scenario and run, None where nothing runs, to the findings of `summary`.
+    draw : callable
+        From scenario and run, None where nothing runs, to the picture of `figure`.
+    """
+
+    name: str
+    title: str
+    description: str
+    source: str
+    robot: Robot
+    paper_figure: int | None = None
+    q0: tuple[float, ...] | Callable[[Model], tuple[float, ...]] = ()
+    qd0: tuple[float, ...] = ()
+    tension: tuple[float, ...] | TensionTable | Callable[[Model, float], TensionTable] = ()
+    controller: Callable[[Model], Controller] | None = None
+    wrenches: tuple[Wrench, ...] = ()
+    t_end: float = 0.0
+    num_samples: int = 1001
+    formulation: str = "exact"
+    method: MethodName = "bdf"
+    rtol: float | None = None
+    atol: float | None = None
+    step: float | None = None
+    max_step: float | None = None
+    max_steps: int | None = None
+    tell: Callable[[Scenario, Any], tuple[Finding, ...]] = findings
+    draw: Callable[[Scenario, Any], Figure] = _figure
+
+    @property
+    def has_run(self) -> bool:
+        """Whether anything runs in it; else it is a picture of the model alone."""
+        return self.t_end > 0.0
+
+    @property
+    def model(self) -> Model:
+        """Its robot, ready for computing."""
+        return Model(self.robot, formulation=self.formulation)
+
+    def start(self, model: Model) -> tuple[float, ...]:
+        """Return the bending vectors (2n,) at t = 0 [rad]."""
+        return self.q0(model) if callable(self.q0) else self.q0
+
+    def times(
+        self, t_end: float | None = None, num_samples: int | None = None
+    ) -> NDArray[np.float64]:
+        """Return the output times (N,) [s]; another end alone leaves their spacing."""
+        if not self.has_run:
+            raise ValueError(
+                f"nothing runs in the scenario {self.name!r}: it is a picture of the model alone"
+            )
+        check = Check()
+        given, wanted = self.t_end if t_end is None else t_end, "a number > 0 s and finite"
+        end = check.number("t_end", given, wanted, above=0.0)
+        check.done()
+        if num_samples is None:
+            num_samples = 1 + max(1, round((self.num_samples - 1) * end / self.t_end))
+        wanted = f"a whole number 2 to {MAX_SAMPLES}"
+        num = check.whole("num_samples", num_samples, wanted, low=2, high=MAX_SAMPLES)
+        check.done()
+        return np.linspace(0.0, end, num)
+
+    def simulate(
+        self,
+        *,
+        t_end: float | None = None,
+        num_samples: int | None = None,
+        method: MethodName | None = None,
+        rtol: float | None = None,
+        atol: float | None = None,
+        step: float | None = None,
+        max_step: float | None = None,
+        max_steps: int | None = None,
+        progress: Callable[[float], None] | None = None,
+    ) -> Trajectory:
+        """Run the scenario.
+
+        Parameters
+        ----------
+        t_end : float, optional
+            Another end of the run [s]; without `num_samples`, samples keep their spacing.
+        num_samples : int, optional
+            Another number of samples.
+        method, rtol, atol, step, max_step, max_steps : optional
+            In place of the scenario's own; see `cdcr.simulate`.
+        progress : callable, optional
+            Told the time reached, every few hundred steps.
+
+        Returns
+        -------
+        Trajectory
+
+        Raises
+        ------
+        ValueError
+            For an option out of its range, or a scenario in which nothing runs.
+        """
+        t, model = self.times(t_end, num_samples), self.model
+        controller = self.controller(model) if self.controller else None
+        tension = self.tension(model, float(t[-1])) if callable(self.tension) else self.tension
+        return simulate(
+            model,
+            self.start(model),
+            self.qd0,
+            t=t,
+            tension=None if controller else tension,
+            controller=controller,
+            wrenches=self.wrenches,
+            method=method or self.method,
+            rtol=self.rtol if rtol is None else rtol,
+            atol=self.atol if atol is None else atol,
+            step=self.step if step is None else step,
+            max_step=self.max_step if max_step is None else max_step,
+            max_steps=self.max_steps if max_steps is None else max_steps,
+            progress=progress,
+        )
+
+    def summary(self, run: Trajectory | None = None) -> tuple[Finding, ...]:
+        """Return what is worth knowing about this scenario and a run of it."""
+        return self.tell(self, run)
+
+    def figure(self, run: Trajectory | None = None) -> Figure:
+        """Return a picture of this scenario and a run of it. Needs the extra ``plot``."""
+        return self.draw(self, run)
