@@ -27,8 +27,9 @@ from cdcr.robot.cable import Cable
 from cdcr.robot.robot import Robot
 from cdcr.robot.section import Section
 from cdcr.robot.states import merge_state, subdivide_state
+from cdcr.runs.command import TensionTable
 from cdcr.runs.pid import Pid
-from cdcr.runs.simulate import TensionTable, simulate
+from cdcr.runs.simulate import simulate
 from cdcr.runs.trajectory import SlackEvent, Trajectory
 
 __version__: str = _core.__version__

@@ -2,6 +2,7 @@
 
 import math
 import warnings
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -214,6 +215,24 @@ def test_costs_and_failures_of_the_stretches_add_up() -> None:
     short = tension.run(model(), rest, rest, t, max_steps=part.stats.steps - 5, **TIGHT)
     assert short.status.name == "step_limit"
     assert short.stats.steps < part.stats.steps
+
+
+def test_lengths_put_together_from_shapes_are_commands_and_no_tensions() -> None:
+    robot = cdcr.robots.amouri2020(damping=0.02)
+    section = replace(robot.sections[0], cable_stiffness=5e3)
+    model = cdcr.Model(replace(robot, sections=(section,)))
+    shapes = [(j, Step(value=length)) for j, length in enumerate(model.rest_command())]
+    lengths = TensionShapes(3, [*shapes, (0, Ramp(after=-0.01, start=0.1, end=0.2))])
+    t = np.linspace(0.0, 0.4, 41)
+    rest = np.zeros(2)
+    run, table = lengths.run(model, rest, rest, t), cdcr.TensionTable(t, lengths(t))
+    np.testing.assert_array_equal(run.command, lengths(t))
+    whole = cdcr.simulate(model, rest, rest, t=t, command=table)
+    np.testing.assert_allclose(run.tension, whole.tension, rtol=0, atol=1e-2)
+    assert 10.0 < run.tension.max() < 50.0
+    assert {event.cable for event in run.slack_events} == {
+        event.cable for event in whole.slack_events
+    }
 
 
 def test_a_taylor_model_warns_once() -> None:

@@ -18,6 +18,7 @@ from cdcr.base.extras import require
 from cdcr.files.new_file import new_file
 from cdcr.robot.robot import Robot
 from cdcr.runs.simulate import MethodName
+from cdcr.runs.stats import STATS
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios import Scenario
 from cdcr.scenarios.file.reader import load_scenario
@@ -30,7 +31,6 @@ NEEDED = {
     ".csv": (),
     ".nc": (("xarray", "data"), ("h5netcdf", "data"), ("h5py", "data")),
 }
-STATS = ("steps", "rejected", "evaluations", "jacobians", "newton_failures")
 MAX_NAMED = 4  # files named in one sentence
 BAR_DELAY = 1.0  # shorter runs show no progress bar [s]
 

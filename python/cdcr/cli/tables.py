@@ -8,7 +8,8 @@ from rich.table import Table
 from rich.text import Text
 
 from cdcr import robots, scenarios
-from cdcr.cli.run import STATS, Report
+from cdcr.cli.run import Report
+from cdcr.runs.stats import STATS
 
 
 def new_table(title: str, *columns: str) -> Table:

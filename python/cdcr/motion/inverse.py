@@ -14,7 +14,8 @@ from cdcr import _core
 from cdcr.model.model import Model
 from cdcr.model.statics import InfeasibleError
 from cdcr.motion.reference import Reference
-from cdcr.runs.simulate import Interpolation, TensionTable, warn_beyond_taylor_range
+from cdcr.runs.command import Interpolation, TensionTable
+from cdcr.runs.simulate import warn_beyond_taylor_range
 
 FloatArray = NDArray[np.float64]
 Infeasible = Literal["raise", "nearest"]

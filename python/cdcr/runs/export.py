@@ -14,11 +14,13 @@ import numpy as np
 from cdcr import _core
 from cdcr.base.extras import require
 from cdcr.files.new_file import new_file
+from cdcr.runs.stats import STATS
 
 if TYPE_CHECKING:
     import xarray
     from numpy.typing import NDArray
 
+    from cdcr.model.model import Model
     from cdcr.runs.trajectory import Trajectory
 
 __all__ = ["save", "to_xarray"]
@@ -32,6 +34,11 @@ class Quantity(NamedTuple):
     units: str
     long_name: str
     values: NDArray[np.float64]
+
+
+def by_length(model: Model) -> bool:
+    """Whether any command is a length: only then it is stored beside the tensions."""
+    return any(cable.length_driven for cable in model.robot.all_cables)
 
 
 def quantities(run: Trajectory) -> list[Quantity]:
@@ -49,7 +56,7 @@ def quantities(run: Trajectory) -> list[Quantity]:
         Quantity("potential_energy", (), "J", "elastic energy plus weight", run.potential_energy),
         Quantity("energy", (), "J", "total mechanical energy", run.energy),
     ]
-    if run.command is not None and any(c.stiffness > 0.0 for c in run.model.robot.all_cables):
+    if run.command is not None and by_length(run.model):
         what = "what was asked of the cable: tension [N], or length [m] where driven by length"
         found += [
             Quantity("command", ("cable",), "N or m", what, run.command),
@@ -94,7 +101,6 @@ def to_xarray(run: Trajectory) -> xarray.Dataset:
 
 def _attributes(run: Trajectory) -> dict[str, str | int]:
     """Where the numbers come from."""
-    stats = run.stats
     return {
         "title": "Run of a cable-driven continuum robot",
         "cdcr_version": _core.__version__,
@@ -103,11 +109,8 @@ def _attributes(run: Trajectory) -> dict[str, str | int]:
         "method": run.method,
         "formulation": run.model.formulation,
         "robot": json.dumps(asdict(run.model.robot)),
-        "steps": stats.steps,
-        "rejected": stats.rejected,
-        "evaluations": stats.evaluations,
-        "jacobians": stats.jacobians,
-        "newton_failures": stats.newton_failures,
+        "slack_events": json.dumps(run.slack_events),
+        **{name: getattr(run.stats, name) for name in STATS},
     }
 
 

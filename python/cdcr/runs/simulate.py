@@ -1,12 +1,10 @@
-"""Runs: the robot under its tensions through time."""
+"""Runs: the robot under its commands through time."""
 
 from __future__ import annotations
 
-import inspect
 import warnings
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import Any, Literal, TypeAlias, cast
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,84 +12,11 @@ from numpy.typing import ArrayLike, NDArray
 from cdcr import _core
 from cdcr.model.model import Model
 from cdcr.model.wrench import Wrench, loads
+from cdcr.runs.command import Command, command_input
 from cdcr.runs.trajectory import SlackEvent, Trajectory
 
 FloatArray = NDArray[np.float64]
-Interpolation = Literal["linear", "previous"]
 MethodName = Literal["bdf", "adams", "dopri5", "rk4"]
-
-
-@dataclass(frozen=True, eq=False)
-class TensionTable:
-    """Tensions at given times.
-
-    Parameters
-    ----------
-    t : (N,) array_like
-        Times, strictly increasing [s]. Integrators stop exactly at each.
-    tension : (N, num_cables) array_like
-        Tensions at those times [N]. Before the first and after the last time these rows hold.
-    interpolation : {"linear", "previous"}, optional
-        Connect the rows by lines, or hold each until the next time.
-    """
-
-    t: ArrayLike
-    tension: ArrayLike
-    interpolation: Interpolation = "linear"
-
-    def __post_init__(self) -> None:
-        if self.interpolation not in ("linear", "previous"):
-            raise ValueError(
-                f"interpolation must be 'linear' or 'previous', got {self.interpolation!r}"
-            )
-
-
-TensionFunction: TypeAlias = Callable[..., ArrayLike]
-Tension: TypeAlias = (
-    "ArrayLike | TensionTable | tuple[ArrayLike, ArrayLike] | TensionFunction | None"
-)
-
-
-def _takes_state(function: Callable[..., Any]) -> bool:
-    """Whether a tension function wants (t, q, qd) rather than t alone."""
-    try:
-        parameters = inspect.signature(function).parameters.values()
-    except (TypeError, ValueError):
-        return False
-    if any(p.kind is p.VAR_POSITIONAL for p in parameters):
-        return True
-    kinds = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
-    accepted = sum(p.kind in kinds for p in parameters)
-    required = sum(p.kind in kinds and p.default is p.empty for p in parameters)
-    if required == 3:
-        return True
-    if required <= 1 <= accepted:
-        return False
-    raise ValueError(
-        f"a tension function must take (t) or (t, q, qd), got one that needs {required} arguments"
-    )
-
-
-def tension_input(
-    model: Model, tension: Tension, break_points: Sequence[float] = ()
-) -> _core.TensionInput:
-    """Turn what a user gives as tension into the core's input."""
-    if tension is None:
-        tension = model.rest_command()
-    if callable(tension):
-        function = tension
-        if not _takes_state(function):
-            time_only = function
-            function = lambda t, q, qd: time_only(t)  # noqa: E731
-        return _core.TensionInput.function(model, function, [float(b) for b in break_points])
-    if len(break_points) > 0:
-        raise ValueError("break_points go with a tension function; a table has its own")
-    if isinstance(tension, TensionTable):
-        linear = tension.interpolation == "linear"
-        return _core.TensionInput.table(model, tension.t, tension.tension, linear)
-    if isinstance(tension, tuple) and len(tension) == 2 and np.ndim(tension[1]) == 2:
-        return tension_input(model, TensionTable(tension[0], tension[1]))
-    return _core.TensionInput.constant(model, cast("ArrayLike", tension))
 
 
 def warn_beyond_taylor_range(model: Model, q: FloatArray) -> None:
@@ -118,7 +43,8 @@ def simulate(
     qd0: ArrayLike,
     *,
     t: ArrayLike,
-    tension: Tension = None,
+    tension: Command = None,
+    command: Command = None,
     controller: _core.Controller | None = None,
     wrenches: Wrench | Sequence[Wrench] = (),
     method: MethodName = "bdf",
@@ -141,13 +67,13 @@ def simulate(
         Bending vectors and their rates at the first time [rad], [rad/s].
     t : (N,) array_like
         Output times, strictly increasing; the first is the start [s].
-    tension : optional
-        None (no tension), (num_cables,) constant tensions [N], a `TensionTable` or a pair
-        ``(times, tensions)`` read as one, or a callable ``f(t)`` or ``f(t, q, qd)`` returning
-        tensions. A callable is the slow path: Python is called at every evaluation. For a cable
-        driven by length the number is its commanded length [m]; None leaves it straight.
+    tension, command : optional
+        Two names for what is asked of the cables: tensions [N], lengths [m] of cables driven by
+        length. None (no tension, the lengths of the straight robot), (num_cables,) constants, a
+        `TensionTable` or a pair ``(times, rows)`` read as one, or a callable ``f(t)`` or
+        ``f(t, q, qd)``. A callable is the slow path: Python is called at every evaluation.
     controller : Controller, optional
-        In place of `tension`, such as a `Pid`: reset, then asked at the first time and each period
+        In place of `command`, such as a `Pid`: reset, then asked at the first time and each period
         after, its tensions held in between.
     wrenches : Wrench or sequence of Wrench, optional
         Forces and moments on the robot; their profiles say how they change in time.
@@ -171,7 +97,7 @@ def simulate(
     max_steps : int, optional
         Limit of internal steps in the run.
     break_points : sequence of float, optional
-        Times at which a callable `tension` is not smooth [s]; the run stops exactly there.
+        Times at which a callable `command` is not smooth [s]; the run stops exactly there.
     progress : callable, optional
         Told the time reached, every few hundred steps.
     throw : bool, optional
@@ -187,17 +113,21 @@ def simulate(
     except KeyError:
         known = ", ".join(repr(m.name) for m in _core.Method)
         raise ValueError(f"method must be one of {known}, got {method!r}") from None
+    if tension is not None and command is not None:
+        raise ValueError("give either tension or command, two names for one thing, not both")
+    asked = tension if command is None else command
     options = _options(
         {"rtol": rtol, "atol": atol, "step": step, "max_step": max_step, "max_steps": max_steps}
     )
     if controller is not None:
-        if tension is not None or len(break_points) > 0:
-            raise ValueError("give either tension or controller, not both")
+        if asked is not None or len(break_points) > 0:
+            name = "tension" if command is None else "command"
+            raise ValueError(f"give either {name} or controller, not both")
         raw = _core.simulate_controlled(
             model, q0, qd0, t, controller, chosen, options, progress, loads(wrenches)
         )
     else:
-        source = tension_input(model, tension, break_points)
+        source = command_input(model, asked, break_points)
         raw = _core.simulate(model, q0, qd0, t, source, chosen, options, progress, loads(wrenches))
     run = Trajectory(
         model=model,

@@ -221,6 +221,35 @@ class Trajectory:
 
         return export.save(self, path, overwrite=overwrite)
 
+    @classmethod
+    def load(cls, path: str | PathLike[str], *, model: Model | None = None) -> Trajectory:
+        """Read a run from a file, as `save` writes it.
+
+        Parameters
+        ----------
+        path : path-like
+            The file, ending in ``.nc`` (extra ``data``) or ``.csv``.
+        model : Model, optional
+            The model that ran. A netCDF file has its own; a CSV file has none, nor how the run
+            ended, its method, cost and slack events: ``run.message`` says so.
+
+        Returns
+        -------
+        Trajectory
+
+        Raises
+        ------
+        ValueError
+            For another suffix, a CSV file without `model`, or a file that is no run of it.
+        FileNotFoundError
+            If there is no such file.
+        """
+        from cdcr.runs.load import load
+
+        fields = load(path, model)
+        events = tuple(SlackEvent(*event) for event in fields.pop("slack_events"))
+        return cls(**fields, slack_events=events)
+
     def plot(self) -> Figure:
         """Draw angles [deg], tensions, tip and energy over time. Needs the extra ``plot``.
 

@@ -14,7 +14,8 @@ from cdcr.base.check import Check
 from cdcr.model.model import Model
 from cdcr.model.wrench import Wrench
 from cdcr.robot.robot import Robot
-from cdcr.runs.simulate import MethodName, TensionTable, simulate
+from cdcr.runs.command import TensionTable
+from cdcr.runs.simulate import MethodName, simulate
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.metrics import Finding, findings
 

@@ -15,9 +15,9 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cdcr._core import Stats
 from cdcr.model.model import Model
 from cdcr.runs.simulate import simulate, warn_beyond_taylor_range
+from cdcr.runs.stats import total
 from cdcr.runs.trajectory import Trajectory
 
 FloatArray = NDArray[np.float64]
@@ -284,17 +284,22 @@ class TensionShapes:
         t = np.concatenate([part.t[row] for part, row in rows])
         q = np.concatenate([part.q[row] for part, row in rows])
         qd = np.concatenate([part.qd[row] for part, row in rows])
+        tension = np.concatenate([part.tension[row] for part, row in rows])
         wanted = np.isin(t, times)
+        asked = self(t[wanted])
+        driven = [cable.length_driven for cable in last.model.robot.all_cables]
         run = Trajectory(
             model=last.model,
             t=t[wanted],
             q=q[wanted],
             qd=qd[wanted],
-            tension=self(t[wanted]),
+            tension=np.where(driven, tension[wanted], asked),
             status=last.status,
             message=last.message,
             stats=total(part.stats for part in parts),
             method=last.method,
+            command=asked,
+            slack_events=tuple(event for part in parts for event in part.slack_events),
         )
         warn_beyond_taylor_range(run.model, run.q)
         return run
@@ -306,14 +311,6 @@ def told_once() -> Iterator[None]:
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="formulation .* holds for")
         yield
-
-
-def total(stats: Iterable[Stats]) -> Stats:
-    """Return what several runs cost together; nothing for none."""
-    costs = [one.__getstate__() for one in stats]
-    added = Stats.__new__(Stats)
-    added.__setstate__(tuple(sum(row) for row in zip(*costs, strict=True)) or (0,) * 5)
-    return added
 
 
 def _lowest(pieces: list[Piece], t: float) -> float:

@@ -9,7 +9,7 @@ from typing import Any
 from cdcr.files.number_csv import Layout, read_numbers
 from cdcr.files.toml import complaints, refuse, shown_toml
 from cdcr.model.model import Model
-from cdcr.runs.simulate import TensionTable, tension_input
+from cdcr.runs.command import TensionTable, command_input
 from cdcr.scenarios.file.shapes import Pulse, Ramp, Shape, Sine, Step, TensionShapes
 from cdcr.scenarios.file.trajectory import shape_complaints
 from cdcr.scenarios.file.values import count, said_by
@@ -48,7 +48,7 @@ def _over_time(table: dict[str, Any], model: Model, file: Path) -> TensionTable:
         refuse(where, _row_complaints(t, rows, model.num_cables))
     tension = TensionTable(t, rows, table.get("interpolation", "linear"))
     with said_by(where):
-        tension_input(model, tension)
+        command_input(model, tension)
     return tension
 
 

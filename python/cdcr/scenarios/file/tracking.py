@@ -14,8 +14,9 @@ from cdcr.motion.inverse import Infeasible, InverseRun, inverse_run
 from cdcr.motion.reference import Reference
 from cdcr.motion.splines import Motion
 from cdcr.runs.simulate import simulate
+from cdcr.runs.stats import total
 from cdcr.runs.trajectory import Trajectory
-from cdcr.scenarios.file.shapes import told_once, total
+from cdcr.scenarios.file.shapes import told_once
 from cdcr.scenarios.file.values import said_by
 from cdcr.scenarios.metrics import Finding, findings
 from cdcr.scenarios.scenario import Scenario

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from cdcr.model.model import Model
 from cdcr.robots import three_sections
-from cdcr.runs.simulate import TensionTable
+from cdcr.runs.command import TensionTable
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.metrics import Finding
 from cdcr.scenarios.scenario import Scenario

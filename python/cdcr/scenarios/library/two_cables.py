@@ -8,7 +8,7 @@ import numpy as np
 
 from cdcr.model.coordinates import polar
 from cdcr.robots import amouri2020
-from cdcr.runs.simulate import TensionTable
+from cdcr.runs.command import TensionTable
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.metrics import Finding
 from cdcr.scenarios.scenario import Scenario, paper_source

@@ -13,7 +13,8 @@ from cdcr.model.coordinates import bending
 from cdcr.model.model import Model
 from cdcr.robot.robot import Robot
 from cdcr.robots import three_sections
-from cdcr.runs.simulate import TensionTable, simulate
+from cdcr.runs.command import TensionTable
+from cdcr.runs.simulate import simulate
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.studies.energy import integral
 

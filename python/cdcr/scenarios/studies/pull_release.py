@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from cdcr.model.model import Model
 from cdcr.robot.robot import Robot
 from cdcr.robots import amouri2020
-from cdcr.runs.simulate import TensionTable, simulate
+from cdcr.runs.command import TensionTable
+from cdcr.runs.simulate import simulate
 from cdcr.runs.trajectory import Trajectory
 
 FloatArray = NDArray[np.float64]

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cdcr.model.model import Model
-from cdcr.runs.simulate import TensionTable
+from cdcr.runs.command import TensionTable
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.studies.sections import holding
 

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from cdcr.model.model import Model
 from cdcr.motion.inverse import InverseRun, inverse_run
 from cdcr.motion.reference import Reference
-from cdcr.runs.simulate import TensionTable, simulate
+from cdcr.runs.command import TensionTable
+from cdcr.runs.simulate import simulate
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.metrics import Finding
 
