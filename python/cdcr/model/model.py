@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from cdcr import _core
 from cdcr.model.inverse_kinematics import InverseKinematics
 from cdcr.model.modes import Modes, modes
-from cdcr.model.statics import allocate, equilibrium
+from cdcr.model.statics import allocation_method, checked_allocation, checked_equilibrium
 from cdcr.robot.robot import Robot
 
 if TYPE_CHECKING:
@@ -77,18 +77,38 @@ class Model(_core.Model):
             f"formulation {self._formulation!r}>"
         )
 
+    @overload
+    def equilibrium(
+        self,
+        tension: ArrayLike,
+        q0: ArrayLike | None = ...,
+        wrenches: Wrench | Sequence[Wrench] = ...,
+        *,
+        throw: Literal[True] = ...,
+    ) -> FloatArray: ...
+    @overload
+    def equilibrium(
+        self,
+        tension: ArrayLike,
+        q0: ArrayLike | None = ...,
+        wrenches: Wrench | Sequence[Wrench] = ...,
+        *,
+        throw: Literal[False],
+    ) -> _core.Equilibrium: ...
     def equilibrium(
         self,
         tension: ArrayLike,
         q0: ArrayLike | None = None,
         wrenches: Wrench | Sequence[Wrench] = (),
-    ) -> FloatArray:
+        *,
+        throw: bool = True,
+    ) -> FloatArray | _core.Equilibrium:
         """Bending vectors at rest under constant commands and wrenches: dU/dq = Q.
 
         Newton's method, downhill in energy where all loads have one; where that fails, the load
         grows from nothing to all, then other starts are tried. Nothing slides at rest, so this is
         the equilibrium without friction. The answer may be unstable when gravity is strong and the
-        start is a point of rest: `find_equilibrium`, with the same arguments, tells.
+        start is a point of rest; with ``throw=False`` it tells.
 
         Parameters
         ----------
@@ -98,18 +118,23 @@ class Model(_core.Model):
             Where to start [rad]; by default the answer without gravity.
         wrenches : Wrench or sequence of Wrench, optional
             Constant forces and moments on the backbone.
+        throw : bool, optional
+            False: return all that was found, and raise nothing where nothing was. The old name of
+            that is `find_equilibrium`.
 
         Returns
         -------
-        (2n,) array
-            In radians.
+        (2n,) array or Equilibrium
+            Bending vectors [rad]; with ``throw=False`` also whether it is stable, the tensions
+            there, and a status.
 
         Raises
         ------
         ConvergenceError
             If there is no equilibrium within the bending limit, or none was found.
         """
-        return equilibrium(self, tension, q0, wrenches)
+        found = self.find_equilibrium(tension, q0, wrenches)
+        return checked_equilibrium(found) if throw else found
 
     def modes(
         self, q: ArrayLike, tension: ArrayLike, wrenches: Wrench | Sequence[Wrench] = ()
@@ -143,6 +168,26 @@ class Model(_core.Model):
         """
         return modes(self, q, tension, wrenches)
 
+    @overload
+    def allocate(
+        self,
+        force: ArrayLike,
+        min_tension: float = ...,
+        max_tension: float = ...,
+        *,
+        method: str = ...,
+        throw: Literal[True] = ...,
+    ) -> FloatArray: ...
+    @overload
+    def allocate(
+        self,
+        force: ArrayLike,
+        min_tension: float = ...,
+        max_tension: float = ...,
+        *,
+        method: str = ...,
+        throw: Literal[False],
+    ) -> _core.Allocation: ...
     def allocate(
         self,
         force: ArrayLike,
@@ -150,7 +195,8 @@ class Model(_core.Model):
         max_tension: float = math.inf,
         *,
         method: str = "automatic",
-    ) -> FloatArray:
+        throw: bool = True,
+    ) -> FloatArray | _core.Allocation:
         """Least-norm cable tensions within limits that give a generalised force.
 
         Parameters
@@ -163,11 +209,15 @@ class Model(_core.Model):
             The closed form, section by section, is for robots with three cables that end at every
             section; the search takes any cables. Both give the same; by default the first is taken
             where it applies.
+        throw : bool, optional
+            False: return all that was found, the nearest tensions where none give that force. The
+            old name of that is `find_tension`.
 
         Returns
         -------
-        (num_cables,) array
-            Tensions [N].
+        (num_cables,) array or Allocation
+            Tensions [N]; with ``throw=False`` also their force, whether that is the one asked for,
+            and the cables in the way.
 
         Raises
         ------
@@ -175,7 +225,9 @@ class Model(_core.Model):
             If no tensions within the limits give that force; it carries the nearest ones and names
             the cables that are in the way.
         """
-        return allocate(self, force, min_tension, max_tension, method)
+        chosen = allocation_method(method)
+        found = self.find_tension(force, min_tension, max_tension, method=chosen)
+        return checked_allocation(found, force, (min_tension, max_tension)) if throw else found
 
     def inverse_kinematics(
         self,

@@ -128,12 +128,12 @@ def at_rest(robot: Robot) -> Rest:
     straight = np.zeros(model.num_coordinates)
     driven = np.array([cable.length_driven for cable in robot.all_cables], dtype=bool)
     command = model.commands(straight, np.where(driven, TAUT, 0.0))
-    found = model.find_equilibrium(command)
+    found = model.equilibrium(command, throw=False)
     buckled = False
     if found.status.name == "ok" and not found.stable:
         # A point of rest found exactly is given back: look for the one the robot falls to.
         nudge = np.tile([NUDGE / model.num_sections, 0.0], model.num_sections)
-        fallen = model.find_equilibrium(command, found.q + nudge)
+        fallen = model.equilibrium(command, found.q + nudge, throw=False)
         if fallen.status.name == "ok" and np.max(np.abs(fallen.q - found.q)) > STRAIGHT:
             found, buckled = fallen, True
     if found.status.name != "ok":

@@ -2,17 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cdcr import _core
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from cdcr.model.wrench import Wrench
 
 FloatArray = NDArray[np.float64]
 
@@ -43,34 +36,30 @@ class InfeasibleError(ValueError):
         self.limiting = tuple(answer.limiting)
 
 
-def equilibrium(
-    model: _core.Model,
-    tension: ArrayLike,
-    q0: ArrayLike | None,
-    wrenches: Wrench | Sequence[Wrench],
-) -> FloatArray:
-    """Return q at rest; see Model.equilibrium."""
-    answer = model.find_equilibrium(tension, q0, wrenches)
-    if answer.status is not _core.Status.ok:
-        raise ConvergenceError(_core.status_message(answer.status))
-    return answer.q
+def checked_equilibrium(found: _core.Equilibrium) -> FloatArray:
+    """Return q at rest, or raise where none was found."""
+    if found.status is not _core.Status.ok:
+        raise ConvergenceError(_core.status_message(found.status))
+    return found.q
 
 
-def allocate(
-    model: _core.Model, force: ArrayLike, min_tension: float, max_tension: float, method: str
+def allocation_method(name: str) -> _core.AllocationMethod:
+    """Return a way to search by its name, or refuse it."""
+    if name not in METHODS:
+        raise ValueError(f"method must be one of {METHODS}, got {name!r}")
+    return _core.AllocationMethod[name]
+
+
+def checked_allocation(
+    found: _core.Allocation, force: ArrayLike, limits: tuple[float, float]
 ) -> FloatArray:
-    """Return tensions for a force; see Model.allocate."""
-    if method not in METHODS:
-        raise ValueError(f"method must be one of {METHODS}, got {method!r}")
-    answer = model.find_tension(
-        force, min_tension, max_tension, method=_core.AllocationMethod[method]
-    )
-    if not answer.feasible:
-        limits = ", ".join(answer.limits)
-        reason = f"limited by {limits}" if limits else "no cable pulls that way"
+    """Return tensions that give a force, or raise where none within the limits do."""
+    if not found.feasible:
+        names = ", ".join(found.limits)
+        reason = f"limited by {names}" if names else "no cable pulls that way"
         raise InfeasibleError(
-            f"force {np.asarray(force)} N m cannot be met with tensions from {min_tension} to "
-            f"{max_tension} N: {reason}; the nearest force is {answer.force} N m",
-            answer,
+            f"force {np.asarray(force)} N m cannot be met with tensions from {limits[0]} to "
+            f"{limits[1]} N: {reason}; the nearest force is {found.force} N m",
+            found,
         )
-    return answer.tension
+    return found.tension
