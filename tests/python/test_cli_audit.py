@@ -9,21 +9,16 @@ import pytest
 pytest.importorskip("typer")
 
 from rich.console import Console
-from typer.testing import CliRunner, Result
 
 from cdcr.cli import audit as cli_audit
-from cdcr.cli.app import app
 from cdcr.paper import Claim, audit
 from cdcr.paper._audit import VERDICTS
+from command import cdcr_
 
 
 @pytest.fixture(scope="module")
 def claims() -> list[Claim]:
     return audit()
-
-
-def cdcr_(*args: str) -> Result:
-    return CliRunner().invoke(app, list(args))
 
 
 @pytest.fixture

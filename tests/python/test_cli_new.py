@@ -1,7 +1,6 @@
 """The command new: its file runs as it is, and with each of its comments switched on."""
 
 import json
-import os
 import re
 from dataclasses import fields
 from pathlib import Path
@@ -17,24 +16,15 @@ pytest.importorskip("matplotlib")
 pytest.importorskip("h5netcdf")
 
 from matplotlib.figure import Figure
-from typer.testing import CliRunner, Result
 
-from cdcr.cli.app import app
 from cdcr.scenarios.file import schema, shape_schema
 from cdcr.scenarios.file.template import TEMPLATE
+from command import cdcr_, everything_in
 
 BLOCKS = TEMPLATE.split("\n\n")
 SWITCHED_OFF = [i for i, block in enumerate(BLOCKS) if re.search(r"^#\S", block, re.MULTILINE)]
 # Tensions are shared among cables that are named by other arithmetic than among all [rad].
 NAMED_CABLES = 1e-13
-
-
-def cdcr_(*args: object) -> Result:
-    return CliRunner().invoke(app, [str(arg) for arg in args])
-
-
-def everything_in(folder: Path) -> list[str]:
-    return sorted(os.listdir(folder))  # noqa: PTH208 - hidden files count
 
 
 @pytest.fixture

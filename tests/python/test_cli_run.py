@@ -63,8 +63,8 @@ def test_run_writes_three_files_and_says_so(first: tuple[Path, Result]) -> None:
 def test_run_prints_its_findings(first: tuple[Path, Result]) -> None:
     _, result = first
     scenario = cdcr.scenarios.get("step-tension")
-    for finding in scenario.summary(scenario.simulate()):
-        assert finding.label in result.stdout
+    for metric in scenario.summary(scenario.simulate()):
+        assert metric.label in result.stdout
     words = result.stdout.split()
     for word in ("14.9778", "29.9555", "0.6892", "deg", "steps", "bdf,", "ms"):
         assert word in words

@@ -102,7 +102,7 @@ def test_a_heavy_robot_buckles_and_says_so(tmp_path: Path) -> None:
     assert theta > 1.0
     # At rest the moment of weight balances that of the backbone.
     assert rest.model.bias(rest.q, [0.0, 0.0]) == pytest.approx([0.0, 0.0], abs=1e-9)
-    assert not rest.firm  # it turns about the vertical freely
+    assert not rest.is_nondegenerate  # it turns about the vertical freely
     robot.save(tmp_path / "heavy.toml")
     text = printed(tmp_path / "heavy.toml")
     assert f"bent by {math.degrees(theta):.2f} deg, buckled under" in " ".join(text.split())

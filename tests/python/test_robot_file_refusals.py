@@ -56,11 +56,15 @@ def test_each_required_key_is_missed(tmp_path: Path, name: str) -> None:
 
 
 def test_sections_are_missed(tmp_path: Path) -> None:
-    wanted = "one [[sections]] table for each section"
-    assert refusal(tmp_path, "payload = 1.0\n") == [f"sections is missing; it must be {wanted}"]
-    assert refusal(tmp_path, "sections = 1\n") == [f"sections must be {wanted}, got 1 (integer)"]
+    requirement = "one [[sections]] table for each section"
+    assert refusal(tmp_path, "payload = 1.0\n") == [
+        f"sections is missing; it must be {requirement}"
+    ]
+    assert refusal(tmp_path, "sections = 1\n") == [
+        f"sections must be {requirement}, got 1 (integer)"
+    ]
     assert refusal(tmp_path, "sections = [1]\n") == [
-        f"sections must be {wanted}, got 1 (integer) at sections[0]"
+        f"sections must be {requirement}, got 1 (integer) at sections[0]"
     ]
     assert refusal(tmp_path, "sections = []\n") == ["the number of sections must be 1 to 32, got 0"]
 

@@ -71,7 +71,7 @@ def test_rates_of_a_shape_are_those_of_its_angles(tmp_path: Path, shape: str) ->
     scenario = load(tmp_path, shape)
     h = 1e-4
     for t in (0.7, 3.3, 8.0):
-        motion = scenario.drive.motion  # type: ignore[attr-defined]
+        motion = scenario.input_source.motion  # type: ignore[union-attr]
         (before, here, after), rates, accelerations = motion(np.array([t - h, t, t + h]))
         np.testing.assert_allclose((after - before) / (2 * h), rates[1], atol=DIFFERENCES)
         change = (after - 2 * here + before) / h**2

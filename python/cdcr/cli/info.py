@@ -50,7 +50,7 @@ def _sections(robot: Robot) -> Table:
     table = new_table("Sections, base to tip", "", *numbers)
     for item in fields(Section):
         values = [getattr(section, item.name) for section in robot.sections]
-        if item.metadata["rare"] and all(value == item.default for value in values):
+        if item.metadata["advanced"] and all(value == item.default for value in values):
             continue
         if item.name not in _OF_CABLES:
             label = _LABELS.get(item.name, item.name.replace("_", " "))
@@ -67,18 +67,18 @@ def _cables(robot: Robot, rest: Rest | None) -> Table:
     by_tension = not all(cable.length_driven for cable in cables)
     columns = ["on section", "radius [m]", "angle [deg]", "drive"]
     columns += ["friction"]
-    firm = rest is not None and rest.firm
-    columns += ["tip [mm/N]"] if firm and by_tension else []
-    columns += ["tip [mm/mm]"] if firm and by_length else []
-    motions = rest.tip_motion if rest is not None and firm else np.zeros(len(cables))
+    is_nondegenerate = rest is not None and rest.is_nondegenerate
+    columns += ["tip [mm/N]"] if is_nondegenerate and by_tension else []
+    columns += ["tip [mm/mm]"] if is_nondegenerate and by_length else []
+    motions = rest.tip_motion if rest is not None and is_nondegenerate else np.zeros(len(cables))
     table = new_table("Cables, in the order of the commands", "", *columns)
     for j, (cable, motion) in enumerate(zip(cables, motions, strict=True)):
         row = [f"{cable.end_section + 1}", _text(cable.radius)]
         row += [f"{math.degrees(cable.angle):.4g}", "length" if cable.length_driven else "tension"]
         row.append(_friction(robot, cable))
-        if firm and by_tension:
+        if is_nondegenerate and by_tension:
             row.append("" if cable.length_driven else f"{1e3 * float(motion):.4g}")
-        if firm and by_length:
+        if is_nondegenerate and by_length:
             row.append(
                 (f"{float(motion):.4g}" if motion else "slack") if cable.length_driven else ""
             )
@@ -168,9 +168,11 @@ def _whole(robot: Robot, rest: Rest | None) -> Table:
     _add_row(table, "gravity", "m/s^2", [", ".join(map(_text, robot.gravity))])
     if rest is None:
         return table
-    if not rest.firm:
+    if not rest.is_nondegenerate:
         _add_row(table, "tip stiffness", "", ["none: some small forces move it far"])
-    for axis, stiffness in zip("xy", rest.tip_stiffness if rest.firm else (), strict=rest.firm):
+    for axis, stiffness in zip(
+        "xy", rest.tip_stiffness if rest.is_nondegenerate else (), strict=rest.is_nondegenerate
+    ):
         _add_row(table, f"tip stiffness along its {axis}", "N/m", [_text(stiffness)])
     try:
         step = rest.step

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from html import escape
-from typing import Any
 
+from cdcr.paper._audit import Claim, audit
 from cdcr.scenarios import Scenario
 
 PAPER = "https://doi.org/10.46604/ijeti.2020.4422"
@@ -32,7 +32,7 @@ th { border-bottom: 2px solid #777; }
 def page(drawn: Iterable[Scenario]) -> str:
     """Return the page in HTML; pictures are named relative to it."""
     shown = list(drawn)
-    claims = _claims()
+    claims = audit()
     entries = [_entry(scenario) for scenario in shown]
     entries += ['<li><a href="#audit">The claims of the text</a></li>'] if claims else []
     parts = [
@@ -77,15 +77,7 @@ def _figure(scenario: Scenario) -> str:
 </figure>"""
 
 
-def _claims() -> list[Any]:
-    """Return what the paper claims and what follows from its equations."""
-    import cdcr.paper
-
-    audit = getattr(cdcr.paper, "audit", None)
-    return list(audit()) if audit else []
-
-
-def _audit(claims: list[Any]) -> str:
+def _audit(claims: list[Claim]) -> str:
     columns = ("where", "claim", "computed", "verdict")
     head = "".join(f"<th>{column}</th>" for column in columns)
     rows = (

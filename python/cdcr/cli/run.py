@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from types import TracebackType
@@ -15,15 +15,14 @@ from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, T
 
 from cdcr import robots, scenarios
 from cdcr.base.extras import require
-from cdcr.files.new_file import new_file
+from cdcr.files.new_file import new_files
 from cdcr.robot.robot import Robot
 from cdcr.runs.simulate import MethodName
 from cdcr.runs.stats import STATS
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios import Scenario
 from cdcr.scenarios.file.reader import load_scenario
-from cdcr.scenarios.file.scenario import FileScenario
-from cdcr.scenarios.metrics import Finding
+from cdcr.scenarios.metrics import Metric
 
 # Files of a run, the modules they are written with, and the extras that bring these.
 NEEDED = {
@@ -60,7 +59,7 @@ class Report:
     method: str
     run: Trajectory | None
     wall_time: float  # of the integration alone [s]
-    findings: tuple[Finding, ...]
+    metrics: tuple[Metric, ...]
     files: tuple[Path, ...]
 
     def as_dict(self) -> dict[str, Any]:
@@ -71,7 +70,7 @@ class Report:
             "source": self.scenario.source,
             "robot": asdict(self.scenario.robot),
             "formulation": self.scenario.formulation,
-            "findings": {finding.key: finding.value for finding in self.findings},
+            "findings": {metric.key: metric.value for metric in self.metrics},
             "files": [str(path) for path in self.files],
         }
         run = self.run
@@ -107,7 +106,7 @@ def run(
         given = {"t_end": t_end, "method": method, "rtol": rtol, "atol": atol}
         _refuse_options(scenario, given | {"max_steps": max_steps})
         return _picture(scenario, out, overwrite=overwrite)
-    files = scenario.files if isinstance(scenario, FileScenario) else tuple(NEEDED)
+    files = scenario.files
     targets = tuple(out / f"{scenario.name}{suffix}" for suffix in files)
     refuse_existing(out, targets, overwrite=overwrite)
     for suffix in files:
@@ -132,7 +131,7 @@ def run(
         method=method or scenario.method,
         run=trajectory,
         wall_time=wall_time,
-        findings=scenario.summary(trajectory) if trajectory.success else (),
+        metrics=scenario.summary(trajectory) if trajectory.success else (),
         files=targets if trajectory.success else (),
     )
 
@@ -156,7 +155,7 @@ def _picture(scenario: Scenario, out: Path, *, overwrite: bool) -> Report:
         method="",
         run=None,
         wall_time=0.0,
-        findings=scenario.summary(),
+        metrics=scenario.summary(),
         files=targets,
     )
 
@@ -195,21 +194,12 @@ def write(
     scenario: Scenario, run: Trajectory | None, targets: tuple[Path, ...], *, overwrite: bool
 ) -> None:
     """Write pictures and data of a run; they appear together when all are complete."""
-    out = targets[0].parent
-    made = [folder for folder in (out, *out.parents) if not folder.exists()]
-    out.mkdir(parents=True, exist_ok=True)
-    try:
-        with ExitStack() as stack:
-            for path in [stack.enter_context(new_file(t, overwrite=overwrite)) for t in targets]:
-                if path.suffix == ".png":
-                    scenario.figure(run).savefig(path)
-                elif run is not None:
-                    run.save(path)
-    except BaseException:
-        with suppress(OSError):  # somebody else may have put something there
-            for folder in made:
-                folder.rmdir()
-        raise
+    with new_files(targets, overwrite=overwrite) as partial:
+        for path in partial:
+            if path.suffix == ".png":
+                scenario.figure(run).savefig(path)
+            elif run is not None:
+                run.save(path)
 
 
 class DelayedBar:

@@ -50,8 +50,8 @@ def print_report(console: Console, report: Report) -> None:
     console.print(Text(f"Source: {scenario.source}", style="dim"))
     told = scenario.name if run is None else f"{scenario.name}, {report.method}, {len(run)} samples"
     table = new_table(told, "", "value", "unit")
-    for finding in report.findings:
-        table.add_row(Text(finding.label), _number(finding.value), finding.unit)
+    for metric in report.metrics:
+        table.add_row(Text(metric.label), _number(metric.value), metric.unit)
     if run is not None:
         for name in STATS:
             table.add_row(name.replace("_", " "), str(getattr(run.stats, name)), "")

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import secrets
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 
@@ -23,6 +23,25 @@ def new_file(path: Path, *, overwrite: bool = False) -> Iterator[Path]:
         partial.replace(path)
     finally:
         partial.unlink(missing_ok=True)
+
+
+@contextmanager
+def new_files(paths: Sequence[Path], *, overwrite: bool = False) -> Iterator[list[Path]]:
+    """Yield a path to write to for each of several in one folder; they become these together.
+
+    The folder is made where it is missing, and goes again where something fails.
+    """
+    folder = paths[0].parent
+    made = [one for one in (folder, *folder.parents) if not one.exists()]
+    folder.mkdir(parents=True, exist_ok=True)
+    try:
+        with ExitStack() as stack:
+            yield [stack.enter_context(new_file(path, overwrite=overwrite)) for path in paths]
+    except BaseException:
+        with suppress(OSError):  # somebody else may have put something there
+            for one in made:
+                one.rmdir()
+        raise
 
 
 def _check_target(path: Path, overwrite: bool) -> None:

@@ -15,7 +15,7 @@ class Layout(NamedTuple):
     """Columns after t, and the smallest value in them."""
 
     columns: tuple[str, ...]
-    wanted: str  # of each value, as 'a number [rad]'
+    requirement: str  # of each value, as 'a number [rad]'
     low: float = -math.inf
 
 
@@ -51,9 +51,9 @@ def _layout(header: list[str], layouts: Sequence[Layout], path: Path) -> Layout:
     for layout in layouts:
         if header == ["t", *layout.columns]:
             return layout
-    wanted = "; or ".join(", ".join(["t", *layout.columns]) for layout in layouts)
+    requirement = "; or ".join(", ".join(["t", *layout.columns]) for layout in layouts)
     got = ", ".join(header) or "nothing"
-    raise ValueError(f"{path}, line 1: the columns must be {wanted}, got {got}")
+    raise ValueError(f"{path}, line 1: the columns must be {requirement}, got {got}")
 
 
 def _numbers(row: list[str], layout: Layout, where: str) -> list[float]:
@@ -62,12 +62,12 @@ def _numbers(row: list[str], layout: Layout, where: str) -> list[float]:
         raise ValueError(f"{where}: must have {len(columns)} columns, got {len(row)}")
     numbers = []
     for text, column in zip(row, columns, strict=True):
-        wanted, low = ("a time [s]", -math.inf) if column == "t" else layout[1:]
+        requirement, low = ("a time [s]", -math.inf) if column == "t" else layout[1:]
         try:
             value = float(text)
         except ValueError:
             value = math.nan
         if not (math.isfinite(value) and value >= low):
-            raise ValueError(f"{where}: {column} must be {wanted}, got {text!r}")
+            raise ValueError(f"{where}: {column} must be {requirement}, got {text!r}")
         numbers.append(value)
     return numbers

@@ -45,7 +45,7 @@ def _place_and_reason(message: str, text: str) -> str:
     return f"line {line}, column {column}: {reason}"
 
 
-def complaints(schema: type[BaseModel], table: Mapping[str, Any], at: str = "") -> list[str]:
+def schema_errors(schema: type[BaseModel], table: Mapping[str, Any], at: str = "") -> list[str]:
     """Return a sentence for each key of a table that its schema does not allow.
 
     Every field of the schema says in its description what it must be; the schemas are flat, tables
@@ -70,16 +70,16 @@ def _sentence(schema: type[BaseModel], error: ErrorDetails, at: str) -> str:
         known = list(schema.model_fields)
         guess = nearest(str(key), known)
         return f"{path} is not a known key.{guess} Known keys: {', '.join(known)}"
-    wanted = schema.model_fields[str(key)].description
+    requirement = schema.model_fields[str(key)].description
     if error["type"] == "missing":
-        return f"{path} is missing; it must be {wanted}"
+        return f"{path} is missing; it must be {requirement}"
     place = "".join(f"[{i}]" for i in index if isinstance(i, int))
-    return f"{path} must be {wanted}, got {shown_toml(error['input'])}" + (
+    return f"{path} must be {requirement}, got {format_toml(error['input'])}" + (
         f" at {path}{place}" if place else ""
     )
 
 
-def shown_toml(value: object) -> str:
+def format_toml(value: object) -> str:
     """Return a TOML value as a refusal prints it: short, with its kind in TOML's words."""
     kind = _KINDS.get(type(value), type(value).__name__)
     text = str(value).lower() if isinstance(value, bool) else repr(value)

@@ -18,7 +18,7 @@ from cdcr.robot.robot import Robot
 FloatArray = NDArray[np.float64]
 
 TAUT = 10.0  # tension to which cables driven by length are wound, that all are taut [N]
-NUDGE = 0.1  # off a shape that does not last, towards one that does [rad]
+PERTURBATION = 0.1  # off a shape that does not last, towards one that does [rad]
 STRAIGHT = 1e-6  # bent by less than this is straight [rad]
 
 
@@ -80,7 +80,7 @@ class Rest:
         return self.model.static_stiffness(self.q, self.command)
 
     @property
-    def firm(self) -> bool:
+    def is_nondegenerate(self) -> bool:
         """Whether every small force moves it little: not so where it turns freely, or falls."""
         eigenvalues = np.linalg.eigvalsh(self._stiffness)
         return bool(eigenvalues[0] > STRAIGHT * eigenvalues[-1])
@@ -132,8 +132,8 @@ def at_rest(robot: Robot) -> Rest:
     buckled = False
     if found.status.name == "ok" and not found.stable:
         # A point of rest found exactly is given back: look for the one the robot falls to.
-        nudge = np.tile([NUDGE / model.num_sections, 0.0], model.num_sections)
-        fallen = model.equilibrium(command, found.q + nudge, throw=False)
+        perturbation = np.tile([PERTURBATION / model.num_sections, 0.0], model.num_sections)
+        fallen = model.equilibrium(command, found.q + perturbation, throw=False)
         if fallen.status.name == "ok" and np.max(np.abs(fallen.q - found.q)) > STRAIGHT:
             found, buckled = fallen, True
     if found.status.name != "ok":

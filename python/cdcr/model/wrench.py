@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cdcr import _core
-from cdcr.base.check import Check, shown
+from cdcr.base.check import Check, format_value
 
 Frame = Literal["base", "local"]
 Profile: TypeAlias = "Callable[[float], float] | tuple[ArrayLike, ArrayLike] | None"
@@ -91,12 +91,8 @@ class Wrench:
             ),
         }
         for name, unit in (("force", "N"), ("moment", "N m")):
-            wanted = f"three numbers of {unit}"
-            refused = len(check.sentences)
-            three = check.numbers(name, getattr(self, name), wanted, f"a number of {unit}")
-            if len(three) != 3 and len(check.sentences) == refused:
-                check.refuse(name, wanted, getattr(self, name))
-            plain[name] = three
+            each, value = f"a number of {unit}", getattr(self, name)
+            plain[name] = check.vector(name, value, f"three numbers of {unit}", each)
         if self.frame not in ("base", "local"):
             check.refuse("frame", "'base' or 'local'", self.frame)
         if self.interpolation not in ("linear", "previous"):
@@ -130,7 +126,7 @@ def _loads(wrenches: Sequence[Wrench]) -> _core.Loads:
     loads = _core.Loads()
     for i, wrench in enumerate(wrenches):
         if not isinstance(wrench, Wrench):
-            raise ValueError(f"wrenches[{i}] must be a cdcr.Wrench, got {shown(wrench)}")
+            raise ValueError(f"wrenches[{i}] must be a cdcr.Wrench, got {format_value(wrench)}")
         core = wrench._to_core()
         if wrench.profile is None:
             loads.add(core)
@@ -147,5 +143,7 @@ def loads(wrenches: Wrench | Sequence[Wrench]) -> _core.Loads:
     if isinstance(wrenches, Wrench):
         return _loads((wrenches,))
     if not isinstance(wrenches, Iterable):
-        raise ValueError(f"wrenches must be a sequence of cdcr.Wrench, got {shown(wrenches)}")
+        raise ValueError(
+            f"wrenches must be a sequence of cdcr.Wrench, got {format_value(wrenches)}"
+        )
     return _loads(tuple(wrenches))

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING
 
 from cdcr import _core
 from cdcr.base.check import Check
@@ -47,46 +48,46 @@ class Cable:
     1
     """
 
-    radius: float = field(
-        metadata=quantity("from backbone to cable", "m", "a number > 0 m and finite")
+    radius: float = quantity("from backbone to cable", "m", "a number > 0 m and finite")
+    angle: float = quantity("about Z, from X", "rad", "a finite number of rad")
+    end_section: int = quantity(
+        "index of the section where it ends", "", "the index of a section, from 0", kind="whole"
     )
-    angle: float = field(metadata=quantity("about Z, from X", "rad", "a finite number of rad"))
-    end_section: int = field(
-        metadata=quantity(
-            "index of the section where it ends", "", "the index of a section, from 0"
-        )
+    stiffness: float = quantity(
+        "driven by length", "N/m", "a number >= 0 N/m and finite", default=0.0, advanced=True
     )
-    stiffness: float = field(
+    damping: float = quantity(
+        "of the drive by length",
+        "N s/m",
+        "a number >= 0 N s/m and finite",
         default=0.0,
-        metadata=quantity("driven by length", "N/m", "a number >= 0 N/m and finite", rare=True),
+        advanced=True,
     )
-    damping: float = field(
-        default=0.0,
-        metadata=quantity(
-            "of the drive by length", "N s/m", "a number >= 0 N s/m and finite", rare=True
-        ),
-    )
-    friction: float | None = field(
+    friction: float | None = quantity(
+        "coefficient in its holes",
+        "",
+        "a number >= 0 and finite, or None",
+        kind="number or none",
         default=None,
-        metadata=quantity(
-            "coefficient in its holes", "", "a number >= 0 and finite, or None", rare=True
-        ),
+        advanced=True,
     )
+
+    if TYPE_CHECKING:  # to a type checker all fields have a default
+
+        def __init__(
+            self,
+            *,
+            radius: float,
+            angle: float,
+            end_section: int,
+            stiffness: float = ...,
+            damping: float = ...,
+            friction: float | None = ...,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         """Keep every value as a plain float or int, or refuse it."""
-        check = Check()
-        for item in fields(self):
-            name, wanted, value = item.name, item.metadata["wanted"], getattr(self, item.name)
-            plain: object
-            if name == "end_section":
-                plain = check.whole(name, value, wanted)
-            elif name == "friction" and value is None:
-                plain = None
-            else:
-                plain = check.number(name, value, wanted)
-            object.__setattr__(self, name, plain)
-        check.done()
+        Check().keep(self)
 
     @property
     def length_driven(self) -> bool:

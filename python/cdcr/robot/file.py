@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from cdcr import _core
 from cdcr.files.new_file import new_file
-from cdcr.files.toml import complaints, read_toml, refuse
+from cdcr.files.toml import read_toml, refuse, schema_errors
 from cdcr.robot.cable import Cable
 from cdcr.robot.section import Section
 
@@ -41,13 +41,13 @@ def robot_from_table(kind: type[Robot], table: Mapping[str, Any], where: str) ->
     """Return the robot a TOML table describes; refusals begin with `where` it stands."""
     from cdcr.robot.schema import CableTable, RobotTable, SectionTable
 
-    refuse(where, complaints(RobotTable, table))
+    refuse(where, schema_errors(RobotTable, table))
     found: list[str] = []
     for i, section in enumerate(table["sections"]):
-        found += complaints(SectionTable, section, f"sections[{i}]")
+        found += schema_errors(SectionTable, section, f"sections[{i}]")
         found += _doubled(section, f"sections[{i}]", "cable_angles")
     for j, cable in enumerate(table.get("cables", [])):
-        found += complaints(CableTable, cable, f"cables[{j}]")
+        found += schema_errors(CableTable, cable, f"cables[{j}]")
         found += _doubled(cable, f"cables[{j}]", "angle")
         if not {"angle", "angle_deg"} & cable.keys():
             found.append(f"cables[{j}] must have angle [rad] or angle_deg [deg]")
@@ -115,7 +115,7 @@ def _is_written(thing: Robot | Section | Cable, item: Field[Any]) -> bool:
     if item.name == "num_disks" and isinstance(thing, Section) and thing.disk_positions:
         return False
     # repr tells -0.0 from 0.0, which are equal.
-    return not item.metadata["rare"] or repr(getattr(thing, item.name)) != repr(item.default)
+    return not item.metadata["advanced"] or repr(getattr(thing, item.name)) != repr(item.default)
 
 
 def _toml_value(value: object) -> str:

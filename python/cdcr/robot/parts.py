@@ -25,17 +25,17 @@ _ON_BORDER = Fraction(1, 10**12)
 def part_counts(n: int, parts: Parts) -> list[int]:
     """Return the number of parts of each of n sections, or refuse them."""
     one = f"a whole number 1 to {_core.max_sections}"
-    wanted = f"{one}, or one for each of {n} section{'s' if n > 1 else ''}"
+    requirement = f"{one}, or one for each of {n} section{'s' if n > 1 else ''}"
     check = Check()
     if isinstance(parts, Integral):
-        counts = [check.whole("parts", parts, wanted, 1, _core.max_sections)] * n
+        counts = [check.whole("parts", parts, requirement, 1, _core.max_sections)] * n
     else:
         counts = [
             check.whole(f"parts[{i}]", count, one, 1, _core.max_sections)
-            for i, count in enumerate(check.items("parts", parts, wanted))
+            for i, count in enumerate(check.items("parts", parts, requirement))
         ]
     if not check.sentences and len(counts) != n:
-        check.refuse("parts", wanted, parts)
+        check.refuse("parts", requirement, parts)
     if not check.sentences and sum(counts) > _core.max_sections:
         total = " + ".join(map(str, counts)) + f" = {sum(counts)}" if n > 1 else str(sum(counts))
         check.sentences.append(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, fields, replace
 from itertools import accumulate, chain
 from os import PathLike
 from typing import TYPE_CHECKING, Any
@@ -64,42 +64,57 @@ class Robot:
     0.1
     """
 
-    sections: tuple[Section, ...] = field(
-        metadata=quantity("base to tip", "", "a sequence of 1 to 32 cdcr.Section")
+    sections: tuple[Section, ...] = quantity(
+        "base to tip", "", "a sequence of 1 to 32 cdcr.Section", kind=Section
     )
-    gravity: Vector = field(
-        default=_ZERO, metadata=quantity("in the base frame", "m/s^2", "three numbers in m/s^2")
-    )
-    payload: float = field(
-        default=0.0, metadata=quantity("mass at the tip", "kg", "a number >= 0 kg and finite")
-    )
-    cables: tuple[Cable, ...] = field(
-        default=(),
-        metadata=quantity(
-            "beside those of the sections", "", "a sequence of 0 to 64 cdcr.Cable", rare=True
-        ),
-    )
-    base_orientation: Matrix = field(
-        default=((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
-        metadata=quantity(
-            "rotation of the first section, by rows", "", "three rows of three numbers", rare=True
-        ),
-    )
-    payload_position: Vector = field(
+    gravity: Vector = quantity(
+        "in the base frame",
+        "m/s^2",
+        "three numbers in m/s^2",
+        kind="vector",
+        each="a number in m/s^2",
         default=_ZERO,
-        metadata=quantity("centre of mass, in the tip frame", "m", "three numbers in m", rare=True),
     )
-    payload_inertia: Matrix = field(
+    payload: float = quantity("mass at the tip", "kg", "a number >= 0 kg and finite", default=0.0)
+    cables: tuple[Cable, ...] = quantity(
+        "beside those of the sections",
+        "",
+        "a sequence of 0 to 64 cdcr.Cable",
+        kind=Cable,
+        default=(),
+        advanced=True,
+    )
+    base_orientation: Matrix = quantity(
+        "rotation of the first section, by rows",
+        "",
+        "three rows of three numbers",
+        kind="matrix",
+        default=((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
+        advanced=True,
+    )
+    payload_position: Vector = quantity(
+        "centre of mass, in the tip frame",
+        "m",
+        "three numbers in m",
+        kind="vector",
+        each="a number in m",
+        default=_ZERO,
+        advanced=True,
+    )
+    payload_inertia: Matrix = quantity(
+        "about its centre of mass",
+        "kg m^2",
+        "three rows of three numbers in kg m^2",
+        kind="matrix",
         default=(_ZERO, _ZERO, _ZERO),
-        metadata=quantity(
-            "about its centre of mass", "kg m^2", "three rows of three numbers in kg m^2", rare=True
-        ),
+        advanced=True,
     )
-    sliding_speed: float = field(
+    sliding_speed: float = quantity(
+        "of a cable, for friction",
+        "m/s",
+        "a number > 0 m/s and finite",
         default=1e-3,
-        metadata=quantity(
-            "of a cable, for friction", "m/s", "a number > 0 m/s and finite", rare=True
-        ),
+        advanced=True,
     )
 
     if TYPE_CHECKING:  # any sequence goes in, a tuple comes out
@@ -120,21 +135,7 @@ class Robot:
     def __post_init__(self) -> None:
         """Keep every value as a plain float or tuple, or refuse it."""
         check = Check()
-        for item in fields(self):
-            name, wanted, value = item.name, item.metadata["wanted"], getattr(self, item.name)
-            unit = item.metadata["unit"]
-            plain: object
-            if name in ("sections", "cables"):
-                kind = Section if name == "sections" else Cable
-                plain = _things(check, name, value, wanted, kind)
-            elif name in ("gravity", "payload_position"):
-                plain = _vector(check, name, value, wanted, f"a number in {unit}")
-            elif name in ("base_orientation", "payload_inertia"):
-                plain = _matrix(check, name, value, wanted)
-            else:
-                plain = check.number(name, value, wanted)
-            object.__setattr__(self, name, plain)
-        check.done()
+        check.keep(self)
         check.done(self._to_core().violations())
 
     @property
@@ -248,36 +249,3 @@ class Robot:
         plain["sections"] = [section._to_core() for section in self.sections]
         plain["cables"] = [cable._to_core() for cable in self.cables]
         return _core.Robot(**plain)
-
-
-def _things(
-    check: Check, name: str, value: object, wanted: str, kind: type[Section | Cable]
-) -> tuple[Any, ...]:
-    """Return any sequence of sections or cables as a tuple."""
-    things = check.items(name, value, wanted)
-    for i, thing in enumerate(things):
-        if not isinstance(thing, kind):
-            check.refuse(f"{name}[{i}]", f"a cdcr.{kind.__name__}", thing)
-    return things
-
-
-def _vector(check: Check, name: str, value: object, wanted: str, each: str) -> tuple[float, ...]:
-    """Return any sequence of three numbers as a tuple."""
-    before = len(check.sentences)
-    vector = check.numbers(name, value, wanted, each)
-    if len(vector) != 3 and len(check.sentences) == before:
-        check.refuse(name, wanted, value)
-    return vector
-
-
-def _matrix(check: Check, name: str, value: object, wanted: str) -> tuple[tuple[float, ...], ...]:
-    """Return three rows of three numbers, in sequences of any kind or an array, as tuples."""
-    rows = list(value) if isinstance(value, np.ndarray) and value.ndim == 2 else value
-    before = len(check.sentences)
-    matrix = tuple(
-        _vector(check, f"{name}[{i}]", row, "three numbers", "a number")
-        for i, row in enumerate(check.items(name, rows, wanted))
-    )
-    if len(matrix) != 3 and len(check.sentences) == before:
-        check.refuse(name, wanted, value)
-    return matrix

@@ -11,20 +11,20 @@ from cdcr.robot.cable import Cable
 from cdcr.robot.section import Section
 
 
-def _wanted(kind: type[Section | Cable]) -> dict[str, str]:
-    return {item.name: item.metadata["wanted"] for item in fields(kind)}
+def _requirements(kind: type[Section | Cable]) -> dict[str, str]:
+    return {item.name: item.metadata["requirement"] for item in fields(kind)}
 
 
-_SECTION, _CABLE = _wanted(Section), _wanted(Cable)
+_SECTION, _CABLE = _requirements(Section), _requirements(Cable)
 
 _Int = Annotated[int, Field(ge=-(2**31), lt=2**31)]  # what the core can be told
 _Three = Annotated[list[float], Field(min_length=3, max_length=3)]
 _Rows = Annotated[list[_Three], Field(min_length=3, max_length=3)]
 
 
-def _optional(wanted: str) -> Any:
+def _optional(requirement: str) -> Any:
     """Return a key that may be left out; the default of its description then holds."""
-    return Field(default=None, description=wanted)
+    return Field(default=None, description=requirement)
 
 
 class SectionTable(BaseModel):

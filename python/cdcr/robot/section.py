@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -13,14 +13,6 @@ from numpy.typing import NDArray
 from cdcr import _core
 from cdcr.base.check import Check
 from cdcr.base.quantity import quantity
-
-# What each entry of a sequence must be.
-_EACH = {
-    "disk_positions": "a number 0 to 1",
-    "disk_masses": "a number >= 0 kg and finite",
-    "disk_diameters": "a number >= 0 m and finite",
-    "cable_angles": "a finite number of rad",
-}
 
 
 class Disk(NamedTuple):
@@ -81,75 +73,75 @@ class Section:
         With one sentence for each field that is out of its range, one a line.
     """
 
-    length: float = field(
-        metadata=quantity("arc length of the backbone", "m", "a number > 0 m and finite")
+    length: float = quantity("arc length of the backbone", "m", "a number > 0 m and finite")
+    backbone_mass: float = quantity(
+        "spread evenly along the length", "kg", "a number >= 0 kg and finite"
     )
-    backbone_mass: float = field(
-        metadata=quantity("spread evenly along the length", "kg", "a number >= 0 kg and finite")
+    backbone_diameter: float = quantity(
+        "of the round, solid backbone", "m", "a number > 0 m and finite"
     )
-    backbone_diameter: float = field(
-        metadata=quantity("of the round, solid backbone", "m", "a number > 0 m and finite")
+    youngs_modulus: float = quantity("of the backbone", "Pa", "a number > 0 Pa and finite")
+    disk_mass: float = quantity("of each disk", "kg", "a number >= 0 kg and finite", default=0.0)
+    disk_diameter: float = quantity("of each disk", "m", "a number >= 0 m and finite", default=0.0)
+    num_disks: int = quantity(
+        "equally spaced, the last at the end", "", "a whole number 0 to 64", kind="whole", default=0
     )
-    youngs_modulus: float = field(
-        metadata=quantity("of the backbone", "Pa", "a number > 0 Pa and finite")
-    )
-    disk_mass: float = field(
-        default=0.0, metadata=quantity("of each disk", "kg", "a number >= 0 kg and finite")
-    )
-    disk_diameter: float = field(
-        default=0.0, metadata=quantity("of each disk", "m", "a number >= 0 m and finite")
-    )
-    num_disks: int = field(
-        default=0,
-        metadata=quantity("equally spaced, the last at the end", "", "a whole number 0 to 64"),
-    )
-    disk_positions: tuple[float, ...] = field(
+    disk_positions: tuple[float, ...] = quantity(
+        "fractions of the length",
+        "",
+        "a sequence of 0 to 64 numbers 0 to 1",
+        kind="numbers",
+        each="a number 0 to 1",
         default=(),
-        metadata=quantity(
-            "fractions of the length", "", "a sequence of 0 to 64 numbers 0 to 1", rare=True
-        ),
+        advanced=True,
     )
-    disk_masses: tuple[float, ...] = field(
+    disk_masses: tuple[float, ...] = quantity(
+        "one for each disk",
+        "kg",
+        "a sequence of 0 to 64 numbers in kg",
+        kind="numbers",
+        each="a number >= 0 kg and finite",
         default=(),
-        metadata=quantity(
-            "one for each disk", "kg", "a sequence of 0 to 64 numbers in kg", rare=True
-        ),
+        advanced=True,
     )
-    disk_diameters: tuple[float, ...] = field(
+    disk_diameters: tuple[float, ...] = quantity(
+        "one for each disk",
+        "m",
+        "a sequence of 0 to 64 numbers in m",
+        kind="numbers",
+        each="a number >= 0 m and finite",
         default=(),
-        metadata=quantity(
-            "one for each disk", "m", "a sequence of 0 to 64 numbers in m", rare=True
-        ),
+        advanced=True,
     )
-    cable_radius: float = field(
-        default=0.0,
-        metadata=quantity("from backbone to cable", "m", "a number > 0 m and finite"),
+    cable_radius: float = quantity(
+        "from backbone to cable", "m", "a number > 0 m and finite", default=0.0
     )
-    cable_angles: tuple[float, ...] = field(
+    cable_angles: tuple[float, ...] = quantity(
+        "about Z, from X",
+        "rad",
+        "a sequence of 0 to 16 numbers in rad",
+        kind="numbers",
+        each="a finite number of rad",
         default=(),
-        metadata=quantity("about Z, from X", "rad", "a sequence of 0 to 16 numbers in rad"),
     )
-    cable_stiffness: float = field(
-        default=0.0,
-        metadata=quantity(
-            "cables driven by length", "N/m", "a number >= 0 N/m and finite", rare=True
-        ),
+    cable_stiffness: float = quantity(
+        "cables driven by length", "N/m", "a number >= 0 N/m and finite", default=0.0, advanced=True
     )
-    cable_damping: float = field(
+    cable_damping: float = quantity(
+        "of the drive by length",
+        "N s/m",
+        "a number >= 0 N s/m and finite",
         default=0.0,
-        metadata=quantity(
-            "of the drive by length", "N s/m", "a number >= 0 N s/m and finite", rare=True
-        ),
+        advanced=True,
     )
-    cable_friction: float = field(
-        default=0.0,
-        metadata=quantity("coefficient in the holes", "", "a number >= 0 and finite", rare=True),
+    cable_friction: float = quantity(
+        "coefficient in the holes", "", "a number >= 0 and finite", default=0.0, advanced=True
     )
-    damping: float = field(
+    damping: float = quantity(
+        "viscous, per bending component",
+        "N m s/rad",
+        "a number >= 0 N m s/rad and finite",
         default=0.0,
-        metadata=quantity(
-            "viscous, per bending component", "N m s/rad", "a number >= 0 N m s/rad and finite"
-        ),
     )
 
     if TYPE_CHECKING:  # any sequence goes in, a tuple comes out
@@ -178,17 +170,7 @@ class Section:
     def __post_init__(self) -> None:
         """Keep every value as a plain float, int or tuple, or refuse it."""
         check = Check()
-        for item in fields(self):
-            name, wanted, value = item.name, item.metadata["wanted"], getattr(self, item.name)
-            plain: object
-            if name == "num_disks":
-                plain = check.whole(name, value, wanted)
-            elif name in _EACH:
-                plain = check.numbers(name, value, wanted, each=_EACH[name])
-            else:
-                plain = check.number(name, value, wanted)
-            object.__setattr__(self, name, plain)
-        check.done()
+        check.keep(self)
         check.done(self._to_core().violations())
         if self.disk_positions:
             object.__setattr__(self, "num_disks", len(self.disk_positions))

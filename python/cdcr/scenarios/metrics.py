@@ -21,7 +21,7 @@ FloatArray = NDArray[np.float64]
 _SWING = 0.02
 
 
-class Finding(NamedTuple):
+class Metric(NamedTuple):
     """One number of a summary, with its name for machines and for people."""
 
     key: str
@@ -30,33 +30,33 @@ class Finding(NamedTuple):
     unit: str
 
 
-def findings(scenario: Scenario, run: Trajectory) -> tuple[Finding, ...]:
+def run_metrics(scenario: Scenario, run: Trajectory) -> tuple[Metric, ...]:
     """Return the findings every run has, of each section and of the robot."""
     several = run.model.num_sections > 1
-    found: list[Finding] = []
+    found: list[Metric] = []
     for i in range(run.model.num_sections):
-        for one in _section_findings(run, i, scenario.wrenches):
+        for one in _section_metrics(run, i, scenario.wrenches):
             key, label = f"section_{i + 1}_{one.key}", f"section {i + 1}: {one.label}"
             found.append(one._replace(key=key, label=label) if several else one)
     drift = None if scenario.wrenches else energy_drift(run)  # wrenches feed and drain the robot
     if drift is not None:
-        found.append(Finding("energy_drift", "relative energy drift", drift, ""))
+        found.append(Metric("energy_drift", "relative energy drift", drift, ""))
     return tuple(found)
 
 
-def _section_findings(run: Trajectory, i: int, wrenches: Sequence[Wrench]) -> Iterator[Finding]:
+def _section_metrics(run: Trajectory, i: int, wrenches: Sequence[Wrench]) -> Iterator[Metric]:
     theta, phi = np.rad2deg(run.theta[:, i]), np.rad2deg(run.phi[:, i])
     rest = static_theta(run, wrenches)
     if rest is not None:
-        yield Finding("theta_static_deg", "theta at static equilibrium", float(rest[i]), "deg")
-    yield Finding("theta_mean_deg", "theta, mean", time_mean(run.t, theta), "deg")
-    yield Finding("theta_min_deg", "theta, smallest", float(np.min(theta)), "deg")
-    yield Finding("theta_max_deg", "theta, largest", float(np.max(theta)), "deg")
+        yield Metric("theta_static_deg", "theta at static equilibrium", float(rest[i]), "deg")
+    yield Metric("theta_mean_deg", "theta, mean", time_mean(run.t, theta), "deg")
+    yield Metric("theta_min_deg", "theta, smallest", float(np.min(theta)), "deg")
+    yield Metric("theta_max_deg", "theta, largest", float(np.max(theta)), "deg")
     period = oscillation_period(run.t, theta) if is_steady(run) else None
     if period is not None:
-        yield Finding("period_s", "period of oscillation", period, "s")
-    yield Finding("phi_min_deg", "phi, smallest", float(np.min(phi)), "deg")
-    yield Finding("phi_max_deg", "phi, largest", float(np.max(phi)), "deg")
+        yield Metric("period_s", "period of oscillation", period, "s")
+    yield Metric("phi_min_deg", "phi, smallest", float(np.min(phi)), "deg")
+    yield Metric("phi_max_deg", "phi, largest", float(np.max(phi)), "deg")
 
 
 def static_theta(run: Trajectory, wrenches: Sequence[Wrench] = ()) -> FloatArray | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,12 +17,13 @@ from cdcr.robot.robot import Robot
 from cdcr.runs.command import TensionTable
 from cdcr.runs.simulate import MethodName, simulate
 from cdcr.runs.trajectory import Trajectory
-from cdcr.scenarios.metrics import Finding, findings
+from cdcr.scenarios.metrics import Metric, run_metrics
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 MAX_SAMPLES = 10_000_000  # about a gigabyte of trajectory
+FILES = {"picture": ".png", "csv": ".csv", "nc": ".nc"}
 
 
 def _figure(scenario: Scenario, run: Trajectory) -> Figure:
@@ -34,6 +35,24 @@ def _figure(scenario: Scenario, run: Trajectory) -> Figure:
 def paper_source(where: str) -> str:
     """Return the citation of a place in the origin paper."""
     return f"Amouri, Mahfoudi, Zaatri (2020), {where}, doi 10.46604/ijeti.2020.4422"
+
+
+class InputSource(Protocol):
+    """Something that takes the robot through a run on its own."""
+
+    @property
+    def integrates(self) -> bool:
+        """Whether equations of motion are integrated."""
+
+    def run(
+        self,
+        model: Model,
+        q0: tuple[float, ...],
+        qd0: tuple[float, ...],
+        t: NDArray[np.float64],
+        **options: Any,
+    ) -> Trajectory:
+        """Run the robot from a state and sample it at output times (N,) [s]."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -59,6 +78,10 @@ class Scenario:
         [s] that returns them.
     controller : callable, optional
         From the model to a controller that pulls the cables, in place of `tension`.
+    input_source : InputSource, optional
+        What takes the robot through the run, in place of both.
+    files : tuple of str
+        Suffixes of the files that the command line writes.
     wrenches : tuple of Wrench
         Forces and moments on the robot.
     t_end : float, optional
@@ -71,9 +94,9 @@ class Scenario:
         Integration method: "bdf", "adams", "dopri5" or "rk4".
     rtol, atol, step, max_step, max_steps : optional
         Tolerances of the adaptive methods, step of rk4 [s], largest step [s] and number of steps.
-    tell : callable
+    summarize : callable
         From scenario and run, None where nothing runs, to the findings of `summary`.
-    draw : callable
+    plot : callable
         From scenario and run, None where nothing runs, to the picture of `figure`.
     """
 
@@ -87,6 +110,8 @@ class Scenario:
     qd0: tuple[float, ...] = ()
     tension: tuple[float, ...] | TensionTable | Callable[[Model, float], TensionTable] = ()
     controller: Callable[[Model], Controller] | None = None
+    input_source: InputSource | None = None
+    files: tuple[str, ...] = tuple(FILES.values())
     wrenches: tuple[Wrench, ...] = ()
     t_end: float = 0.0
     num_samples: int = 1001
@@ -97,8 +122,8 @@ class Scenario:
     step: float | None = None
     max_step: float | None = None
     max_steps: int | None = None
-    tell: Callable[[Scenario, Any], tuple[Finding, ...]] = findings
-    draw: Callable[[Scenario, Any], Figure] = _figure
+    summarize: Callable[[Scenario, Any], tuple[Metric, ...]] = run_metrics
+    plot: Callable[[Scenario, Any], Figure] = _figure
 
     @property
     def has_run(self) -> bool:
@@ -123,13 +148,13 @@ class Scenario:
                 f"nothing runs in the scenario {self.name!r}: it is a picture of the model alone"
             )
         check = Check()
-        given, wanted = self.t_end if t_end is None else t_end, "a number > 0 s and finite"
-        end = check.number("t_end", given, wanted, above=0.0)
+        given, requirement = self.t_end if t_end is None else t_end, "a number > 0 s and finite"
+        end = check.number("t_end", given, requirement, above=0.0)
         check.done()
         if num_samples is None:
             num_samples = 1 + max(1, round((self.num_samples - 1) * end / self.t_end))
-        wanted = f"a whole number 2 to {MAX_SAMPLES}"
-        num = check.whole("num_samples", num_samples, wanted, low=2, high=MAX_SAMPLES)
+        requirement = f"a whole number 2 to {MAX_SAMPLES}"
+        num = check.whole("num_samples", num_samples, requirement, low=2, high=MAX_SAMPLES)
         check.done()
         return np.linspace(0.0, end, num)
 
@@ -169,29 +194,38 @@ class Scenario:
             For an option out of its range, or a scenario in which nothing runs.
         """
         t, model = self.times(t_end, num_samples), self.model
-        controller = self.controller(model) if self.controller else None
-        tension = self.tension(model, float(t[-1])) if callable(self.tension) else self.tension
-        return simulate(
-            model,
-            self.start(model),
-            self.qd0,
-            t=t,
-            tension=None if controller else tension,
-            controller=controller,
-            wrenches=self.wrenches,
-            method=method or self.method,
-            rtol=self.rtol if rtol is None else rtol,
-            atol=self.atol if atol is None else atol,
-            step=self.step if step is None else step,
-            max_step=self.max_step if max_step is None else max_step,
-            max_steps=self.max_steps if max_steps is None else max_steps,
-            progress=progress,
-        )
+        q0 = self.start(model)
+        given = {
+            "method": method,
+            "rtol": rtol,
+            "atol": atol,
+            "step": step,
+            "max_step": max_step,
+            "max_steps": max_steps,
+        }
+        named = [name for name, value in given.items() if value is not None]
+        options: dict[str, Any] = {name: getattr(self, name) for name in given}
+        options |= {name: given[name] for name in named} | {"progress": progress}
+        if self.wrenches:
+            options["wrenches"] = self.wrenches
+        if self.input_source:
+            if named and not self.input_source.integrates:
+                raise ValueError(
+                    "nothing is integrated along a trajectory without feed_back = true, so it "
+                    f"takes no {', '.join(named)}"
+                )
+            return self.input_source.run(model, q0, self.qd0, t, **options)
+        if self.controller:
+            options["controller"] = self.controller(model)
+        else:
+            tension = self.tension
+            options["tension"] = tension(model, float(t[-1])) if callable(tension) else tension
+        return simulate(model, q0, self.qd0, t=t, **options)
 
-    def summary(self, run: Trajectory | None = None) -> tuple[Finding, ...]:
+    def summary(self, run: Trajectory | None = None) -> tuple[Metric, ...]:
         """Return what is worth knowing about this scenario and a run of it."""
-        return self.tell(self, run)
+        return self.summarize(self, run)
 
     def figure(self, run: Trajectory | None = None) -> Figure:
         """Return a picture of this scenario and a run of it. Needs the extra ``plot``."""
-        return self.draw(self, run)
+        return self.plot(self, run)

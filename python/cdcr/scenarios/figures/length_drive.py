@@ -26,8 +26,7 @@ MIN_ERROR = 1e-2  # lower end of the error's axis [deg]
 def length_drive_figure(title: str, run: Trajectory) -> StyledFigure:
     """Draw the robot where it starts and where it is held, and four panels over time."""
     with style():
-        figure = new_figure(title)
-        figure.set_size_inches(*SIZE)
+        figure = new_figure(title, SIZE)
         _draw_robot(figure, run)
         grid = figure.add_gridspec(
             3,

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from cdcr.plotting import panels, plot_run_robot, space
 from cdcr.plotting.style import BLACK, StyledFigure, line_colors, style
+from cdcr.scenarios.figures.workspace import new_figure
 from cdcr.scenarios.metrics import static_theta, swing_times
 
 if TYPE_CHECKING:
@@ -28,8 +29,7 @@ def run_figure(scenario: Scenario, run: Trajectory) -> StyledFigure:
     """Draw the robot at several times of a run, its angles and its tensions."""
     times = swing_times(run, NUM_SHAPES)
     with style():
-        figure = StyledFigure(figsize=SIZE)
-        figure.suptitle(scenario.title, x=0.02, y=0.985, ha="left", va="top", fontsize=13)
+        figure = new_figure(scenario.title, SIZE)
         _draw_robot(figure, run, times)
         _draw_panels(figure, run, scenario.wrenches)
     return figure

@@ -14,6 +14,7 @@ from cdcr.plotting.geometry import states_at
 from cdcr.plotting.robot3d import RobotArtists, section_colors, show_robot
 from cdcr.plotting.style import BLACK, GREY, StyledFigure, line_colors, style
 from cdcr.scenarios.figures.drawing import legend_above, note
+from cdcr.scenarios.figures.workspace import new_figure
 from cdcr.scenarios.studies.energy import cable_work, dissipated
 from cdcr.scenarios.studies.three_sections import BENT, PHASE, ends, goals
 
@@ -35,7 +36,7 @@ def three_sections_figure(title: str, run: Trajectory) -> StyledFigure:
     last = [sample for _, sample in ends(run)] or [len(run) - 1]
     names = [f"{k + 1} driven" for k in range(len(last))]
     with style():
-        figure = _new_figure(title)
+        figure = new_figure(title, SIZE)
         states = np.concatenate([[run.q[0]], run.q[last]])
         _draw_robot(figure, run, states, ["straight", *names], np.ones(len(states)))
         heights = [1.4, 1.4, *[1.0] * len(BENT)]
@@ -60,7 +61,7 @@ def release_figure(
     """
     times = np.array([time for time in shown if time <= run.t[-1]])
     with style():
-        figure = _new_figure(title)
+        figure = new_figure(title, SIZE)
         states = np.concatenate([states_at(run, times), [rest]])
         names = [*(f"{time:g} s" for time in times), "at rest"]
         names[0] = "" if fallen else names[0]  # the legend tells
@@ -80,12 +81,6 @@ def release_figure(
         if pulled:
             _draw_held_tensions(charts[-1], run)
             figure.align_ylabels(charts)
-    return figure
-
-
-def _new_figure(title: str) -> StyledFigure:
-    figure = StyledFigure(figsize=SIZE)
-    figure.suptitle(title, x=0.02, y=0.985, ha="left", va="top", fontsize=13)
     return figure
 
 

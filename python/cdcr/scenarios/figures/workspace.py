@@ -25,9 +25,9 @@ SHARE = 2.0  # of the surface's edge, over the largest bending angle of the path
 LEAST = np.pi / 4.0  # bending angle of the edge [rad]
 
 
-def new_figure(title: str) -> StyledFigure:
+def new_figure(title: str, size: tuple[float, float] = SIZE) -> StyledFigure:
     """Return an empty figure with its title; draw into it within ``style()``."""
-    figure = StyledFigure(figsize=SIZE)
+    figure = StyledFigure(figsize=size)
     figure.suptitle(title, x=0.02, y=0.985, ha="left", va="top", fontsize=13)
     return figure
 

@@ -17,18 +17,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from cdcr.files.toml import complaints, refuse
+from cdcr.files.toml import refuse, schema_errors
 from cdcr.model.coordinates import polar
 from cdcr.model.model import Model
 from cdcr.runs.pid import Pid
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.file.values import (
     bending_vector,
-    length_complaints,
-    rival_complaints,
-    said_by,
+    error_prefix,
+    length_errors,
+    rival_errors,
 )
-from cdcr.scenarios.metrics import Finding, findings
+from cdcr.scenarios.metrics import Metric, run_metrics
 from cdcr.scenarios.scenario import Scenario
 
 if TYPE_CHECKING:
@@ -51,26 +51,26 @@ class PidLoop:
         pid.reference = self.reference
         return pid
 
-    def tell(self, scenario: Scenario, run: Trajectory) -> tuple[Finding, ...]:
+    def summarize(self, scenario: Scenario, run: Trajectory) -> tuple[Metric, ...]:
         """Return what every run shows, how near the loop comes, and how hard it pulls."""
         error = np.linalg.norm(run.q - self.reference, axis=1)
         found = [
-            *findings(scenario, run),
-            Finding("error_end_deg", "error at the end", float(np.rad2deg(error[-1])), "deg"),
+            *run_metrics(scenario, run),
+            Metric("error_end_deg", "error at the end", float(np.rad2deg(error[-1])), "deg"),
         ]
         outside = np.flatnonzero(error > BAND * error[0])
         last = int(outside[-1]) if outside.size else -1
         if last + 1 < len(run):
             label = f"within {100 * BAND:g} % of the first error from"
-            found.append(Finding("settling_s", label, float(run.t[last + 1]), "s"))
+            found.append(Metric("settling_s", label, float(run.t[last + 1]), "s"))
         lowest, highest = float(run.tension.min()), float(run.tension.max())
         return (
             *found,
-            Finding("tension_min_N", "smallest tension", lowest, "N"),
-            Finding("tension_max_N", "largest tension", highest, "N"),
+            Metric("tension_min_N", "smallest tension", lowest, "N"),
+            Metric("tension_max_N", "largest tension", highest, "N"),
         )
 
-    def draw(self, scenario: Scenario, run: Trajectory) -> Figure:
+    def plot(self, scenario: Scenario, run: Trajectory) -> Figure:
         """Return the picture of every run, with the bending angles asked for."""
         from cdcr.scenarios.figures.run import run_figure
 
@@ -90,16 +90,16 @@ def read_controller(table: dict[str, Any], model: Model, file: Path) -> PidLoop:
     """Return the loop of a [controller] table, or refuse it with file, key and value."""
     from cdcr.scenarios.file.schema import ControllerTable, ReferenceTable
 
-    refuse(str(file), complaints(ControllerTable, table, AT))
+    refuse(str(file), schema_errors(ControllerTable, table, AT))
     options = {key: value for key, value in table.items() if key not in ("type", "reference")}
     if "cables" in options:
         options["cables"] = _indices(options["cables"], model.num_cables, file)
-    wanted, at = table.get("reference", {}), f"{AT}.reference"
-    found = [*complaints(ReferenceTable, wanted, at), *rival_complaints(wanted, at)]
+    reference, at = table.get("reference", {}), f"{AT}.reference"
+    found = [*schema_errors(ReferenceTable, reference, at), *rival_errors(reference, at)]
     refuse(str(file), found)
-    refuse(str(file), length_complaints(wanted, model.num_sections, at))
-    loop = PidLoop(options, bending_vector(wanted, model.num_sections))
-    with said_by(f"{file}, [{AT}]"):
+    refuse(str(file), length_errors(reference, model.num_sections, at))
+    loop = PidLoop(options, bending_vector(reference, model.num_sections))
+    with error_prefix(f"{file}, [{AT}]"):
         loop(model)
     return loop
 
@@ -107,8 +107,8 @@ def read_controller(table: dict[str, Any], model: Model, file: Path) -> PidLoop:
 def _indices(cables: list[int], num_cables: int, file: Path) -> list[int]:
     for i, cable in enumerate(cables):
         if not 1 <= cable <= num_cables:
-            wanted = f"the number of a cable, 1 to {num_cables}"
-            refuse(str(file), [f"{AT}.cables[{i}] must be {wanted}, got {cable}"])
+            requirement = f"the number of a cable, 1 to {num_cables}"
+            refuse(str(file), [f"{AT}.cables[{i}] must be {requirement}, got {cable}"])
         if cable in cables[:i]:
             refuse(str(file), [f"{AT}.cables[{i}] must differ from those before, got {cable}"])
     return [cable - 1 for cable in cables]

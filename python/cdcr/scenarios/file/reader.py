@@ -21,17 +21,17 @@ from pathlib import Path
 from typing import Any
 
 from cdcr import robots
-from cdcr.files.toml import complaints, read_toml, refuse
+from cdcr.files.toml import read_toml, refuse, schema_errors
 from cdcr.model.model import Model
 from cdcr.robot.file import robot_from_table
 from cdcr.robot.robot import Robot
 from cdcr.scenarios.file.controller import read_controller
-from cdcr.scenarios.file.scenario import FILES, FileScenario
 from cdcr.scenarios.file.shapes import TensionShapes
 from cdcr.scenarios.file.tension import read_tension
 from cdcr.scenarios.file.trajectory import read_trajectory
-from cdcr.scenarios.file.values import bending_vector, length_complaints, rival_complaints, said_by
+from cdcr.scenarios.file.values import bending_vector, error_prefix, length_errors, rival_errors
 from cdcr.scenarios.file.wrenches import read_wrenches
+from cdcr.scenarios.scenario import FILES, Scenario
 
 # Keys that a file has in common with Scenario.
 _COMMON = ("title", "description", "source", "formulation", "t_end", "num_samples", "method")
@@ -39,7 +39,7 @@ _OPTIONS = ("rtol", "atol", "step", "max_step", "max_steps")
 _INPUTS = ("tension", "trajectory", "controller")
 
 
-def load_scenario(path: str | PathLike[str]) -> FileScenario:
+def load_scenario(path: str | PathLike[str]) -> Scenario:
     """Return the scenario of a file, named as the file without its suffix.
 
     Raises
@@ -53,10 +53,10 @@ def load_scenario(path: str | PathLike[str]) -> FileScenario:
 
     file = Path(path)
     table = read_toml(file, "scenario file")
-    refuse(str(file), complaints(ScenarioTable, table))
-    refuse(str(file), _input_complaints(table))
+    refuse(str(file), schema_errors(ScenarioTable, table))
+    refuse(str(file), _input_errors(table))
     robot = _robot(table["robot"], file)
-    with said_by(str(file)):
+    with error_prefix(str(file)):
         model = Model(robot, formulation=table.get("formulation", "exact"))
     given: dict[str, Any] = {"title": file.stem, "description": "", "source": str(file)}
     given |= {name: table[name] for name in (*_COMMON, *_OPTIONS) if name in table}
@@ -66,10 +66,10 @@ def load_scenario(path: str | PathLike[str]) -> FileScenario:
     if "initial" in table or "q0" not in given:
         q0, qd0 = initial_state(table.get("initial", {}), len(robot.sections), file)
         given |= {"q0": q0, "qd0": qd0}
-    return FileScenario(name=file.stem, robot=robot, **given)
+    return Scenario(name=file.stem, robot=robot, **given)
 
 
-def _input_complaints(table: Mapping[str, Any]) -> list[str]:
+def _input_errors(table: Mapping[str, Any]) -> list[str]:
     found = []
     given = [name for name in _INPUTS if name in table]
     if len(given) > 1:
@@ -91,20 +91,26 @@ def _input(table: Mapping[str, Any], model: Model, file: Path) -> dict[str, Any]
     """Return the fields of a scenario that say what moves the robot."""
     if "controller" in table:
         loop = read_controller(table["controller"], model, file)
-        return {"controller": loop, "tell": loop.tell, "draw": loop.draw}
+        return {"controller": loop, "summarize": loop.summarize, "plot": loop.plot}
     if "trajectory" in table:
         motion = read_trajectory(table["trajectory"], model.num_sections, table["t_end"], file)
         q0, qd0 = motion.start()
-        fields = {"drive": motion, "tell": motion.tell, "draw": motion.draw, "q0": q0, "qd0": qd0}
+        fields = {
+            "input_source": motion,
+            "summarize": motion.summarize,
+            "plot": motion.plot,
+            "q0": q0,
+            "qd0": qd0,
+        }
         return fields if motion.feed_back else fields | {"method": "inverse dynamics"}
     tension = read_tension(table.get("tension"), model, file)
-    return {"drive" if isinstance(tension, TensionShapes) else "tension": tension}
+    return {"input_source" if isinstance(tension, TensionShapes) else "tension": tension}
 
 
 def _output(output: Mapping[str, Any], table: Mapping[str, Any], file: Path) -> dict[str, Any]:
     from cdcr.scenarios.file.schema import OutputTable
 
-    found = complaints(OutputTable, output, "output")
+    found = schema_errors(OutputTable, output, "output")
     if "num_samples" in output and "num_samples" in table:
         found.append("num_samples must stand at the top or in [output], not in both")
     refuse(str(file), found)
@@ -122,7 +128,7 @@ def _robot(value: str | dict[str, Any], file: Path) -> Robot:
         return robot_from_table(Robot, value, where=f"{file}, [robot]")
     if value.endswith(".toml"):
         return Robot.load(file.parent / value)
-    with said_by(f"{file}, robot"):
+    with error_prefix(f"{file}, robot"):
         return robots.get(value)
 
 
@@ -132,8 +138,8 @@ def initial_state(
     """Return q0 and qd0 from an [initial] table."""
     from cdcr.scenarios.file.schema import InitialTable
 
-    found = complaints(InitialTable, table, "initial") + rival_complaints(table, "initial")
+    found = schema_errors(InitialTable, table, "initial") + rival_errors(table, "initial")
     refuse(str(file), found)
-    refuse(str(file), length_complaints(table, num_sections, "initial"))
+    refuse(str(file), length_errors(table, num_sections, "initial"))
     qd = table.get("qd", [0.0] * (2 * num_sections))
     return bending_vector(table, num_sections), tuple(map(float, qd))

@@ -13,14 +13,14 @@ _Tension = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
 _STRICT = ConfigDict(extra="forbid", strict=True)
 
 
-def _optional(wanted: str, **limits: Any) -> Any:
+def _optional(requirement: str, **limits: Any) -> Any:
     """Return a key that may be left out."""
-    return Field(default=None, description=wanted, **limits)
+    return Field(default=None, description=requirement, **limits)
 
 
-def _positive(wanted: str) -> Any:
+def _positive(requirement: str) -> Any:
     """Return a key that may be left out, for a number > 0."""
-    return _optional(wanted, gt=0.0, allow_inf_nan=False)
+    return _optional(requirement, gt=0.0, allow_inf_nan=False)
 
 
 class ScenarioTable(BaseModel):

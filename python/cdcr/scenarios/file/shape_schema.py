@@ -12,12 +12,12 @@ _Rows = list[_Finite] | list[list[_Finite]]
 _STRICT = ConfigDict(extra="forbid", strict=True)
 
 
-def _number(wanted: str, **limits: Any) -> Any:
-    return Field(allow_inf_nan=False, description=wanted, **limits)
+def _number(requirement: str, **limits: Any) -> Any:
+    return Field(allow_inf_nan=False, description=requirement, **limits)
 
 
-def _optional(wanted: str, **limits: Any) -> Any:
-    return Field(default=None, description=wanted, **limits)
+def _optional(requirement: str, **limits: Any) -> Any:
+    return Field(default=None, description=requirement, **limits)
 
 
 class TensionShape(BaseModel):

@@ -7,10 +7,9 @@ import warnings
 from bisect import bisect_right
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -47,103 +46,40 @@ class Piece(NamedTuple):
         return self.level + self.slope * after + self.amplitude * np.sin(turn)
 
 
-class Shape(Protocol):
-    """A function of time of one cable: pieces, and the times between them."""
+class Shape(NamedTuple):
+    """A function of time of one cable: constant, pieces between its breaks, constant."""
 
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        """Times at which it is not smooth, increasing [s]."""
-
-    @property
-    def pieces(self) -> tuple[Piece, ...]:
-        """What it is before, between and after its breaks, constant before and after."""
+    breaks: tuple[float, ...]  # times at which it is not smooth, increasing [s]
+    pieces: tuple[Piece, ...]  # what it is before, between and after them
 
 
-@dataclass(frozen=True, kw_only=True)
-class Step:
-    """Zero, then `value` [N] from `at` [s] on."""
-
-    value: float
-    at: float = 0.0
-
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        """The time of the step."""
-        return (self.at,)
-
-    @property
-    def pieces(self) -> tuple[Piece, ...]:
-        """Zero, and the value."""
-        return Piece(0.0), Piece(self.value)
+def step(*, value: float, at: float = 0.0) -> Shape:
+    """Return zero, then `value` [N] from `at` [s] on."""
+    return Shape((at,), (Piece(0.0), Piece(value)))
 
 
-@dataclass(frozen=True, kw_only=True)
-class Ramp:
-    """`before` [N] until `start`, a line to `after` [N] at `end` [s], which then holds."""
-
-    before: float = 0.0
-    after: float
-    start: float = 0.0
-    end: float
-
-    def __post_init__(self) -> None:
-        _require_order(self.start, self.end)
-
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        """The ends of the line."""
-        return (self.start, self.end)
-
-    @property
-    def pieces(self) -> tuple[Piece, ...]:
-        """Rest, line, rest."""
-        slope = (self.after - self.before) / (self.end - self.start)
-        return Piece(self.before), Piece(self.before, self.start, slope), Piece(self.after)
+def ramp(*, before: float = 0.0, after: float, start: float = 0.0, end: float) -> Shape:
+    """Return `before` [N] until `start`, a line to `after` [N] at `end` [s], which then holds."""
+    _require_order(start, end)
+    line = Piece(before, start, (after - before) / (end - start))
+    return Shape((start, end), (Piece(before), line, Piece(after)))
 
 
-@dataclass(frozen=True, kw_only=True)
-class Pulse:
-    """`value` [N] from `start` until `end` [s], `base` [N] before and after."""
-
-    value: float
-    start: float
-    end: float
-    base: float = 0.0
-
-    def __post_init__(self) -> None:
-        _require_order(self.start, self.end)
-
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        """The ends of the pulse."""
-        return (self.start, self.end)
-
-    @property
-    def pieces(self) -> tuple[Piece, ...]:
-        """Base, value, base."""
-        return Piece(self.base), Piece(self.value), Piece(self.base)
+def pulse(*, value: float, start: float, end: float, base: float = 0.0) -> Shape:
+    """Return `value` [N] from `start` until `end` [s], `base` [N] before and after."""
+    _require_order(start, end)
+    return Shape((start, end), (Piece(base), Piece(value), Piece(base)))
 
 
-@dataclass(frozen=True, kw_only=True)
-class Sine:
-    """mean + amplitude sin(2 pi frequency (t - start) + phase) from `start` on, `mean` before."""
+def sine(
+    *, mean: float, amplitude: float, frequency: float, phase: float = 0.0, start: float = 0.0
+) -> Shape:
+    """Return mean + amplitude sin(2 pi frequency (t - start) + phase) from `start` on.
 
-    mean: float  # [N]
-    amplitude: float  # [N]
-    frequency: float  # [Hz]
-    phase: float = 0.0  # [rad]
-    start: float = 0.0  # [s]
-
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        """The time of the start."""
-        return (self.start,)
-
-    @property
-    def pieces(self) -> tuple[Piece, ...]:
-        """The mean, and the sine about it."""
-        wave = (self.amplitude, self.frequency, self.phase)
-        return Piece(self.mean), Piece(self.mean, self.start, 0.0, *wave)
+    In N, Hz, rad and s; `mean` before.
+    """
+    wave = Piece(mean, start, 0.0, amplitude, frequency, phase)
+    return Shape((start,), (Piece(mean), wave))
 
 
 def _require_order(start: float, end: float) -> None:
@@ -250,7 +186,7 @@ class TensionShapes:
         for start, end in pairwise(edges):
             stretch = bisect_right(self.break_points, start)
             within = times[(times > start) & (times < end)]
-            with told_once():
+            with warn_once():
                 part = simulate(
                     model,
                     q0,
@@ -306,7 +242,7 @@ class TensionShapes:
 
 
 @contextmanager
-def told_once() -> Iterator[None]:
+def warn_once() -> Iterator[None]:
     """Keep back the warning about a Taylor formulation, which is given for the run as a whole."""
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="formulation .* holds for")

@@ -3,16 +3,24 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from cdcr.files.number_csv import Layout, read_numbers
-from cdcr.files.toml import complaints, refuse, shown_toml
+from cdcr.files.toml import format_toml, refuse, schema_errors
 from cdcr.model.model import Model
 from cdcr.runs.command import TensionTable, command_input
-from cdcr.scenarios.file.shapes import Pulse, Ramp, Shape, Sine, Step, TensionShapes
-from cdcr.scenarios.file.trajectory import shape_complaints
-from cdcr.scenarios.file.values import count, said_by
+from cdcr.scenarios.file.shapes import Shape, TensionShapes, pulse, ramp, sine, step
+from cdcr.scenarios.file.trajectory import shape_errors
+from cdcr.scenarios.file.values import count, error_prefix
+
+SHAPES: dict[str, Callable[..., Shape]] = {
+    "step": step,
+    "ramp": ramp,
+    "pulse": pulse,
+    "sine": sine,
+}
 
 
 def read_tension(
@@ -26,8 +34,8 @@ def read_tension(
     num_cables = model.num_cables
     tension = model.rest_command() if value is None else value
     if len(tension) != num_cables:
-        wanted = f"tension must have {count(num_cables, 'number')}, one for each cable"
-        refuse(str(file), [f"{wanted}, got {shown_toml(value)}"])
+        requirement = f"tension must have {count(num_cables, 'number')}, one for each cable"
+        refuse(str(file), [f"{requirement}, got {format_toml(value)}"])
     return tuple(map(float, tension))
 
 
@@ -36,7 +44,9 @@ def _over_time(table: dict[str, Any], model: Model, file: Path) -> TensionTable:
 
     if "shape" in table:
         refuse(str(file), ["a table with shape must be written [[tension]], one for each shape"])
-    refuse(str(file), complaints(TensionFile if "file" in table else TensionRows, table, "tension"))
+    refuse(
+        str(file), schema_errors(TensionFile if "file" in table else TensionRows, table, "tension")
+    )
     if "file" in table:
         where = str(file.parent / table["file"])
         columns = tuple(f"cable {j + 1}" for j in range(model.num_cables))
@@ -45,14 +55,14 @@ def _over_time(table: dict[str, Any], model: Model, file: Path) -> TensionTable:
     else:
         where = f"{file}, [tension]"
         t, rows = table["t"], table["rows"]
-        refuse(where, _row_complaints(t, rows, model.num_cables))
+        refuse(where, _row_errors(t, rows, model.num_cables))
     tension = TensionTable(t, rows, table.get("interpolation", "linear"))
-    with said_by(where):
+    with error_prefix(where):
         command_input(model, tension)
     return tension
 
 
-def _row_complaints(t: list[float], rows: list[list[float]], num_cables: int) -> list[str]:
+def _row_errors(t: list[float], rows: list[list[float]], num_cables: int) -> list[str]:
     if len(rows) != len(t):
         return [f"rows must be as many as t, {len(t)}, got {len(rows)}"]
     return [
@@ -68,31 +78,26 @@ def _shapes(tables: list[dict[str, Any]], model: Model, file: Path) -> TensionSh
     found: list[str] = []
     for i, table in enumerate(tables):
         at = f"tension[{i}]"
-        wrong = shape_complaints(TENSION_SHAPES, table, at)
+        wrong = shape_errors(TENSION_SHAPES, table, at)
         if not wrong and table["cable"] > model.num_cables:
-            wanted = f"the number of a cable, 1 to {model.num_cables}"
-            wrong.append(f"{at}.cable must be {wanted}, got {table['cable']}")
+            requirement = f"the number of a cable, 1 to {model.num_cables}"
+            wrong.append(f"{at}.cable must be {requirement}, got {table['cable']}")
         if "phase" in table and "phase_deg" in table:
             wrong.append(f"{at} must have phase or phase_deg, not both")
         found += wrong
     refuse(str(file), found)
     shapes = []
     for i, table in enumerate(tables):
-        with said_by(f"{file}: tension[{i}]"):
+        with error_prefix(f"{file}: tension[{i}]"):
             shapes.append((table["cable"] - 1, _shape(table)))
-    with said_by(f"{file}, [[tension]]"):
+    with error_prefix(f"{file}, [[tension]]"):
         return TensionShapes(model.num_cables, shapes)
 
 
 def _shape(table: dict[str, Any]) -> Shape:
     given = {key: value for key, value in table.items() if key not in ("cable", "shape")}
-    if table["shape"] == "step":
-        return Step(**given)
-    if table["shape"] == "pulse":
-        return Pulse(**given)
     if table["shape"] == "ramp":
-        before, after = given.pop("from", 0.0), given.pop("to")
-        return Ramp(before=before, after=after, **given)
+        given["before"], given["after"] = given.pop("from", 0.0), given.pop("to")
     if "phase_deg" in given:
         given["phase"] = math.radians(given.pop("phase_deg"))
-    return Sine(**given)
+    return SHAPES[table["shape"]](**given)

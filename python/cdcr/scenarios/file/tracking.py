@@ -16,9 +16,9 @@ from cdcr.motion.splines import Motion
 from cdcr.runs.simulate import simulate
 from cdcr.runs.stats import total
 from cdcr.runs.trajectory import Trajectory
-from cdcr.scenarios.file.shapes import told_once
-from cdcr.scenarios.file.values import said_by
-from cdcr.scenarios.metrics import Finding, findings
+from cdcr.scenarios.file.shapes import warn_once
+from cdcr.scenarios.file.values import error_prefix
+from cdcr.scenarios.metrics import Metric, run_metrics
 from cdcr.scenarios.scenario import Scenario
 
 if TYPE_CHECKING:
@@ -76,7 +76,7 @@ class TrackedMotion:
 
     def inverse(self, model: Model, t: FloatArray) -> InverseRun:
         """Return the tensions needed at times (N,) [s]."""
-        with said_by(self.where):
+        with error_prefix(self.where):
             needed = inverse_run(
                 model,
                 self.reference(t),
@@ -111,47 +111,47 @@ class TrackedMotion:
                 method="inverse dynamics",
             )
         if self.step is None:
-            with told_once():
+            with warn_once():
                 return simulate(model, q0, qd0, t=t, tension=needed.tension_at, **options)
         intervals = max(1, round(float(t[-1] - t[0]) / self.step))
-        with told_once():
+        with warn_once():
             table = self.inverse(model, np.linspace(t[0], t[-1], intervals + 1)).to_table()
             return simulate(model, q0, qd0, t=t, tension=table, **options)
 
-    def tell(self, scenario: Scenario, run: Trajectory) -> tuple[Finding, ...]:
+    def summarize(self, scenario: Scenario, run: Trajectory) -> tuple[Metric, ...]:
         """Return what every run shows, the tensions needed, and how well they lead the robot."""
-        with told_once():
+        with warn_once():
             needed = self.inverse(run.model, run.t)
-        found = [*findings(scenario, run)]
+        found = [*run_metrics(scenario, run)]
         for j, tension in enumerate(needed.tension.T):
             key, cable = f"tension_{j + 1}", f"tension needed of cable {j + 1}"
             found += [
-                Finding(f"{key}_min_N", f"{cable}, smallest", float(tension.min()), "N"),
-                Finding(f"{key}_max_N", f"{cable}, largest", float(tension.max()), "N"),
+                Metric(f"{key}_min_N", f"{cable}, smallest", float(tension.min()), "N"),
+                Metric(f"{key}_max_N", f"{cable}, largest", float(tension.max()), "N"),
             ]
         misses = float(np.sum(~needed.feasible))
         if misses:
-            found.append(Finding("infeasible", "samples out of reach", misses, ""))
+            found.append(Metric("infeasible", "samples out of reach", misses, ""))
         rate, acceleration = self.derivative_error
         if acceleration > 0.0:
             label = "error of the motion's"
             found += [
-                Finding("rate_error", f"{label} rates, estimate", rate, "rad/s"),
-                Finding("acceleration_error", f"{label} accelerations", acceleration, "rad/s^2"),
+                Metric("rate_error", f"{label} rates, estimate", rate, "rad/s"),
+                Metric("acceleration_error", f"{label} accelerations", acceleration, "rad/s^2"),
             ]
         return (*found, *(self._errors(run) if self.feed_back else ()))
 
-    def _errors(self, run: Trajectory) -> tuple[Finding, ...]:
+    def _errors(self, run: Trajectory) -> tuple[Metric, ...]:
         asked = self.reference(run.t).q
         angle = np.linalg.norm(run.q - asked, axis=1)
         tip = np.linalg.norm(run.tip - run.model.tips(asked), axis=1)
         return (
-            Finding("path_error_rad", "path error, largest", float(angle.max()), "rad"),
-            Finding("path_error_end_rad", "path error at the end", float(angle[-1]), "rad"),
-            Finding("tip_error_m", "tip from its path, furthest", float(tip.max()), "m"),
+            Metric("path_error_rad", "path error, largest", float(angle.max()), "rad"),
+            Metric("path_error_end_rad", "path error at the end", float(angle[-1]), "rad"),
+            Metric("tip_error_m", "tip from its path, furthest", float(tip.max()), "m"),
         )
 
-    def draw(self, scenario: Scenario, run: Trajectory) -> Figure:
+    def plot(self, scenario: Scenario, run: Trajectory) -> Figure:
         """Return the picture of every run, with the motion asked for where it was fed back."""
         from cdcr.scenarios.figures.run import run_figure
 

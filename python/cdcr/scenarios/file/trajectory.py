@@ -18,12 +18,12 @@ from numpy.typing import NDArray
 
 from cdcr.base.check import nearest
 from cdcr.files.number_csv import Layout, read_numbers
-from cdcr.files.toml import complaints, refuse, shown_toml
+from cdcr.files.toml import format_toml, refuse, schema_errors
 from cdcr.model.coordinates import bending
 from cdcr.motion.reference import Reference
 from cdcr.motion.splines import Motion, bending_vectors
 from cdcr.scenarios.file.tracking import TrackedMotion
-from cdcr.scenarios.file.values import count, of_sections, rival_complaints, said_by
+from cdcr.scenarios.file.values import count, error_prefix, of_sections, rival_errors
 
 FloatArray = NDArray[np.float64]
 
@@ -47,7 +47,7 @@ def read_trajectory(
         motion, error = _shape(table, num_sections, file), (0.0, 0.0)
     else:
         schema = TrajectoryFile if given == ["file"] else TrajectorySamples
-        refuse(str(file), [*complaints(schema, table, AT), *rival_complaints(table, AT)])
+        refuse(str(file), [*schema_errors(schema, table, AT), *rival_errors(table, AT)])
         reference = _samples(table, num_sections, file)
         motion, error = reference.evaluate, reference.derivative_error
         if reference.t[0] > 0.0 or reference.t[-1] < t_end:
@@ -63,12 +63,12 @@ def read_trajectory(
 def _shape(table: dict[str, Any], num_sections: int, file: Path) -> Motion:
     from cdcr.scenarios.file.shape_schema import TRAJECTORY_SHAPES
 
-    refuse(str(file), shape_complaints(TRAJECTORY_SHAPES, table, AT))
-    with said_by(str(file)):
+    refuse(str(file), shape_errors(TRAJECTORY_SHAPES, table, AT))
+    with error_prefix(str(file)):
         return _MOTIONS[table["shape"]](_Angles(table, num_sections))
 
 
-def shape_complaints(shapes: Mapping[str, Any], table: Mapping[str, Any], at: str) -> list[str]:
+def shape_errors(shapes: Mapping[str, Any], table: Mapping[str, Any], at: str) -> list[str]:
     """Return a sentence for an unknown shape, or one for each key that its table does not allow."""
     shape = table.get("shape")
     if not isinstance(shape, str) or shape not in shapes:
@@ -76,8 +76,8 @@ def shape_complaints(shapes: Mapping[str, Any], table: Mapping[str, Any], at: st
         if "shape" not in table:
             return [f"{at}.shape is missing; it must be one of {known}"]
         guess = nearest(shape, shapes) if isinstance(shape, str) else ""
-        return [f"{at}.shape must be one of {known}, got {shown_toml(shape)}.{guess}".rstrip(".")]
-    return complaints(shapes[shape], table, at)
+        return [f"{at}.shape must be one of {known}, got {format_toml(shape)}.{guess}".rstrip(".")]
+    return schema_errors(shapes[shape], table, at)
 
 
 class _Angles:
@@ -149,16 +149,16 @@ def _samples(table: dict[str, Any], num_sections: int, file: Path) -> Reference:
     if "file" in table:
         path = file.parent / table["file"]
         t, given = _read_csv(path, num_sections)
-        with said_by(str(path)):
+        with error_prefix(str(path)):
             return _reference(t, given)
     given = {key: np.array(_rows(table, key, num_sections, file)) for key in _SAMPLED & set(table)}
     for key, rows in given.items():
         if len(rows) != len(table["t"]):
-            wanted = f"as many rows as t, {len(table['t'])}, got {len(rows)}"
-            refuse(str(file), [f"{AT}.{key} must have {wanted}"])
+            requirement = f"as many rows as t, {len(table['t'])}, got {len(rows)}"
+            refuse(str(file), [f"{AT}.{key} must have {requirement}"])
     if "q" not in given and not {"theta", "theta_deg"} & set(given):
         refuse(str(file), [f"{AT} must have q, theta or theta_deg beside t"])
-    with said_by(f"{file}, [{AT}]"):
+    with error_prefix(f"{file}, [{AT}]"):
         return _reference(table["t"], given)
 
 
@@ -167,12 +167,12 @@ _SAMPLED = {"q", "theta", "theta_deg", "phi", "phi_deg"}
 
 def _rows(table: dict[str, Any], key: str, num_sections: int, file: Path) -> list[list[float]]:
     """Return the rows of a key; for one section they may be numbers."""
-    wanted = num_sections * (2 if key == "q" else 1)
+    requirement = num_sections * (2 if key == "q" else 1)
     rows = [row if isinstance(row, list) else [row] for row in table[key]]
     for i, row in enumerate(rows):
-        if len(row) != wanted:
-            must = f"must have {count(wanted, 'number')} for this robot"
-            refuse(str(file), [f"{AT}.{key}[{i}] {must}, got {shown_toml(table[key][i])}"])
+        if len(row) != requirement:
+            must = f"must have {count(requirement, 'number')} for this robot"
+            refuse(str(file), [f"{AT}.{key}[{i}] {must}, got {format_toml(table[key][i])}"])
     return rows
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from cdcr.files.toml import refuse, shown_toml
+from cdcr.files.toml import format_toml, refuse
 from cdcr.model.coordinates import bending
 
 FloatArray = NDArray[np.float64]
@@ -19,7 +19,7 @@ RIVALS = (("theta", "theta_deg"), ("phi", "phi_deg"), *(("q", angle) for angle i
 
 
 @contextmanager
-def said_by(where: str) -> Iterator[None]:
+def error_prefix(where: str) -> Iterator[None]:
     """Begin each line of what is refused inside with where it stands."""
     try:
         yield
@@ -32,7 +32,7 @@ def count(number: int, noun: str) -> str:
     return f"{number} {noun}" + ("" if number == 1 else "s")
 
 
-def rival_complaints(table: Mapping[str, Any], at: str) -> list[str]:
+def rival_errors(table: Mapping[str, Any], at: str) -> list[str]:
     """Return a sentence for each two keys of a table that say the same."""
     return [
         f"{at} must have {one} or {other}, not both"
@@ -41,15 +41,15 @@ def rival_complaints(table: Mapping[str, Any], at: str) -> list[str]:
     ]
 
 
-def length_complaints(table: Mapping[str, Any], num_sections: int, at: str) -> list[str]:
+def length_errors(table: Mapping[str, Any], num_sections: int, at: str) -> list[str]:
     """Return a sentence for each array that does not fit the number of sections."""
     found = []
     for key, value in table.items():
-        wanted = num_sections * (2 if key in ("q", "qd") else 1)
-        if len(value) != wanted:
+        requirement = num_sections * (2 if key in ("q", "qd") else 1)
+        if len(value) != requirement:
             found.append(
-                f"{at}.{key} must have {count(wanted, 'number')} for a robot with "
-                f"{count(num_sections, 'section')}, got {shown_toml(value)}"
+                f"{at}.{key} must have {count(requirement, 'number')} for a robot with "
+                f"{count(num_sections, 'section')}, got {format_toml(value)}"
             )
     return found
 
@@ -82,7 +82,7 @@ def of_sections(
     if isinstance(value, list) and len(value) != num_sections:
         raise ValueError(
             f"{at}.{given[0]} must be a number, or an array with {count(num_sections, 'number')}, "
-            f"got {shown_toml(value)}"
+            f"got {format_toml(value)}"
         )
     if given and given[0].endswith("_deg"):
         values = np.deg2rad(values)

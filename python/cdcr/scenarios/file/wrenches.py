@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from cdcr.files.toml import complaints, refuse
+from cdcr.files.toml import refuse, schema_errors
 from cdcr.model.model import Model
 from cdcr.model.wrench import Wrench, loads
-from cdcr.scenarios.file.values import count, said_by
+from cdcr.scenarios.file.values import count, error_prefix
 
 _KEYS = ("fraction", "force", "moment", "frame", "interpolation")
 
@@ -23,21 +23,21 @@ def read_wrenches(
         [
             sentence
             for i, table in enumerate(tables)
-            for sentence in _complaints(table, model.num_sections, f"wrenches[{i}]")
+            for sentence in _table_errors(table, model.num_sections, f"wrenches[{i}]")
         ],
     )
     return tuple(_wrench(table, f"{file}: wrenches[{i}]") for i, table in enumerate(tables))
 
 
-def _complaints(table: Mapping[str, Any], num_sections: int, at: str) -> list[str]:
+def _table_errors(table: Mapping[str, Any], num_sections: int, at: str) -> list[str]:
     from cdcr.scenarios.file.schema import WrenchTable
 
-    found = complaints(WrenchTable, table, at)
+    found = schema_errors(WrenchTable, table, at)
     if found:
         return found
     if table["section"] > num_sections:
-        wanted = f"the number of a section, 1 to {num_sections}"
-        found.append(f"{at}.section must be {wanted}, got {table['section']}")
+        requirement = f"the number of a section, 1 to {num_sections}"
+        found.append(f"{at}.section must be {requirement}, got {table['section']}")
     if "force" not in table and "moment" not in table:
         found.append(f"{at} must have force, moment or both")
     if ("times" in table) != ("factors" in table):
@@ -54,7 +54,7 @@ def _wrench(table: Mapping[str, Any], where: str) -> Wrench:
     given = {key: table[key] for key in _KEYS if key in table}
     if "times" in table:
         given["profile"] = (table["times"], table["factors"])
-    with said_by(where):
+    with error_prefix(where):
         wrench = Wrench(section=table["section"] - 1, **given)
         loads(wrench)
     return wrench

@@ -8,7 +8,7 @@ import numpy as np
 
 from cdcr._core import taylor_range
 from cdcr.robots import amouri2020
-from cdcr.scenarios.metrics import Finding
+from cdcr.scenarios.metrics import Metric
 from cdcr.scenarios.scenario import Scenario, paper_source
 from cdcr.scenarios.studies.factors import kinds, taylor_error, value
 
@@ -21,10 +21,10 @@ def factor_scenario(
 ) -> Scenario:
     """Return the scenario of two factors, H1 and H2 say, that the paper has in one figure."""
 
-    def tell(scenario: Scenario, run: None) -> tuple[Finding, ...]:
-        return tuple(found for factor in pair for found in _findings(factor))
+    def summarize(scenario: Scenario, run: None) -> tuple[Metric, ...]:
+        return tuple(found for factor in pair for found in _metrics(factor))
 
-    def draw(scenario: Scenario, run: None) -> Figure:
+    def plot(scenario: Scenario, run: None) -> Figure:
         from cdcr.scenarios.figures.factors import factor_figure
 
         return factor_figure(scenario.title, pair, remarks)
@@ -36,12 +36,12 @@ def factor_scenario(
         source=paper_source(f"Fig. {number}"),
         paper_figure=number,
         robot=amouri2020(),
-        tell=tell,
-        draw=draw,
+        summarize=summarize,
+        plot=plot,
     )
 
 
-def _findings(factor: str) -> tuple[Finding, ...]:
+def _metrics(factor: str) -> tuple[Metric, ...]:
     ends = np.array([0.0, taylor_range])
     found = []
     for kind in kinds(factor):
@@ -50,8 +50,8 @@ def _findings(factor: str) -> tuple[Finding, ...]:
         error = float(taylor_error(factor, ends[1:], kind)[0])
         key = f"{factor}_{word}"
         found += [
-            Finding(f"{key}_0", f"{factor}, {word}, at theta = 0", float(start), ""),
-            Finding(f"{key}_end", f"{factor}, {word}, at theta = 3 pi/5", float(end), ""),
-            Finding(f"{key}_error", f"{factor}, {word}: error of Taylor there", error, "%"),
+            Metric(f"{key}_0", f"{factor}, {word}, at theta = 0", float(start), ""),
+            Metric(f"{key}_end", f"{factor}, {word}, at theta = 3 pi/5", float(end), ""),
+            Metric(f"{key}_error", f"{factor}, {word}: error of Taylor there", error, "%"),
         ]
     return tuple(found)

@@ -5,22 +5,22 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from cdcr.robots import amouri2020
-from cdcr.scenarios.metrics import Finding
+from cdcr.scenarios.metrics import Metric
 from cdcr.scenarios.scenario import Scenario, paper_source
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def _tell(scenario: Scenario, run: None) -> tuple[Finding, ...]:
+def _summarize(scenario: Scenario, run: None) -> tuple[Metric, ...]:
     model = scenario.model
     return (
-        Finding("num_coordinates", "coordinates q", model.num_coordinates, ""),
-        Finding("num_cables", "cables", model.num_cables, ""),
+        Metric("num_coordinates", "coordinates q", model.num_coordinates, ""),
+        Metric("num_cables", "cables", model.num_cables, ""),
     )
 
 
-def _draw(scenario: Scenario, run: None) -> Figure:
+def _plot(scenario: Scenario, run: None) -> Figure:
     from cdcr.scenarios.figures.block_diagram import diagram_figure
 
     return diagram_figure(scenario.title)
@@ -37,6 +37,6 @@ SCENARIO = Scenario(
     source=paper_source("section 5.3 and Fig. 11") + "; diagram ours",
     paper_figure=11,
     robot=amouri2020(),
-    tell=_tell,
-    draw=_draw,
+    summarize=_summarize,
+    plot=_plot,
 )

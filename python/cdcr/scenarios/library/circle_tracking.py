@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 CIRCLE = Sweep(theta=math.pi / 12.0, theta_rate=0.0, phi=0.0, phi_rate=math.pi / 5.0)
 
 
-def _draw(scenario: Scenario, run: Trajectory) -> Figure:
+def _plot(scenario: Scenario, run: Trajectory) -> Figure:
     from cdcr.scenarios.figures.tracking import tracking_figure
 
     return tracking_figure(scenario.title, CIRCLE, run, shapes=1)
@@ -43,6 +43,6 @@ SCENARIO = Scenario(
     method="dopri5",
     rtol=1e-10,
     atol=1e-12,
-    tell=CIRCLE.tell,
-    draw=_draw,
+    summarize=CIRCLE.summarize,
+    plot=_plot,
 )

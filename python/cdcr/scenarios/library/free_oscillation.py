@@ -9,7 +9,7 @@ import numpy as np
 
 from cdcr.robots import amouri2020
 from cdcr.runs.trajectory import Trajectory
-from cdcr.scenarios.metrics import Finding, findings
+from cdcr.scenarios.metrics import Metric, run_metrics
 from cdcr.scenarios.scenario import Scenario, paper_source
 from cdcr.scenarios.studies.free_oscillation import (
     DAMPING,
@@ -25,27 +25,27 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def _tell(scenario: Scenario, run: Trajectory) -> tuple[Finding, ...]:
+def _summarize(scenario: Scenario, run: Trajectory) -> tuple[Metric, ...]:
     others = variants(float(run.t[-1]))
     start, end = np.rad2deg(amplitude(run)[[0, -1]])
     linear = linear_settling_time(DAMPING)
     found = [
-        *findings(scenario, run),
-        Finding("amplitude_start_deg", "amplitude at the start", float(start), "deg"),
-        Finding("amplitude_end_deg", "amplitude at the end", float(end), "deg"),
-        Finding("settling_linear_s", "settles to 2 % with damping, linearised", linear, "s"),
+        *run_metrics(scenario, run),
+        Metric("amplitude_start_deg", "amplitude at the start", float(start), "deg"),
+        Metric("amplitude_end_deg", "amplitude at the end", float(end), "deg"),
+        Metric("settling_linear_s", "settles to 2 % with damping, linearised", linear, "s"),
     ]
     settled = settling_time(others["damped"])
     if math.isfinite(settled):
-        found.append(Finding("settling_s", "settles to 2 % with damping", settled, "s"))
+        found.append(Metric("settling_s", "settles to 2 % with damping", settled, "s"))
     for name in LOOSE:
         key = name.replace(", ", "_").replace(" ", "_")
         left = float(np.rad2deg(amplitude(others[name])[-1]))
-        found.append(Finding(f"end_{key}_deg", f"amplitude at the end, {name}", left, "deg"))
+        found.append(Metric(f"end_{key}_deg", f"amplitude at the end, {name}", left, "deg"))
     return tuple(found)
 
 
-def _draw(scenario: Scenario, run: Trajectory) -> Figure:
+def _plot(scenario: Scenario, run: Trajectory) -> Figure:
     from cdcr.scenarios.figures.free_oscillation import oscillation_figure
 
     return oscillation_figure(scenario.title, run)
@@ -73,6 +73,6 @@ SCENARIO = Scenario(
     method="dopri5",
     rtol=1e-10,
     atol=1e-12,
-    tell=_tell,
-    draw=_draw,
+    summarize=_summarize,
+    plot=_plot,
 )

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from cdcr._core import taylor_range
 from cdcr.robots import amouri2020
-from cdcr.scenarios.metrics import Finding
+from cdcr.scenarios.metrics import Metric
 from cdcr.scenarios.scenario import Scenario, paper_source
 from cdcr.scenarios.studies.gravity_ratio import (
     TENSION,
@@ -21,24 +21,24 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def _tell(scenario: Scenario, run: None) -> tuple[Finding, ...]:
+def _summarize(scenario: Scenario, run: None) -> tuple[Metric, ...]:
     start = 1.0 - stiffness("upright") / stiffness("no gravity")
     end = -float(energy_ratio(taylor_range, "upright")[0])
     found = [
-        Finding("ratio_0", "gravitational over elastic energy at theta -> 0", 100.0 * start, "%"),
-        Finding("ratio_end", "the same at theta = 3 pi/5", 100.0 * end, "%"),
+        Metric("ratio_0", "gravitational over elastic energy at theta -> 0", 100.0 * start, "%"),
+        Metric("ratio_end", "the same at theta = 3 pi/5", 100.0 * end, "%"),
     ]
     for way in WAYS:
         key, label = way.replace(" ", "_"), f"theta at {TENSION:g} N, {way}"
         linear = linear_theta_deg(TENSION, way)
         found += [
-            Finding(f"theta_{key}_deg", label, theta_deg(TENSION, way), "deg"),
-            Finding(f"theta_{key}_linear_deg", f"{label}, linearised", linear, "deg"),
+            Metric(f"theta_{key}_deg", label, theta_deg(TENSION, way), "deg"),
+            Metric(f"theta_{key}_linear_deg", f"{label}, linearised", linear, "deg"),
         ]
     return tuple(found)
 
 
-def _draw(scenario: Scenario, run: None) -> Figure:
+def _plot(scenario: Scenario, run: None) -> Figure:
     from cdcr.scenarios.figures.gravity_ratio import gravity_figure
 
     return gravity_figure(scenario.title)
@@ -56,6 +56,6 @@ SCENARIO = Scenario(
     source=paper_source("section 4.2 and Fig. 7"),
     paper_figure=7,
     robot=amouri2020(),
-    tell=_tell,
-    draw=_draw,
+    summarize=_summarize,
+    plot=_plot,
 )

@@ -13,9 +13,9 @@ from cdcr.model.coordinates import bending
 from cdcr.model.model import Model
 from cdcr.robots import three_sections
 from cdcr.runs.trajectory import Trajectory
-from cdcr.scenarios.metrics import Finding
+from cdcr.scenarios.metrics import Metric
 from cdcr.scenarios.scenario import Scenario
-from cdcr.scenarios.studies.sections import HORIZONTAL, release_findings
+from cdcr.scenarios.studies.sections import HORIZONTAL, release_metrics
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -32,11 +32,11 @@ def at_rest(model: Model) -> NDArray[np.float64]:
     return model.equilibrium(np.zeros(model.num_cables))
 
 
-def _tell(scenario: Scenario, run: Trajectory) -> tuple[Finding, ...]:
-    return release_findings(scenario, run, at_rest(run.model))
+def _summarize(scenario: Scenario, run: Trajectory) -> tuple[Metric, ...]:
+    return release_metrics(scenario, run, at_rest(run.model))
 
 
-def _draw(scenario: Scenario, run: Trajectory) -> Figure:
+def _plot(scenario: Scenario, run: Trajectory) -> Figure:
     from cdcr.scenarios.figures.sections import release_figure
 
     return release_figure(scenario.title, run, at_rest(run.model), SHOWN)
@@ -62,6 +62,6 @@ SCENARIO = Scenario(
     method="dopri5",
     rtol=1e-10,
     atol=1e-12,
-    tell=_tell,
-    draw=_draw,
+    summarize=_summarize,
+    plot=_plot,
 )

@@ -8,7 +8,7 @@ import numpy as np
 
 from cdcr._core import taylor_range
 from cdcr.robots import amouri2020
-from cdcr.scenarios.metrics import Finding
+from cdcr.scenarios.metrics import Metric
 from cdcr.scenarios.scenario import Scenario, paper_source
 from cdcr.scenarios.studies.kinetic_energy_terms import WAYS, taylor_errors, terms
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def _tell(scenario: Scenario, run: None) -> tuple[Finding, ...]:
+def _summarize(scenario: Scenario, run: None) -> tuple[Metric, ...]:
     end, robot = np.array([taylor_range]), scenario.robot
     found = []
     for way in WAYS:
@@ -24,13 +24,13 @@ def _tell(scenario: Scenario, run: None) -> tuple[Finding, ...]:
         for term, value, error in zip(("M11", "M22"), values, errors, strict=True):
             key, label = f"{term}_{way}", f"{term}, {way}"
             found += [
-                Finding(f"{key}_end", f"{label}, at 3 pi/5", 1e3 * float(value[0]), "1e-3 kg m^2"),
-                Finding(f"{key}_error", f"{label}: error of Taylor", float(error[0]), "%"),
+                Metric(f"{key}_end", f"{label}, at 3 pi/5", 1e3 * float(value[0]), "1e-3 kg m^2"),
+                Metric(f"{key}_error", f"{label}: error of Taylor", float(error[0]), "%"),
             ]
     return tuple(found)
 
 
-def _draw(scenario: Scenario, run: None) -> Figure:
+def _plot(scenario: Scenario, run: None) -> Figure:
     from cdcr.scenarios.figures.kinetic_energy_terms import inertia_figure
 
     return inertia_figure(scenario.title, scenario.robot)
@@ -48,6 +48,6 @@ SCENARIO = Scenario(
     source=paper_source("section 4.1.4 and Fig. 6"),
     paper_figure=6,
     robot=amouri2020(),
-    tell=_tell,
-    draw=_draw,
+    summarize=_summarize,
+    plot=_plot,
 )

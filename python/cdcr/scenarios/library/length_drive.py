@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from cdcr.runs.trajectory import Trajectory
-from cdcr.scenarios.metrics import Finding
+from cdcr.scenarios.metrics import Metric
 from cdcr.scenarios.scenario import Scenario
 from cdcr.scenarios.studies.length_drive import (
     BACK,
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def _tell(scenario: Scenario, run: Trajectory) -> tuple[Finding, ...]:
+def _summarize(scenario: Scenario, run: Trajectory) -> tuple[Metric, ...]:
     end = float(run.t[-1])
     found = []
     for key, name, one in (("", "", run), ("stiffer_", "ten times stiffer: ", stiffer(end))):
@@ -38,28 +38,28 @@ def _tell(scenario: Scenario, run: Trajectory) -> tuple[Finding, ...]:
         tips = np.linalg.norm(one.tip[held] - one.model.tips(wanted(one.t[held]))[0])
         events = sum(event.slack for event in one.slack_events)
         found += [
-            Finding(f"{key}error_max_deg", f"{name}largest error", float(error.max()), "deg"),
-            Finding(
+            Metric(f"{key}error_max_deg", f"{name}largest error", float(error.max()), "deg"),
+            Metric(
                 f"{key}error_held_deg",
                 f"{name}largest error, shape held",
                 float(error[held].max()),
                 "deg",
             ),
-            Finding(f"{key}tip_held_mm", f"{name}tip from wanted, held", 1e3 * float(tips), "mm"),
-            Finding(f"{key}tension_max_N", f"{name}largest tension", float(one.tension.max()), "N"),
-            Finding(f"{key}slack", f"{name}times that a cable turns slack", float(events), ""),
+            Metric(f"{key}tip_held_mm", f"{name}tip from wanted, held", 1e3 * float(tips), "mm"),
+            Metric(f"{key}tension_max_N", f"{name}largest tension", float(one.tension.max()), "N"),
+            Metric(f"{key}slack", f"{name}times that a cable turns slack", float(events), ""),
         ]
     gained, given, taken = balance(run)
     gap = abs(given - taken - gained) / max(abs(given), abs(taken), abs(gained))
     found += [
-        Finding("given_J", "given by the drives", given, "J"),
-        Finding("taken_J", "taken by damping", taken, "J"),
-        Finding("balance", "gap in the energy balance, relative", gap, ""),
+        Metric("given_J", "given by the drives", given, "J"),
+        Metric("taken_J", "taken by damping", taken, "J"),
+        Metric("balance", "gap in the energy balance, relative", gap, ""),
     ]
     return tuple(found)
 
 
-def _draw(scenario: Scenario, run: Trajectory) -> Figure:
+def _plot(scenario: Scenario, run: Trajectory) -> Figure:
     from cdcr.scenarios.figures.length_drive import length_drive_figure
 
     return length_drive_figure(scenario.title, run)
@@ -83,6 +83,6 @@ SCENARIO = Scenario(
     t_end=END,
     num_samples=round(END / STEP) + 1,
     **OPTIONS,
-    tell=_tell,
-    draw=_draw,
+    summarize=_summarize,
+    plot=_plot,
 )

@@ -12,9 +12,9 @@ from cdcr.model.model import Model
 from cdcr.robots import three_sections
 from cdcr.runs.command import TensionTable
 from cdcr.runs.trajectory import Trajectory
-from cdcr.scenarios.metrics import Finding
+from cdcr.scenarios.metrics import Metric
 from cdcr.scenarios.scenario import Scenario
-from cdcr.scenarios.studies.sections import HORIZONTAL, holding, release_findings
+from cdcr.scenarios.studies.sections import HORIZONTAL, holding, release_metrics
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -47,17 +47,17 @@ def at_rest(model: Model) -> NDArray[np.float64]:
     return model.equilibrium(tension(model))
 
 
-def _tell(scenario: Scenario, run: Trajectory) -> tuple[Finding, ...]:
+def _summarize(scenario: Scenario, run: Trajectory) -> tuple[Metric, ...]:
     model = run.model
     start = model.forward_dynamics(run.q[0], run.qd[0], run.tension[0])
     lift = (model.jacobian(run.q[0], model.num_sections - 1, 1.0) @ start)[2]
     return (
-        Finding("lift_m_s2", "the tip's first acceleration upwards", float(lift), "m/s^2"),
-        *release_findings(scenario, run, at_rest(model)),
+        Metric("lift_m_s2", "the tip's first acceleration upwards", float(lift), "m/s^2"),
+        *release_metrics(scenario, run, at_rest(model)),
     )
 
 
-def _draw(scenario: Scenario, run: Trajectory) -> Figure:
+def _plot(scenario: Scenario, run: Trajectory) -> Figure:
     from cdcr.scenarios.figures.sections import release_figure
 
     return release_figure(scenario.title, run, at_rest(run.model), SHOWN, fallen="payload")
@@ -83,6 +83,6 @@ SCENARIO = Scenario(
     method="dopri5",
     rtol=1e-10,
     atol=1e-12,
-    tell=_tell,
-    draw=_draw,
+    summarize=_summarize,
+    plot=_plot,
 )

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 from cdcr.robots import amouri2020
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.scenario import Scenario, paper_source
-from cdcr.scenarios.studies.pid import RECOMMENDED, tell
+from cdcr.scenarios.studies.pid import RECOMMENDED, summarize
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def _draw(scenario: Scenario, run: Trajectory) -> Figure:
+def _plot(scenario: Scenario, run: Trajectory) -> Figure:
     from cdcr.scenarios.figures.pid import pid_figure
 
     return pid_figure(scenario.title, run)
@@ -40,6 +40,6 @@ SCENARIO = Scenario(
     num_samples=2001,
     method="dopri5",
     rtol=1e-9,
-    tell=tell,
-    draw=_draw,
+    summarize=summarize,
+    plot=_plot,
 )

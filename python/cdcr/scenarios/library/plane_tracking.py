@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 PLANE = Sweep(theta=0.0, theta_rate=math.pi / 4.0, phi=math.pi / 6.0, phi_rate=0.0)
 
 
-def _draw(scenario: Scenario, run: Trajectory) -> Figure:
+def _plot(scenario: Scenario, run: Trajectory) -> Figure:
     from cdcr.scenarios.figures.tracking import tracking_figure
 
     return tracking_figure(scenario.title, PLANE, run, shapes=4)
@@ -42,6 +42,6 @@ SCENARIO = Scenario(
     method="dopri5",
     rtol=1e-10,
     atol=1e-12,
-    tell=PLANE.tell,
-    draw=_draw,
+    summarize=PLANE.summarize,
+    plot=_plot,
 )

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from cdcr.runs.trajectory import Trajectory
-from cdcr.scenarios.metrics import Finding
+from cdcr.scenarios.metrics import Metric
 from cdcr.scenarios.scenario import Scenario, paper_source
 from cdcr.scenarios.studies.energy import integral
 from cdcr.scenarios.studies.pull_release import (
@@ -30,38 +30,38 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def _tell(scenario: Scenario, run: Trajectory) -> tuple[Finding, ...]:
+def _summarize(scenario: Scenario, run: Trajectory) -> tuple[Metric, ...]:
     loop = float(integral(run.tension[:, 0], pulled(run)))
     damped = DAMPING * float(integral(np.sum(run.qd**2, axis=1), run.t))
     by_loop = loop - damped - float(run.energy[-1] - run.energy[0])
     by_power = float(integral(friction_power(run), run.t))
     found = [
-        Finding("loop_J", "work of the cable: area of the loops", loop, "J"),
-        Finding("damping_J", "of it, to damping", damped, "J"),
-        Finding("friction_loop_J", "to friction, by the loops", by_loop, "J"),
-        Finding("friction_power_J", "to friction, by its power over time", by_power, "J"),
-        Finding("difference", "relative difference of the two", by_power / by_loop - 1.0, ""),
+        Metric("loop_J", "work of the cable: area of the loops", loop, "J"),
+        Metric("damping_J", "of it, to damping", damped, "J"),
+        Metric("friction_loop_J", "to friction, by the loops", by_loop, "J"),
+        Metric("friction_power_J", "to friction, by its power over time", by_power, "J"),
+        Metric("difference", "relative difference of the two", by_power / by_loop - 1.0, ""),
     ]
     band = dead_band(run)
     if band is not None:
         fallen, theta = band
         expected = FULL * -np.expm1(-FRICTION * theta)
         found += [
-            Finding("dead_band_N", "tension falls before the cable slides back", fallen, "N"),
-            Finding("dead_band_expected_N", "the same, F (1 - exp(-mu theta))", expected, "N"),
+            Metric("dead_band_N", "tension falls before the cable slides back", fallen, "N"),
+            Metric("dead_band_expected_N", "the same, F (1 - exp(-mu theta))", expected, "N"),
         ]
     if run.t[-1] >= RAMP / 2.0:
         k = int(np.searchsorted(run.t, RAMP / 2.0))
         ratio = float(beyond(run)[k] / run.tension[k, 0])
         capstan = float(np.exp(-FRICTION * run.theta[k, 0]))
         found += [
-            Finding("ratio", "tension beyond the section over that at the base", ratio, ""),
-            Finding("capstan", "the same at full sliding, exp(-mu theta)", capstan, ""),
+            Metric("ratio", "tension beyond the section over that at the base", ratio, ""),
+            Metric("capstan", "the same at full sliding, exp(-mu theta)", capstan, ""),
         ]
     return tuple(found)
 
 
-def _draw(scenario: Scenario, run: Trajectory) -> Figure:
+def _plot(scenario: Scenario, run: Trajectory) -> Figure:
     from cdcr.scenarios.figures.pull_release import pull_release_figure
 
     return pull_release_figure(scenario.title, run)
@@ -85,6 +85,6 @@ SCENARIO = Scenario(
     t_end=END,
     num_samples=round(END / STEP) + 1,
     **OPTIONS,
-    tell=_tell,
-    draw=_draw,
+    summarize=_summarize,
+    plot=_plot,
 )

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 PAPER_THETA = 15.53  # where the paper's robot settles [deg]
 
 
-def _draw(scenario: Scenario, run: Trajectory) -> Figure:
+def _plot(scenario: Scenario, run: Trajectory) -> Figure:
     from cdcr.plotting.style import ALARM
     from cdcr.scenarios.figures.run import run_figure
 
@@ -43,5 +43,5 @@ SCENARIO = Scenario(
     tension=(5.0, 0.0, 0.0),
     t_end=10.0,
     num_samples=1001,
-    draw=_draw,
+    plot=_plot,
 )

@@ -10,10 +10,10 @@ import numpy as np
 from cdcr.model.coordinates import polar
 from cdcr.robots import three_sections
 from cdcr.runs.trajectory import Trajectory
-from cdcr.scenarios.metrics import Finding
+from cdcr.scenarios.metrics import Metric
 from cdcr.scenarios.scenario import Scenario
 from cdcr.scenarios.studies.energy import energy_gap
-from cdcr.scenarios.studies.sections import HANGING, speed_findings
+from cdcr.scenarios.studies.sections import HANGING, speed_metrics
 from cdcr.scenarios.studies.three_sections import (
     BENT,
     DAMPING,
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def _tell(scenario: Scenario, run: Trajectory) -> tuple[Finding, ...]:
+def _summarize(scenario: Scenario, run: Trajectory) -> tuple[Metric, ...]:
     model = run.model
     straight = model.tip(np.zeros(model.num_coordinates))[1]
     found = []
@@ -39,19 +39,19 @@ def _tell(scenario: Scenario, run: Trajectory) -> tuple[Finding, ...]:
         error = float(np.rad2deg(np.max(np.abs(run.q[last] - goals()[k]))))
         held = run.tension[last]
         found += [
-            Finding(f"{key}_tip_mm", f"{at}: tip from the straight robot's", moved, "mm"),
-            Finding(f"{key}_error_deg", f"{at}: bending off the goal, end", error, "deg"),
-            Finding(f"{key}_tension_N", f"{at}: largest tension", float(held.max()), "N"),
+            Metric(f"{key}_tip_mm", f"{at}: tip from the straight robot's", moved, "mm"),
+            Metric(f"{key}_error_deg", f"{at}: bending off the goal, end", error, "deg"),
+            Metric(f"{key}_tension_N", f"{at}: largest tension", float(held.max()), "N"),
         ]
         angles = np.rad2deg(polar(own_cables_alone(model, k))[0])
         for i in range(k):
             name, label = f"{key}_alone_{i + 1}_deg", f"its cables alone would bend section {i + 1}"
-            found.append(Finding(name, f"{at}: {label} by", float(angles[i]), "deg"))
-    gap = Finding("energy_gap", "relative gap of the energy balance", energy_gap(run), "")
-    return (*found, gap, *speed_findings(scenario, run))
+            found.append(Metric(name, f"{at}: {label} by", float(angles[i]), "deg"))
+    gap = Metric("energy_gap", "relative gap of the energy balance", energy_gap(run), "")
+    return (*found, gap, *speed_metrics(scenario, run))
 
 
-def _draw(scenario: Scenario, run: Trajectory) -> Figure:
+def _plot(scenario: Scenario, run: Trajectory) -> Figure:
     from cdcr.scenarios.figures.sections import three_sections_figure
 
     return three_sections_figure(scenario.title, run)
@@ -79,6 +79,6 @@ SCENARIO = Scenario(
     method="dopri5",
     rtol=1e-10,
     atol=1e-12,
-    tell=_tell,
-    draw=_draw,
+    summarize=_summarize,
+    plot=_plot,
 )

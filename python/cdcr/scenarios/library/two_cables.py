@@ -10,7 +10,7 @@ from cdcr.model.coordinates import polar
 from cdcr.robots import amouri2020
 from cdcr.runs.command import TensionTable
 from cdcr.runs.trajectory import Trajectory
-from cdcr.scenarios.metrics import Finding
+from cdcr.scenarios.metrics import Metric
 from cdcr.scenarios.scenario import Scenario, paper_source
 from cdcr.scenarios.studies.two_cables import CABLE_1, CABLE_2, FULL, T
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def _tell(scenario: Scenario, run: Trajectory) -> tuple[Finding, ...]:
+def _summarize(scenario: Scenario, run: Trajectory) -> tuple[Metric, ...]:
     found = []
     for name, tension in (
         ("cable 1", (FULL, 0.0, 0.0)),
@@ -30,17 +30,17 @@ def _tell(scenario: Scenario, run: Trajectory) -> tuple[Finding, ...]:
         key, tip = name.replace(" ", "_"), run.model.tip(q)[1]
         label = f"{FULL:g} N on {name}, settled"
         found += [
-            Finding(f"{key}_theta_deg", f"{label}: theta", float(theta), "deg"),
-            Finding(f"{key}_phi_deg", f"{label}: phi", float(phi), "deg"),
+            Metric(f"{key}_theta_deg", f"{label}: theta", float(theta), "deg"),
+            Metric(f"{key}_phi_deg", f"{label}: phi", float(phi), "deg"),
         ]
         found += [
-            Finding(f"{key}_{axis}_m", f"{label}: tip {axis}", float(value), "m")
+            Metric(f"{key}_{axis}_m", f"{label}: tip {axis}", float(value), "m")
             for axis, value in zip("xyz", tip, strict=True)
         ]
     return tuple(found)
 
 
-def _draw(scenario: Scenario, run: Trajectory) -> Figure:
+def _plot(scenario: Scenario, run: Trajectory) -> Figure:
     from cdcr.scenarios.figures.two_cables import two_cables_figure
 
     return two_cables_figure(scenario.title, run)
@@ -66,6 +66,6 @@ SCENARIO = Scenario(
     method="dopri5",
     rtol=1e-9,
     atol=1e-11,
-    tell=_tell,
-    draw=_draw,
+    summarize=_summarize,
+    plot=_plot,
 )

@@ -13,7 +13,7 @@ from cdcr.robots import amouri2020
 from cdcr.runs.pid import Pid
 from cdcr.runs.simulate import simulate
 from cdcr.runs.trajectory import Trajectory
-from cdcr.scenarios.metrics import Finding
+from cdcr.scenarios.metrics import Metric
 
 if TYPE_CHECKING:
     from cdcr.scenarios.scenario import Scenario
@@ -97,7 +97,7 @@ def settling_time(run: Trajectory) -> float:
     return float(run.t[last]) if last + 1 < len(run) else math.inf
 
 
-def tell(scenario: Scenario, run: Trajectory) -> tuple[Finding, ...]:
+def summarize(scenario: Scenario, run: Trajectory) -> tuple[Metric, ...]:
     """Return where each loop ends, how far and how hard it goes, and when it has settled."""
     found = []
     for loop, other in runs(float(run.t[-1])).items():
@@ -106,11 +106,11 @@ def tell(scenario: Scenario, run: Trajectory) -> tuple[Finding, ...]:
         label = f"{loop.reading}, {loop.label}{mark}"
         lowest = float(other.tension[:, 0].min())
         found += [
-            Finding(f"{loop.key}_end_deg", f"{label}: theta at the end", float(theta[-1]), "deg"),
-            Finding(f"{loop.key}_peak_deg", f"{label}: largest theta", float(theta.max()), "deg"),
-            Finding(f"{loop.key}_min_N", f"{label}: smallest tension", lowest, "N"),
+            Metric(f"{loop.key}_end_deg", f"{label}: theta at the end", float(theta[-1]), "deg"),
+            Metric(f"{loop.key}_peak_deg", f"{label}: largest theta", float(theta.max()), "deg"),
+            Metric(f"{loop.key}_min_N", f"{label}: smallest tension", lowest, "N"),
         ]
         settled = settling_time(other)
         if math.isfinite(settled):
-            found.append(Finding(f"{loop.key}_settling_s", f"{label}: within 2 %", settled, "s"))
+            found.append(Metric(f"{loop.key}_settling_s", f"{label}: within 2 %", settled, "s"))
     return tuple(found)

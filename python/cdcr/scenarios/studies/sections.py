@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from cdcr.model.model import Model
 from cdcr.runs.trajectory import Trajectory
-from cdcr.scenarios.metrics import Finding
+from cdcr.scenarios.metrics import Metric
 from cdcr.scenarios.studies.energy import dissipated, energy_gap, fine_run
 
 if TYPE_CHECKING:
@@ -47,33 +47,33 @@ def settling_time(t: Array, away: Array) -> float | None:
     return float(t[last]) if last + 1 < len(t) else None
 
 
-def release_findings(scenario: Scenario, run: Trajectory, rest: Array) -> tuple[Finding, ...]:
+def release_metrics(scenario: Scenario, run: Trajectory, rest: Array) -> tuple[Metric, ...]:
     """Return what is worth knowing of a robot that swings to rest at q = `rest` (2n,)."""
     away = distance(run, rest)
     x, _, z = run.model.tip(rest)[1]
     fine = fine_run(scenario, run)
     loss = float(dissipated(fine)[-1])
     found = [
-        Finding("start_distance_mm", "tip from where it comes to rest, start", 1e3 * away[0], "mm"),
-        Finding("end_distance_mm", "the same, end", 1e3 * float(away[-1]), "mm"),
-        Finding("rest_x_m", "tip at rest: x", float(x), "m"),
-        Finding("rest_z_m", "tip at rest: z", float(z), "m"),
-        Finding("highest_m", "highest place of the tip", float(run.tip[:, 2].max()), "m"),
-        Finding("lowest_m", "lowest place of the tip", float(run.tip[:, 2].min()), "m"),
+        Metric("start_distance_mm", "tip from where it comes to rest, start", 1e3 * away[0], "mm"),
+        Metric("end_distance_mm", "the same, end", 1e3 * float(away[-1]), "mm"),
+        Metric("rest_x_m", "tip at rest: x", float(x), "m"),
+        Metric("rest_z_m", "tip at rest: z", float(z), "m"),
+        Metric("highest_m", "highest place of the tip", float(run.tip[:, 2].max()), "m"),
+        Metric("lowest_m", "lowest place of the tip", float(run.tip[:, 2].min()), "m"),
     ]
     settled = settling_time(run.t, away)
     if settled is not None:
         label = f"within {100 * SETTLED:g} % of the first distance from"
-        found.append(Finding("settling_s", label, settled, "s"))
+        found.append(Metric("settling_s", label, settled, "s"))
     return (
         *found,
-        Finding("dissipated_mJ", "energy taken by damping", 1e3 * loss, "mJ"),
-        Finding("energy_gap", "relative gap of the energy balance", energy_gap(fine), ""),
-        *speed_findings(scenario, run),
+        Metric("dissipated_mJ", "energy taken by damping", 1e3 * loss, "mJ"),
+        Metric("energy_gap", "relative gap of the energy balance", energy_gap(fine), ""),
+        *speed_metrics(scenario, run),
     )
 
 
-def speed_findings(scenario: Scenario, run: Trajectory) -> tuple[Finding, ...]:
+def speed_metrics(scenario: Scenario, run: Trajectory) -> tuple[Metric, ...]:
     """Return how much faster than real time the run is computed, on this machine now."""
     needed = []
     for _ in range(TIMED_RUNS):
@@ -81,4 +81,4 @@ def speed_findings(scenario: Scenario, run: Trajectory) -> tuple[Finding, ...]:
         scenario.simulate(t_end=float(run.t[-1]), num_samples=len(run))
         needed.append(time.perf_counter() - start)
     factor = float(run.t[-1] - run.t[0]) / min(needed)
-    return (Finding("real_time_factor", "times faster than real time, here", factor, ""),)
+    return (Metric("real_time_factor", "times faster than real time, here", factor, ""),)

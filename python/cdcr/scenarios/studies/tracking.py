@@ -14,7 +14,7 @@ from cdcr.motion.reference import Reference
 from cdcr.runs.command import TensionTable
 from cdcr.runs.simulate import simulate
 from cdcr.runs.trajectory import Trajectory
-from cdcr.scenarios.metrics import Finding
+from cdcr.scenarios.metrics import Metric
 
 if TYPE_CHECKING:
     from cdcr.scenarios.scenario import Scenario
@@ -69,7 +69,7 @@ class Sweep(NamedTuple):
         distance: FloatArray = np.linalg.norm(run.q - self.reference(run.t).q, axis=1)
         return distance
 
-    def tell(self, scenario: Scenario, run: Trajectory) -> tuple[Finding, ...]:
+    def summarize(self, scenario: Scenario, run: Trajectory) -> tuple[Metric, ...]:
         """Return the tensions needed, and how well they lead the robot."""
         t_end = float(run.t[-1])
         sampled = self.inverse(run.model, t_end, STEP).tension
@@ -79,14 +79,14 @@ class Sweep(NamedTuple):
             first, last, largest = sampled[0, j], sampled[-1, j], sampled[:, j].max()
             key, cable, peak = f"tension_{j + 1}", f"cable {j + 1}", fine[:, j].max()
             found += [
-                Finding(f"{key}_start", f"{cable}, at t = 0", float(first), "N"),
-                Finding(f"{key}_end", f"{cable}, at the end", float(last), "N"),
-                Finding(f"{key}_max", f"{cable}, largest every {STEP:g} s", float(largest), "N"),
-                Finding(f"{key}_peak", f"{cable}, largest at any time", float(peak), "N"),
+                Metric(f"{key}_start", f"{cable}, at t = 0", float(first), "N"),
+                Metric(f"{key}_end", f"{cable}, at the end", float(last), "N"),
+                Metric(f"{key}_max", f"{cable}, largest every {STEP:g} s", float(largest), "N"),
+                Metric(f"{key}_peak", f"{cable}, largest at any time", float(peak), "N"),
             ]
         coarse, small = self.error(run).max(), self.error(self.fine_run(run)).max()
         return (
             *found,
-            Finding("error_deg", f"path error, every {STEP:g} s", float(np.rad2deg(coarse)), "deg"),
-            Finding("error_fine_rad", f"path error, every {FINE_STEP:g} s", float(small), "rad"),
+            Metric("error_deg", f"path error, every {STEP:g} s", float(np.rad2deg(coarse)), "deg"),
+            Metric("error_fine_rad", f"path error, every {FINE_STEP:g} s", float(small), "rad"),
         )
