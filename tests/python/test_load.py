@@ -30,7 +30,6 @@ def refuses(error: type[Exception], sentence: str) -> Any:
 
 
 def test_tensions_are_newtons_and_commands_what_was_asked(run: cdcr.Trajectory) -> None:
-    assert run.command is not None
     np.testing.assert_array_equal(run.command[:, 6], run.model.rest_command()[6])
     np.testing.assert_array_equal(run.tension[:, :6], run.command[:, :6])
     spring = [

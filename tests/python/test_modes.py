@@ -66,7 +66,7 @@ def test_a_buckled_column_falls_away() -> None:
     assert found.squared_frequency[0] < 0.0
     np.testing.assert_array_equal(found.frequency, [0.0, 0.0])
     assert np.all(np.isfinite(found.shape))
-    assert plot_modes(found).texts[0].get_text() == "mode 1: falls away"
+    assert plot_modes(found).texts[0].get_text() == "mode 1: unstable"
 
 
 def test_refusals(model: cdcr.Model, found: cdcr.Modes) -> None:

@@ -7,7 +7,6 @@ import reprlib
 from collections.abc import Collection, Iterable, Mapping, Set
 from contextlib import suppress
 from dataclasses import fields
-from difflib import get_close_matches
 from numbers import Integral, Real
 from typing import Any
 
@@ -23,6 +22,8 @@ def format_value(value: object) -> str:
 
 def nearest(word: str, known: Iterable[str]) -> str:
     """Return ' Did you mean X?' for the known word most like `word`, or nothing."""
+    from difflib import get_close_matches
+
     close = get_close_matches(word, known, n=1)
     return f" Did you mean {close[0]!r}?" if close else ""
 

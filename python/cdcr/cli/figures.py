@@ -36,26 +36,8 @@ def write_figures(
 ) -> tuple[Path, ...]:
     """Draw every figure of the paper as PNG and SVG, and write the page that shows them.
 
-    The files appear together when all are complete. Needs the extra ``plot``.
-
-    Parameters
-    ----------
-    out : Path
-        The folder; made where missing.
-    overwrite : bool, optional
-        Whether existing files may be replaced.
-    progress : callable, optional
-        Told how many figures are done and the name of the next.
-
-    Returns
-    -------
-    tuple of Path
-        The files written.
-
-    Raises
-    ------
-    FileExistsError
-        If a file exists and ``overwrite`` is false.
+    The files appear together when all are complete. `progress` is told how many figures are done
+    and the name of the next. Needs the extra ``plot``.
     """
     drawn, files = paper_scenarios(), targets(out)
     tell = progress or (lambda done, name: None)

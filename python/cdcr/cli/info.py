@@ -22,7 +22,7 @@ _LABELS = {"youngs_modulus": "Young's modulus", "num_disks": "disks"}
 # Told by the table of cables.
 _OF_CABLES = ("cable_radius", "cable_angles", "cable_stiffness", "cable_damping", "cable_friction")
 _MAX_MODES = 8  # rows, slowest first
-_SAME = 1e-6  # relative; two modes closer than this are told as one
+_SAME = 1e-6  # relative; two modes closer than this are shown as one
 
 
 def print_robot(console: Console, name: str, robot: Robot) -> None:
@@ -149,7 +149,7 @@ def mode_rows(rest: Rest) -> Iterator[tuple[str, str, str, str]]:
             numbers = f"{k + 1} to {end}"
         squared = float(modes.squared_frequency[k])
         if squared < -_SAME * scale:
-            yield numbers, "falls away", "", ""
+            yield numbers, "unstable", "", ""
         elif squared <= _SAME * _SAME * scale:
             yield numbers, "0", "0", ""
         else:

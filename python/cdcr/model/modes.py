@@ -32,7 +32,7 @@ class Modes:
         Natural frequencies of the undamped robot, increasing [rad/s]; 0 where the robot does not
         come back.
     squared_frequency : (2n,) array
-        Their squares [rad^2/s^2], negative in the directions in which the robot falls away.
+        Their squares [rad^2/s^2], negative in the directions in which the robot is unstable.
     shape : (2n, 2n) array
         A mode shape in each column, of unit modal mass: shape.T @ M @ shape = 1.
     damping_ratio : (2n,) array

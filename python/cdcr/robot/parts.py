@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from fractions import Fraction
 from numbers import Integral
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,10 +15,13 @@ from cdcr import _core
 from cdcr.base.check import Check
 from cdcr.robot.section import Section
 
+if TYPE_CHECKING:
+    from fractions import Fraction
+
 Parts = int | Sequence[int] | NDArray[np.integer[Any]]
 
-# A disk this near to a border sits on it: fractions of a part, where rounding reaches 1e-14.
-_ON_BORDER = Fraction(1, 10**12)
+# A disk this near to a border sits on it: a share of a part, where rounding reaches 1e-14.
+_ON_BORDER = 1e-12
 
 
 def part_counts(n: int, parts: Parts) -> list[int]:
@@ -66,6 +68,8 @@ def parts_of(section: Section, count: int) -> list[Section]:
 
 def _disks_of_parts(section: Section, count: int) -> list[dict[str, Any]]:
     """Return the fields of the disks of each part."""
+    from fractions import Fraction
+
     number = section.num_disks
     places = [Fraction(x) for x in section.disk_positions] or [
         Fraction(k, number) for k in range(1, number + 1)
@@ -83,8 +87,8 @@ def _disks_of_parts(section: Section, count: int) -> list[dict[str, Any]]:
 def _disk_fields(section: Section, held: list[tuple[int, Fraction]]) -> dict[str, Any]:
     """Return the fields of disks held at places of a part, plainly where equally spaced."""
     number = len(held)
-    equal = [Fraction(k, number) for k in range(1, number + 1)]
-    positions = () if [place for _, place in held] == equal else [float(x) for _, x in held]
+    equal = [place * number for _, place in held] == list(range(1, number + 1))
+    positions = () if equal else [float(place) for _, place in held]
     return {
         "num_disks": number,
         "disk_positions": positions,

@@ -40,7 +40,7 @@ class Robot:
         Up to 64 cables beside those of the sections, which come first in every command.
     base_orientation : (3, 3) array_like, default identity
         Rotation matrix of the first section in the base frame, in which gravity and all results
-        are told. The straight robot points along its third column.
+        are expressed. The straight robot points along its third column.
     payload_position : sequence of float, default (0, 0, 0)
         Centre of mass of the payload in the frame of the tip [m].
     payload_inertia : (3, 3) array_like, default zero

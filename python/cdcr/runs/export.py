@@ -56,7 +56,7 @@ def quantities(run: Trajectory) -> list[Quantity]:
         Quantity("potential_energy", (), "J", "elastic energy plus weight", run.potential_energy),
         Quantity("energy", (), "J", "total mechanical energy", run.energy),
     ]
-    if run.command is not None and by_length(run.model):
+    if by_length(run.model):
         what = "what was asked of the cable: tension [N], or length [m] where driven by length"
         found += [
             Quantity("command", ("cable",), "N or m", what, run.command),

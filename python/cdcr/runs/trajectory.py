@@ -71,7 +71,7 @@ class Trajectory:
     message: str
     stats: Stats
     method: str = ""
-    command: NDArray[np.float64] | None = None
+    command: NDArray[np.float64] = None  # type: ignore[assignment]  # the tensions
     slack_events: tuple[SlackEvent, ...] = ()
 
     def __post_init__(self) -> None:
@@ -155,14 +155,12 @@ class Trajectory:
     @cached_property
     def cable_energy(self) -> NDArray[np.float64]:
         """Energy in the springs of cables driven by length (N,) [J]; not part of `energy`."""
-        assert self.command is not None
         rows = zip(self.q, self.command, strict=True)
         return _read_only(np.array([self.model.cable_energy(q, u) for q, u in rows]))
 
     @cached_property
     def friction_power(self) -> NDArray[np.float64]:
         """Heat that friction of the cables makes (N,) [W], never negative."""
-        assert self.command is not None
         rows = zip(self.q, self.qd, self.command, strict=True)
         return _read_only(np.array([self.model.friction_power(*row) for row in rows]))
 

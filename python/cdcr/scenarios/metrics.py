@@ -65,7 +65,7 @@ def static_theta(run: Trajectory, wrenches: Sequence[Wrench] = ()) -> FloatArray
     Negative where the run's phi points the other way. None where tensions or wrenches change over
     the run, or where no point of rest is found.
     """
-    command = run.tension if run.command is None else run.command
+    command = run.command
     constant = np.all(command == command[0]) and all(one.profile is None for one in wrenches)
     if not constant:
         return None

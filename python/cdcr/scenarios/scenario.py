@@ -1,4 +1,4 @@
-"""What a scenario is: a robot, what is done to it, and what is told and drawn about it."""
+"""What a scenario is: a robot, what is done to it, its summary and its picture."""
 
 from __future__ import annotations
 

@@ -88,25 +88,12 @@ def _require_order(start: float, end: float) -> None:
 
 
 class TensionShapes:
-    """Tensions of all cables as sums of shapes, never below zero.
+    """Commands of all cables as sums of shapes, never below zero.
 
-    Parameters
-    ----------
-    num_cables : int
-        Number of cables.
-    shapes : iterable of (int, Shape)
-        Index of a cable, and what adds to its tension. A cable without shapes is slack.
-
-    Attributes
-    ----------
-    break_points : tuple of float
-        Times at which the tensions jump or bend, increasing [s].
-
-    Raises
-    ------
-    ValueError
-        Naming the cable (counted from 1), where its shapes add up to less than zero or are not
-        finite.
+    Made of the number of cables, and of pairs: the index of a cable, and what adds to its command.
+    A cable without shapes is slack. `break_points` are the times at which the commands jump or
+    bend, increasing [s]. Where the shapes of a cable add up to less than zero or are not finite,
+    a ValueError names the cable, counted from 1.
     """
 
     integrates = True

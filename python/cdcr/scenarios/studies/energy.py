@@ -70,7 +70,7 @@ def fine_run(scenario: Scenario, run: Trajectory) -> Trajectory:
         run.q[0],
         run.qd[0],
         t=np.append(t[t < end - JUMP_STEP / 2.0], end),
-        tension=run.tension[0],
+        command=run.command[0],
         method=scenario.method,
         rtol=scenario.rtol,
         atol=scenario.atol,

@@ -91,7 +91,6 @@ def balance(run: Trajectory) -> tuple[float, float, float]:
     damping = np.repeat([section.damping for section in sections], 2)
     stiffness = np.array([cable.stiffness for cable in run.model.robot.all_cables])
     length = np.array([run.model.cable_lengths(q) for q in run.q])
-    assert run.command is not None
     spring = stiffness * np.maximum(length - run.command, 0.0)
     stored = [run.model.cable_energy(run.q[k], run.command[k]) for k in (0, -1)]
     gained = float(run.energy[-1] - run.energy[0]) + stored[1] - stored[0]
