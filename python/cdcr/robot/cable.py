@@ -51,7 +51,10 @@ class Cable:
     radius: float = quantity("from backbone to cable", "m", "a number > 0 m and finite")
     angle: float = quantity("about Z, from X", "rad", "a finite number of rad")
     end_section: int = quantity(
-        "index of the section where it ends", "", "the index of a section, from 0", kind="whole"
+        "index of the section where it ends, from 0",
+        "",
+        "the index of a section, from 0",
+        kind="whole",
     )
     stiffness: float = quantity(
         "driven by length", "N/m", "a number >= 0 N/m and finite", default=0.0, advanced=True

@@ -39,15 +39,16 @@ def save_robot(robot: Robot, path: str | PathLike[str], *, overwrite: bool) -> N
 
 def robot_from_table(kind: type[Robot], table: Mapping[str, Any], where: str) -> Robot:
     """Return the robot a TOML table describes; refusals begin with `where` it stands."""
-    from cdcr.robot.schema import CableTable, RobotTable, SectionTable
+    from cdcr.robot.schema import table_of
 
-    refuse(where, schema_errors(RobotTable, table))
+    # mypy asks of a class what it asks of its objects: that they can be hashed.
+    refuse(where, schema_errors(table_of(kind), table))  # type: ignore[arg-type]
     found: list[str] = []
     for i, section in enumerate(table["sections"]):
-        found += schema_errors(SectionTable, section, f"sections[{i}]")
+        found += schema_errors(table_of(Section), section, f"sections[{i}]")
         found += _doubled(section, f"sections[{i}]", "cable_angles")
     for j, cable in enumerate(table.get("cables", [])):
-        found += schema_errors(CableTable, cable, f"cables[{j}]")
+        found += schema_errors(table_of(Cable), cable, f"cables[{j}]")
         found += _doubled(cable, f"cables[{j}]", "angle")
         if not {"angle", "angle_deg"} & cable.keys():
             found.append(f"cables[{j}] must have angle [rad] or angle_deg [deg]")
@@ -89,17 +90,24 @@ def _defaults(kind: type[Robot | Section | Cable]) -> dict[str, Any]:
 
 def robot_text(robot: Robot) -> str:
     """Return the robot as TOML; repr gives every float the digits it needs to come back exactly."""
-    lines = list(_lines(robot))
+    return _HEAD + "\n" + "\n".join(robot_lines(robot)) + "\n"
+
+
+def robot_lines(robot: Robot, *, all_fields: bool = False) -> list[str]:
+    """Return the tables of a robot by lines, also with the advanced fields that say nothing."""
+    lines = list(_lines(robot, all_fields))
     for section in robot.sections:
-        lines += ["", "[[sections]]", *_lines(section)]
+        lines += ["", "[[sections]]", *_lines(section, all_fields)]
     for cable in robot.cables:
-        lines += ["", "[[cables]]", *_lines(cable)]
-    return _HEAD + "\n" + "\n".join(lines) + "\n"
+        lines += ["", "[[cables]]", *_lines(cable, all_fields)]
+    return lines
 
 
-def _lines(thing: Robot | Section | Cable) -> Iterator[str]:
+def _lines(thing: Robot | Section | Cable, all_fields: bool) -> Iterator[str]:
     """Yield 'key = value  # about [unit]' with the comments in one column."""
-    written = {item.name: item.metadata for item in fields(thing) if _is_written(thing, item)}
+    written = {
+        item.name: item.metadata for item in fields(thing) if _is_written(thing, item, all_fields)
+    }
     pairs = {name: f"{name} = {_toml_value(getattr(thing, name))}" for name in written}
     short = [len(pair) for pair in pairs.values() if len(pair) <= 40]
     for name, pair in pairs.items():
@@ -108,14 +116,16 @@ def _lines(thing: Robot | Section | Cable) -> Iterator[str]:
         yield f"{pair:<{max(short, default=0)}}  # {comment}"
 
 
-def _is_written(thing: Robot | Section | Cable, item: Field[Any]) -> bool:
+def _is_written(thing: Robot | Section | Cable, item: Field[Any], all_fields: bool) -> bool:
     """Whether a field has a line: sections and cables are tables, and positions are a number."""
     if item.name in ("sections", "cables"):
         return False
     if item.name == "num_disks" and isinstance(thing, Section) and thing.disk_positions:
         return False
+    if all_fields or not item.metadata["advanced"]:
+        return True
     # repr tells -0.0 from 0.0, which are equal.
-    return not item.metadata["advanced"] or repr(getattr(thing, item.name)) != repr(item.default)
+    return repr(getattr(thing, item.name)) != repr(item.default)
 
 
 def _toml_value(value: object) -> str:

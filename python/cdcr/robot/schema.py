@@ -1,80 +1,62 @@
-"""What a robot file may hold: keys and types. Ranges are checked by the C++ library."""
+"""What a robot file may hold: keys and types, from the fields of the descriptions.
+
+Ranges are checked by the C++ library.
+"""
 
 from __future__ import annotations
 
-from dataclasses import fields
+import re
+from collections.abc import Iterator
+from dataclasses import MISSING, Field, fields
+from functools import cache
 from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field
+import pydantic
 
-from cdcr.robot.cable import Cable
-from cdcr.robot.section import Section
-
-
-def _requirements(kind: type[Section | Cable]) -> dict[str, str]:
-    return {item.name: item.metadata["requirement"] for item in fields(kind)}
-
-
-_SECTION, _CABLE = _requirements(Section), _requirements(Cable)
-
-_Int = Annotated[int, Field(ge=-(2**31), lt=2**31)]  # what the core can be told
-_Three = Annotated[list[float], Field(min_length=3, max_length=3)]
-_Rows = Annotated[list[_Three], Field(min_length=3, max_length=3)]
+_Int = Annotated[int, pydantic.Field(ge=-(2**31), lt=2**31)]  # what the core can be told
+_Three = Annotated[list[float], pydantic.Field(min_length=3, max_length=3)]
+_Rows = Annotated[list[_Three], pydantic.Field(min_length=3, max_length=3)]
+_TYPES: dict[str, Any] = {
+    "number": float,
+    "number or none": float,
+    "whole": _Int,
+    "numbers": list[float],
+    "vector": _Three,
+    "matrix": _Rows,
+}
 
 
-def _optional(requirement: str) -> Any:
-    """Return a key that may be left out; the default of its description then holds."""
-    return Field(default=None, description=requirement)
+@cache
+def table_of(kind: type[Any]) -> type[pydantic.BaseModel]:
+    """Return what the table of a Robot, a Section or a Cable may hold.
+
+    A key may be left out where the field has a default, which then holds. Angles may be in degrees,
+    under keys that say so.
+    """
+    keys = {key: value for item in fields(kind) for key, value in _keys(item)}
+    config = pydantic.ConfigDict(extra="forbid", strict=True)
+    return pydantic.create_model(f"{kind.__name__}Table", __config__=config, **keys)
 
 
-class SectionTable(BaseModel):
-    """A [[sections]] table."""
-
-    model_config = ConfigDict(extra="forbid", strict=True)
-
-    length: float = Field(description=_SECTION["length"])
-    backbone_mass: float = Field(description=_SECTION["backbone_mass"])
-    backbone_diameter: float = Field(description=_SECTION["backbone_diameter"])
-    youngs_modulus: float = Field(description=_SECTION["youngs_modulus"])
-    disk_mass: float = _optional(_SECTION["disk_mass"])
-    disk_diameter: float = _optional(_SECTION["disk_diameter"])
-    num_disks: _Int = _optional(_SECTION["num_disks"])
-    disk_positions: list[float] = _optional("an array of 0 to 64 numbers 0 to 1")
-    disk_masses: list[float] = _optional("an array of 0 to 64 numbers [kg]")
-    disk_diameters: list[float] = _optional("an array of 0 to 64 numbers [m]")
-    cable_radius: float = _optional(_SECTION["cable_radius"])
-    cable_angles: list[float] = _optional("an array of 0 to 16 numbers [rad]")
-    cable_angles_deg: list[float] = _optional("an array of 0 to 16 numbers [deg]")
-    cable_stiffness: float = _optional(_SECTION["cable_stiffness"])
-    cable_damping: float = _optional(_SECTION["cable_damping"])
-    cable_friction: float = _optional(_SECTION["cable_friction"])
-    damping: float = _optional(_SECTION["damping"])
+def _keys(item: Field[Any]) -> Iterator[tuple[str, Any]]:
+    kind, unit = item.metadata["kind"], item.metadata["unit"]
+    given = ... if item.default is MISSING and unit != "rad" else None
+    if isinstance(kind, type):
+        table = f"one [[{item.name}]] table for each {item.name.removesuffix('s')}"
+        yield item.name, (list[dict[str, Any]], pydantic.Field(given, description=table))
+        return
+    for suffix, name in (("", unit), ("_deg", "deg")) if unit == "rad" else (("", unit),):
+        about = pydantic.Field(given, description=_requirement(item, name))
+        yield f"{item.name}{suffix}", (_TYPES[kind], about)
 
 
-class CableTable(BaseModel):
-    """A [[cables]] table."""
-
-    model_config = ConfigDict(extra="forbid", strict=True)
-
-    radius: float = Field(description=_CABLE["radius"])
-    angle: float = _optional("a finite number [rad]")
-    angle_deg: float = _optional("a finite number [deg]")
-    end_section: _Int = Field(description=_CABLE["end_section"])
-    stiffness: float = _optional(_CABLE["stiffness"])
-    damping: float = _optional(_CABLE["damping"])
-    friction: float = _optional("a number >= 0 and finite")
-
-
-class RobotTable(BaseModel):
-    """A robot file, or a [robot] table in a scenario file."""
-
-    model_config = ConfigDict(extra="forbid", strict=True)
-
-    gravity: _Three = _optional("an array of 3 numbers [m/s^2]")
-    payload: float = _optional("a number >= 0 kg and finite")
-    base_orientation: _Rows = _optional("an array of 3 rows of 3 numbers")
-    payload_position: _Three = _optional("an array of 3 numbers [m]")
-    payload_inertia: _Rows = _optional("an array of 3 rows of 3 numbers [kg m^2]")
-    sliding_speed: float = _optional("a number > 0 m/s and finite")
-    sections: list[dict[str, Any]] = Field(description="one [[sections]] table for each section")
-    cables: list[dict[str, Any]] = _optional("one [[cables]] table for each cable")
+def _requirement(item: Field[Any], unit: str) -> str:
+    """Return what a value must be, in the words of TOML."""
+    if item.metadata["kind"] in ("vector", "matrix"):
+        rows = "3 rows of " if item.metadata["kind"] == "matrix" else ""
+        return f"an array of {rows}3 numbers" + (f" [{unit}]" if unit else "")
+    words = str(item.metadata["requirement"]).removesuffix(", or None")
+    # "numbers in kg" and "a number of rad" are "numbers [kg]" and "a number [rad]" there.
+    return re.sub(r"(numbers?) (in|of) \S+$", rf"\1 [{unit}]", words).replace(
+        "a sequence", "an array"
+    )

@@ -3,7 +3,36 @@
 Sentences begin with ``# ``; what can be switched on begins with ``#`` alone.
 """
 
-TEMPLATE = """\
+from __future__ import annotations
+
+from cdcr.robot.cable import Cable
+from cdcr.robot.file import robot_lines
+from cdcr.robot.robot import Robot
+from cdcr.robot.section import Section
+
+
+def _robot() -> str:
+    """Return a robot with every field there is, switched off."""
+    section = Section(
+        length=0.8,
+        backbone_mass=0.03,
+        backbone_diameter=0.005,
+        youngs_modulus=9.5e9,
+        disk_mass=0.01,
+        disk_diameter=0.08,
+        num_disks=10,
+        cable_radius=0.035,
+        cable_angles=(0.0, 2.0),
+        damping=1e-3,
+    )
+    cable = Cable(radius=0.035, angle=4.0, end_section=0, friction=0.0)
+    lines = robot_lines(Robot(sections=[section], cables=[cable]), all_fields=True)
+    text = "".join(f"#{line}\n" for line in ["[robot]", *lines] if line)
+    return text.replace("#[[", "#[[robot.")
+
+
+TEMPLATE = (
+    """\
 # A scenario for `cdcr run`. SI units; angles in rad, or in deg where a name ends in _deg.
 # Cables and sections are counted from 1. To switch a line on, take away the # before it.
 # Everything that is switched off shows its default, unless it is an example.
@@ -49,39 +78,11 @@ tension = [5.0, 0.0, 0.0]
 #[initial]
 #q = [0.785, 0.0]                # [rad]; example
 
-# The robot in this file, in place of its name above; the fields of a robot file.
-#[robot]
-#gravity = [0.0, 0.0, 0.0]       # [m/s^2]
-#payload = 0.0                   # at the tip [kg]
-#payload_position = [0.0, 0.0, 0.0]  # its centre of mass, in the tip frame [m]
-#payload_inertia = [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]  # about it [kg m^2]
-#base_orientation = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]  # rotation, by rows
-#sliding_speed = 1e-3            # of a cable, for friction [m/s]
-#[[robot.sections]]              # one for each section, base to tip; example
-#length = 0.8                    # [m]
-#backbone_mass = 0.03            # [kg]
-#backbone_diameter = 0.005       # [m]
-#youngs_modulus = 9.5e9          # [Pa]
-#disk_mass = 0.01                # of each disk [kg]
-#disk_diameter = 0.08            # [m]
-#num_disks = 10                  # equally spaced, the last at the end
-#disk_positions = []             # or where they are, fractions of the length
-#disk_masses = []                # one for each disk, in place of disk_mass [kg]
-#disk_diameters = []             # one for each disk, in place of disk_diameter [m]
-#cable_radius = 0.035            # of the circle of cables [m]
-#cable_angles_deg = [0.0, 120.0] # or cable_angles [rad]
-#cable_stiffness = 0.0           # [N/m]; above 0 the cables are driven by length
-#cable_damping = 0.0             # of that drive [N s/m]
-#cable_friction = 0.0            # coefficient in the holes of this section
-#damping = 1e-3                  # against bending [N m s/rad]
-#[[robot.cables]]                # one for each further cable, after those of the sections; example
-#radius = 0.035                  # [m]
-#angle_deg = 240.0               # or angle [rad]
-#end_section = 0                 # index of the section where it ends, from 0
-#stiffness = 0.0                 # [N/m]; above 0 it is driven by length
-#damping = 0.0                   # of that drive [N s/m]
-#friction = 0.0                  # coefficient in all its holes, in place of cable_friction
-
+# The robot in this file, in place of its name above; the fields of a robot file, all values an
+# example. Instead of angles in rad, cable_angles_deg and angle_deg may be given.
+"""
+    + _robot()
+    + """
 # Forces and moments on the backbone, any number of tables, beside whatever moves the robot. With
 # times and factors they change in size; they are constant without.
 #[[wrenches]]                    # example
@@ -202,3 +203,4 @@ tension = [5.0, 0.0, 0.0]
 #theta_deg = [15.0]              # of each section; or theta [rad], or q as in [initial]; example
 #phi_deg = [60.0]                # or phi [rad]; example
 """
+)
