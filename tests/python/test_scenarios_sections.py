@@ -33,7 +33,6 @@ def test_they_run_to_the_end_and_are_none_of_the_papers(name: str) -> None:
     assert scenario.paper_figure is None
     assert len(scenario.robot.sections) == 3
     assert all(math.isfinite(value) for value in found.values())
-    assert found["real_time_factor"] > 1.0
 
 
 @pytest.mark.parametrize("name", NAMES)

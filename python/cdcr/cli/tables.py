@@ -56,6 +56,8 @@ def print_report(console: Console, report: Report) -> None:
         for name in STATS:
             table.add_row(name.replace("_", " "), str(getattr(run.stats, name)), "")
         table.add_row("wall time of the integration", f"{1e3 * report.wall_time:.3g}", "ms")
+        speed = float(run.t[-1] - run.t[0]) / report.wall_time
+        table.add_row("times faster than real time", f"{speed:.3g}", "")
     console.print(table)
     for path in report.files:
         console.print(Text(f"wrote {path}"), soft_wrap=True)

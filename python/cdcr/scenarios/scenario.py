@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
@@ -130,7 +131,7 @@ class Scenario:
         """Whether anything runs in it; else it is a picture of the model alone."""
         return self.t_end > 0.0
 
-    @property
+    @cached_property
     def model(self) -> Model:
         """Its robot, ready for computing."""
         return Model(self.robot, formulation=self.formulation)

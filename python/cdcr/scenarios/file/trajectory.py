@@ -167,11 +167,11 @@ _SAMPLED = {"q", "theta", "theta_deg", "phi", "phi_deg"}
 
 def _rows(table: dict[str, Any], key: str, num_sections: int, file: Path) -> list[list[float]]:
     """Return the rows of a key; for one section they may be numbers."""
-    requirement = num_sections * (2 if key == "q" else 1)
+    length = num_sections * (2 if key == "q" else 1)
     rows = [row if isinstance(row, list) else [row] for row in table[key]]
     for i, row in enumerate(rows):
-        if len(row) != requirement:
-            must = f"must have {count(requirement, 'number')} for this robot"
+        if len(row) != length:
+            must = f"must have {count(length, 'number')} for this robot"
             refuse(str(file), [f"{AT}.{key}[{i}] {must}, got {format_toml(table[key][i])}"])
     return rows
 

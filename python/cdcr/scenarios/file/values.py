@@ -45,10 +45,10 @@ def length_errors(table: Mapping[str, Any], num_sections: int, at: str) -> list[
     """Return a sentence for each array that does not fit the number of sections."""
     found = []
     for key, value in table.items():
-        requirement = num_sections * (2 if key in ("q", "qd") else 1)
-        if len(value) != requirement:
+        length = num_sections * (2 if key in ("q", "qd") else 1)
+        if len(value) != length:
             found.append(
-                f"{at}.{key} must have {count(requirement, 'number')} for a robot with "
+                f"{at}.{key} must have {count(length, 'number')} for a robot with "
                 f"{count(num_sections, 'section')}, got {format_toml(value)}"
             )
     return found

@@ -13,7 +13,7 @@ from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.metrics import Metric
 from cdcr.scenarios.scenario import Scenario
 from cdcr.scenarios.studies.energy import energy_gap
-from cdcr.scenarios.studies.sections import HANGING, speed_metrics
+from cdcr.scenarios.studies.sections import HANGING
 from cdcr.scenarios.studies.three_sections import (
     BENT,
     DAMPING,
@@ -48,7 +48,7 @@ def _summarize(scenario: Scenario, run: Trajectory) -> tuple[Metric, ...]:
             name, label = f"{key}_alone_{i + 1}_deg", f"its cables alone would bend section {i + 1}"
             found.append(Metric(name, f"{at}: {label} by", float(angles[i]), "deg"))
     gap = Metric("energy_gap", "relative gap of the energy balance", energy_gap(run), "")
-    return (*found, gap, *speed_metrics(scenario, run))
+    return (*found, gap)
 
 
 def _plot(scenario: Scenario, run: Trajectory) -> Figure:

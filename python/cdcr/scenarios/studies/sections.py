@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -25,7 +24,6 @@ HANGING: Rotation = ((1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, -1.0))
 HORIZONTAL: Rotation = ((0.0, 0.0, 1.0), (0.0, -1.0, 0.0), (1.0, 0.0, 0.0))
 
 SETTLED = 0.02  # share of the first distance
-TIMED_RUNS = 3  # of which the quickest tells the speed
 
 
 def holding(model: Model, q: Array) -> Array:
@@ -69,16 +67,4 @@ def release_metrics(scenario: Scenario, run: Trajectory, rest: Array) -> tuple[M
         *found,
         Metric("dissipated_mJ", "energy taken by damping", 1e3 * loss, "mJ"),
         Metric("energy_gap", "relative gap of the energy balance", energy_gap(fine), ""),
-        *speed_metrics(scenario, run),
     )
-
-
-def speed_metrics(scenario: Scenario, run: Trajectory) -> tuple[Metric, ...]:
-    """Return how much faster than real time the run is computed, on this machine now."""
-    needed = []
-    for _ in range(TIMED_RUNS):
-        start = time.perf_counter()
-        scenario.simulate(t_end=float(run.t[-1]), num_samples=len(run))
-        needed.append(time.perf_counter() - start)
-    factor = float(run.t[-1] - run.t[0]) / min(needed)
-    return (Metric("real_time_factor", "times faster than real time, here", factor, ""),)
