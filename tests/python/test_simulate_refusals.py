@@ -176,3 +176,7 @@ def test_tension_and_controller(model: cdcr.Model) -> None:
         run(model, tension=[1.0, 0.0, 0.0], controller=pid)
     with refuses("give either tension or controller, not both"):
         run(model, controller=pid, break_points=[0.1])
+    with refuses("give either command or controller, not both"):
+        run(model, command=[1.0, 0.0, 0.0], controller=pid)
+    with refuses("give either tension or command, two names for one thing, not both"):
+        run(model, tension=[1.0, 0.0, 0.0], command=[1.0, 0.0, 0.0])
