@@ -13,11 +13,15 @@
 namespace cdcr::test {
 namespace {
 
-using Group = detail::ShapeTable::Group;
+enum class Group { inertia, gravity, second };
 using Four = Eigen::Matrix<Real, 4, 1>;
 
 Four read(const Model& model, Group group, double sigma) {
-  const auto values = detail::single_of(model).table(group, sigma);
+  const auto& table = detail::single_of(model).table;
+  const auto values = detail::ShapeTable::read(group == Group::inertia   ? table.inertia
+                                               : group == Group::gravity ? table.gravity
+                                                                         : table.second,
+                                               sigma);
   return Four(values[0], values[1], values[2], values[3]);
 }
 

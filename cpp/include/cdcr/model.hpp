@@ -86,7 +86,8 @@ class Data {
   explicit Data(const Model& model);
   Data(const Data& other);
   Data(Data&& other) noexcept;
-  Data& operator=(Data other) noexcept;
+  Data& operator=(const Data& other);
+  Data& operator=(Data&& other) noexcept;
   ~Data();
 
   VectorXd force;  ///< generalised force (num_coordinates) [N m]

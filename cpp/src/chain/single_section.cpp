@@ -5,7 +5,6 @@ namespace {
 
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
-using Group = ShapeTable::Group;
 using Values = ShapeTable::Values;
 
 /// M^-1 X for M = a I + b q q^T.
@@ -18,7 +17,7 @@ Matrix2d solve_mass(double a, double b, const Vector2d& q, const Matrix2d& X) no
 
 void mass_matrix(const SingleSection& section, const ConstVectorRef& q, MatrixRef M) noexcept {
   const double x = q[0], y = q[1];
-  const Values v = section.table(Group::inertia, x * x + y * y);
+  const Values v = ShapeTable::read(section.table.inertia, x * x + y * y);
   M(0, 0) = v[0] + v[1] * x * x;
   M(0, 1) = M(1, 0) = v[1] * x * y;
   M(1, 1) = v[0] + v[1] * y * y;
@@ -27,7 +26,7 @@ void mass_matrix(const SingleSection& section, const ConstVectorRef& q, MatrixRe
 void bias(const SingleSection& section, const ConstVectorRef& q, const ConstVectorRef& qd,
           VectorRef h) noexcept {
   const double x = q[0], y = q[1];
-  const Values v = section.table(Group::inertia, x * x + y * y);
+  const Values v = ShapeTable::read(section.table.inertia, x * x + y * y);
   section_bias(section, v, x, y, qd[0], qd[1], h[0], h[1]);
 }
 
@@ -35,7 +34,7 @@ void inverse_dynamics(const SingleSection& section, const ConstVectorRef& q,
                       const ConstVectorRef& qd, const ConstVectorRef& qdd,
                       VectorRef force) noexcept {
   const double x = q[0], y = q[1];
-  const Values v = section.table(Group::inertia, x * x + y * y);
+  const Values v = ShapeTable::read(section.table.inertia, x * x + y * y);
   double h_x = 0.0, h_y = 0.0;
   section_bias(section, v, x, y, qd[0], qd[1], h_x, h_y);
   const double q_a = v[1] * (x * qdd[0] + y * qdd[1]);
@@ -45,14 +44,14 @@ void inverse_dynamics(const SingleSection& section, const ConstVectorRef& q,
 
 double kinetic_energy(const SingleSection& section, const ConstVectorRef& q,
                       const ConstVectorRef& qd) noexcept {
-  const Values v = section.table(Group::inertia, q.squaredNorm());
+  const Values v = ShapeTable::read(section.table.inertia, q.squaredNorm());
   const double p = q.dot(qd);
   return 0.5 * (v[0] * qd.squaredNorm() + v[1] * p * p);
 }
 
 double potential_energy(const SingleSection& section, const ConstVectorRef& q) noexcept {
   const double sigma = q.squaredNorm();
-  const Values v = section.table(Group::gravity, sigma);
+  const Values v = ShapeTable::read(section.table.gravity, sigma);
   const Vector3d& g = section.gravity;
   const double l = section.length;
   return 0.5 * section.stiffness * sigma - l * (g.head<2>().dot(q) * v[0] + g[2] * v[1]);
@@ -69,8 +68,8 @@ void potential_gradient(const SingleSection& section, const ConstVectorRef& q,
 void potential_hessian(const SingleSection& section, const ConstVectorRef& q,
                        MatrixRef H) noexcept {
   const double x = q[0], y = q[1], sigma = x * x + y * y;
-  const auto [G_A, G_S, dG_A, dG_S] = section.table(Group::gravity, sigma);
-  const auto second = section.table(Group::second, sigma);
+  const auto [G_A, G_S, dG_A, dG_S] = ShapeTable::read(section.table.gravity, sigma);
+  const auto second = ShapeTable::read(section.table.second, sigma);
   const Vector3d& g = section.gravity;
   const double l = section.length;
   const double g_q = g[0] * x + g[1] * y;
@@ -90,8 +89,8 @@ void acceleration_jacobians(const SingleSection& section, const ConstVectorRef& 
   forward_dynamics(section, q_in.data(), qd_in.data(), force.data(), qdd.data());
 
   const double sigma = q.squaredNorm();
-  const auto [a, b, da, db] = section.table(Group::inertia, sigma);
-  const auto second = section.table(Group::second, sigma);
+  const auto [a, b, da, db] = ShapeTable::read(section.table.inertia, sigma);
+  const auto second = ShapeTable::read(section.table.second, sigma);
   const double dda = second[0], ddb = second[1];
   const double p = q.dot(qd), w = qd.squaredNorm(), q_qdd = q.dot(qdd);
   const Matrix2d identity = Matrix2d::Identity();
@@ -116,7 +115,7 @@ void acceleration_jacobians(const SingleSection& section, const ConstVectorRef& 
 void solve_mass(const SingleSection& section, const ConstVectorRef& q, const MatrixXd& rows,
                 MatrixRef solution) noexcept {
   const Vector2d bending = q;
-  const auto inertia = section.table(Group::inertia, bending.squaredNorm());
+  const auto inertia = ShapeTable::read(section.table.inertia, bending.squaredNorm());
   const Matrix2d inverse = solve_mass(inertia[0], inertia[1], bending, Matrix2d::Identity());
   for (Index j = 0; j < rows.cols(); ++j) {
     solution.col(j).noalias() = inverse * rows.col(j).head<2>();

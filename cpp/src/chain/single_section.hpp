@@ -22,7 +22,7 @@ namespace closed_form {
 /// Adds the weight's part of dU/dq = -l [g_xy G_A + 2 (g_xy.q) G_A' q + 2 g_z G_S' q], eq. (15).
 inline void add_weight(const SingleSection& section, double x, double y, double sigma,
                        double& out_x, double& out_y) noexcept {
-  const auto [G_A, G_S, dG_A, dG_S] = section.table(ShapeTable::Group::gravity, sigma);
+  const auto [G_A, G_S, dG_A, dG_S] = ShapeTable::read(section.table.gravity, sigma);
   const Vector3d& g = section.gravity;
   const double l = section.length;
   const double along_q = 2.0 * ((g[0] * x + g[1] * y) * dG_A + g[2] * dG_S);
@@ -48,7 +48,7 @@ inline void forward_dynamics(const SingleSection& section, const double* q, cons
                              const double* force, double* qdd) noexcept {
   const double x = q[0], y = q[1];
   const double sigma = x * x + y * y;
-  const auto v = section.table(ShapeTable::Group::inertia, sigma);
+  const auto v = ShapeTable::read(section.table.inertia, sigma);
   double h_x = 0.0, h_y = 0.0;
   section_bias(section, v, x, y, qd[0], qd[1], h_x, h_y);
   const double r_x = force[0] - h_x, r_y = force[1] - h_y;

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "dynamics/kept.hpp"
-#include "section/series.hpp"
+#include "section/inertia_series.hpp"
 
 namespace cdcr {
 
@@ -113,11 +113,11 @@ Data::Data(const Model& model)
 Data::Data(const Data& other)
     : force(other.force), kept_(other.kept_ ? std::make_unique<Kept>(*other.kept_) : nullptr) {}
 Data::Data(Data&& other) noexcept = default;
-Data& Data::operator=(Data other) noexcept {
-  force.swap(other.force);
-  kept_.swap(other.kept_);
+Data& Data::operator=(const Data& other) {
+  if (this != &other) *this = Data(other);
   return *this;
 }
+Data& Data::operator=(Data&& other) noexcept = default;
 Data::~Data() = default;
 
 }  // namespace cdcr

@@ -18,8 +18,9 @@ namespace detail {
 [[nodiscard]] inline const Chain& chain_of(const Model& model) noexcept {
   return model.parts()->chain;
 }
+/// For models with has_closed_form() alone.
 [[nodiscard]] inline const SingleSection& single_of(const Model& model) noexcept {
-  return *model.parts()->single;
+  return *model.parts()->single;  // NOLINT(bugprone-unchecked-optional-access)
 }
 
 }  // namespace detail

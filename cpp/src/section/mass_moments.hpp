@@ -5,23 +5,20 @@
 
 namespace cdcr::detail {
 
-/// Terms kept of each power series: (2 y)^(2k)/(2k)! at y = 3 pi falls below 1e-21 at k = 45.
-inline constexpr int num_terms = 46;
-
 /// mu(p) = sum over a section's elements of (weight of the element) x^p, for all p needed.
-class Moments {
+class MassMoments {
  public:
   /// sum m x^p, `tip` being a mass at x = 1.
-  static Moments of_mass(const Section& s, long double tip) {
-    Moments moments(s.backbone_mass, tip);
+  static MassMoments of_mass(const Section& s, long double tip) {
+    MassMoments moments(s.backbone_mass, tip);
     moments.add_disks(s, [](const Disk& disk) -> long double { return disk.mass; });
     return moments;
   }
 
   /// sum I_t x^p of disks and of slices of the backbone, m d^2/16 each; I_a = 2 I_t for both.
-  static Moments of_inertia(const Section& s) {
+  static MassMoments of_inertia(const Section& s) {
     const long double d = s.backbone_diameter;
-    Moments moments(s.backbone_mass * d * d / 16.0L, 0.0L);
+    MassMoments moments(s.backbone_mass * d * d / 16.0L, 0.0L);
     moments.add_disks(s, [](const Disk& disk) {
       return static_cast<long double>(disk.mass) * disk.diameter * disk.diameter / 16.0L;
     });
@@ -31,7 +28,7 @@ class Moments {
   [[nodiscard]] long double operator()(int p) const { return sums_[p]; }
 
  private:
-  Moments(long double rod, long double tip) {
+  MassMoments(long double rod, long double tip) {
     for (int p = 0; p < 2 * num_terms + 8; ++p) sums_.push_back(rod / (p + 1) + tip);
   }
   template <class Weight>

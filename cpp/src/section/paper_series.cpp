@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "cdcr/formulation.hpp"
-#include "section/series.hpp"
+#include "section/inertia_series.hpp"
 
 namespace cdcr {
 
@@ -31,11 +31,6 @@ namespace detail {
 namespace {
 
 constexpr long double pi = 3.14159265358979323846264338327950288L;
-
-void add(Series& sum, const Series& term, long double factor) {
-  if (sum.size() < term.size()) sum.resize(term.size(), 0.0L);
-  for (std::size_t j = 0; j < term.size(); ++j) sum[j] += factor * term[j];
-}
 
 /// sin^2(y)/theta^2 for one element, the summand of H4 and H8 over theta^2, added to a series.
 void add_turning(Series& sum, long double x, long double weight) {
@@ -96,8 +91,8 @@ SectionSeries printed_series(const Section& s, double payload) {
   disks.disk_diameter = 0.0;
   SectionSeries series = exact_series(rod, payload);
   const SectionSeries translation = exact_series(disks, 0.0);
-  add(series.a, translation.a, 0.5L);
-  add(series.b, translation.b, 0.5L);
+  series.a = series.a + 0.5L * translation.a;
+  series.b = series.b + 0.5L * translation.b;
 
   // Rotation: M22/sigma gets H4/theta^2 and H8/theta^2, M11 gets H3 and H7.
   const long double d = s.backbone_diameter;
@@ -112,7 +107,7 @@ SectionSeries printed_series(const Section& s, double payload) {
     add_turning(turning, x, disk_inertia);
     add_dropped_chain_rule(dropped, x, disk_inertia);
   }
-  add(series.a, turning, 1.0L);
+  series.a = series.a + turning;
   // b = (M11 - a)/sigma; the constants cancel, both being sum of I x^2.
   for (std::size_t j = 0; j + 1 < dropped.size(); ++j) {
     series.b[j] += dropped[j + 1] - turning[j + 1];

@@ -1,30 +1,34 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
-
-#include "cdcr/robot.hpp"
 
 namespace cdcr::detail {
 
-/// Coefficients of sigma^0, sigma^1, ...; extended precision because re-centring cancels digits.
+/// A power series, coefficients of s^0, s^1, ...; extended precision because re-centring cancels
+/// digits.
 using Series = std::vector<long double>;
 
-/// The four functions of sigma = theta^2 that hold all of one section's inertia and weight
-/// (cpp/README.md, eqs. (9), (10), (13), (14)).
-struct SectionSeries {
-  Series a;    ///< M = a I + b q q^T [kg m^2]
-  Series b;    ///< [kg m^2]
-  Series G_A;  ///< sum m x^2 A(x theta) [kg]
-  Series G_S;  ///< sum m x S(x theta) [kg]
-};
+/// Terms kept of each power series: (2 y)^(2k)/(2k)! at y = 3 pi falls below 1e-21 at k = 45.
+inline constexpr int num_terms = 46;
 
-/// Power series about the straight section, exact up to the last term kept.
-[[nodiscard]] SectionSeries exact_series(const Section& section, double payload);
+/// sum over j of (-s)^j / (2j + offset)!: cos y, S, A, G of y^2 = s for offsets 0 to 3.
+[[nodiscard]] Series even_function(int offset);
+[[nodiscard]] Series constant(long double value);
 
-/// The paper's factors as printed, made consistent (paper_series.cpp).
-[[nodiscard]] SectionSeries printed_series(const Section& section, double payload);
+/// As many terms as f has.
+[[nodiscard]] Series operator*(const Series& f, const Series& g);
+[[nodiscard]] Series operator*(long double factor, Series f);
+[[nodiscard]] Series operator+(Series f, const Series& g);
+[[nodiscard]] Series operator-(const Series& f, const Series& g);
+/// s f, and f/s for an f without constant term.
+[[nodiscard]] Series times_argument(Series f);
+[[nodiscard]] Series over_argument(Series f);
+/// df/dx of a series in s = x/unit, the last coefficient zero.
+[[nodiscard]] Series derivative(const Series& f, long double unit = 1.0L);
 
-/// M11 and M22 cut after theta^4; weight is left whole.
-[[nodiscard]] SectionSeries cut_after_fourth_power(SectionSeries series);
+/// Coefficients in t of f(centre + half_width t): as many as are kept.
+[[nodiscard]] Series recentred(Series f, long double centre, long double half_width,
+                               std::size_t kept);
 
 }  // namespace cdcr::detail

@@ -1,30 +1,35 @@
 #pragma once
 
 #include <array>
-#include <vector>
+
+#include "section/inertia_series.hpp"
+#include "section/polynomial_table.hpp"
 
 namespace cdcr::detail {
 
-struct SectionSeries;
-
-/// The functions a, b, G_A, G_S of sigma = theta^2 and their derivatives as piecewise
-/// polynomials, one piece for each pi^2 of sigma, fixed at construction. Reading them costs a few
-/// dozen multiply-adds, no trigonometric function and no sum over disks. Not part of the public
-/// interface; Model owns one for each section.
-class ShapeTable {
- public:
-  /// Four functions that are read together.
-  enum class Group { inertia, gravity, second };
+/// The functions a, b, G_A, G_S of sigma = theta^2 and their derivatives, four that are read
+/// together in each table: eq. (21).
+struct ShapeTable {
   using Values = std::array<double, 4>;
 
-  explicit ShapeTable(const SectionSeries& series);
+  explicit ShapeTable(const SectionSeries& s)
+      : inertia({s.a, s.b, {}, {}}, {{2, 0}, {3, 1}}),
+        gravity({s.G_A, s.G_S, {}, {}}, {{2, 0}, {3, 1}}),
+        second({twice(s.a), twice(s.b), twice(s.G_A), twice(s.G_S)}, {}) {}
 
-  /// inertia: a, b, a', b'.  gravity: G_A, G_S, G_A', G_S'.  second: a'', b'', G_A'', G_S''.
-  /// ' is d/d sigma. NaN beyond the largest bending angle and for NaN. Real-time safe.
-  [[nodiscard]] Values operator()(Group group, double sigma) const noexcept;
+  /// NaN beyond the largest bending angle and for NaN. Real-time safe.
+  [[nodiscard]] static Values read(const PolynomialTable<4>& table, double sigma) noexcept {
+    Eigen::Array<double, 4, 1> f;
+    table(sigma, f);
+    return {f[0], f[1], f[2], f[3]};
+  }
+
+  PolynomialTable<4> inertia;  ///< a, b, a', b'; ' is d/d sigma
+  PolynomialTable<4> gravity;  ///< G_A, G_S, G_A', G_S'
+  PolynomialTable<4> second;   ///< a'', b'', G_A'', G_S''
 
  private:
-  std::vector<double> coefficients_;  // [piece][group][power][function]
+  static Series twice(const Series& f) { return derivative(derivative(f)); }
 };
 
 }  // namespace cdcr::detail

@@ -1,92 +1,70 @@
-// From the elements of a section to the power series of everything it adds to a chain.
+// The derivation in one place: from the elements of a section to the power series of everything it
+// adds to a robot.
 //
-// An element at fraction x has mass m, transverse inertia I and axial inertia 2 I. With
-// y = x theta its place is r = l x^2 A q + l x S z, its tangent t = x S q + cos(y) z, and it turns
-// at  omega = x z x qd + x^2 A c z + x^3 G c q,  c = (q x qd).z,  beside the section's base. Then
-// (cpp/several-sections.md eqs. (26) to (28)), with ' = d/d(y^2):
+// An element at fraction x of the length has mass m, transverse inertia I and axial inertia 2 I (a
+// thin disk). With y = x theta its place is r = l x^2 A q + l x S z, its tangent
+// t = x S q + cos(y) z, and it turns at  omega = x z x qd + x^2 A c z + x^3 G c q,
+// c = (q x qd).z,  beside the section's base. cos y, S, A, G are power series in y^2 = x^2 sigma,
+// so every sum over elements touches only the moments sum m x^p.
+//
+// Alone on a fixed base, with the planar speed D = |d r/d theta|^2/(l^2 x^4) (cpp/README.md):
+//   a = sum m l^2 x^4 A^2 + I x^2 S^2 + 2 I x^2 y^2 A^2                         (9)
+//   b = sum m l^2 x^6 (D - A^2)/y^2 + I x^4 (1 - S^2)/y^2 - 2 I x^4 A^2         (10)
+//   G_A = sum m x^2 A,  G_S = sum m x S                                        (13), (14)
+// In a chain, with ' = d/d(y^2) (cpp/several-sections.md eqs. (26) to (28)):
 //   h0 = sum m l x S                       h1 = sum m l x^2 A
 //   c0 = sum 2 m l^2 x^2 A + I             c1 = sum -m l^2 x^4 A^2 + I x^2 S^2
 //   c2 = sum -m l^2 x^3 A S + I x S cos y  c3 = sum -m l^2 x^2 S^2 + I cos^2 y
 //   k0 = sum m l^2 x^3 A S + I x           k1 = sum I x^3 (G - A S)
 //   k2 = sum m l^2 x^4 A^2 + I x^2 y^2 A^2 k3 = sum 2 m l^2 x^5 (A S' - S A')
 //   C1 = -2 k0' + 3 k1 + 2 sigma k1' - k3  C0 = 2 k2 + 2 sigma k2'
-#include "section/section_table.hpp"
-
-#include <cstddef>
+#include "section/inertia_series.hpp"
 
 #include "section/mass_moments.hpp"
-#include "section/taylor_shift.hpp"
+#include "section/section_table.hpp"
 
 namespace cdcr::detail {
 namespace {
 
-/// sum over j of (-s)^j / (2j + offset)!: cos y, S, A, G of y^2 = s for offsets 0 to 3.
-Series even_function(int offset) {
-  Series f;
-  long double term = 1.0L;
-  for (int k = 2; k <= offset; ++k) term /= k;
-  for (int j = 0; j < num_terms; ++j) {
-    f.push_back(term);
-    const long double n = 2.0L * j + offset;
-    term *= -1.0L / ((n + 1.0L) * (n + 2.0L));
-  }
-  return f;
-}
-
-Series operator*(const Series& f, const Series& g) {
-  Series product(f.size(), 0.0L);
-  for (std::size_t i = 0; i < f.size(); ++i) {
-    for (std::size_t j = 0; i + j < f.size(); ++j) product[i + j] += f[i] * g[j];
-  }
-  return product;
-}
-
-Series operator+(Series f, const Series& g) {
-  for (std::size_t j = 0; j < f.size(); ++j) f[j] += g[j];
-  return f;
-}
-
-Series operator*(long double factor, Series f) {
-  for (long double& c : f) c *= factor;
-  return f;
-}
-
-Series operator-(const Series& f, const Series& g) {
-  return f + (-1.0L) * g;
-}
-
-Series times_argument(Series f) {
-  f.insert(f.begin(), 0.0L);
-  f.pop_back();
-  return f;
-}
-
 /// What one element contributes, as series in y^2: the same for every section.
 struct ElementSeries {
-  Series cosine = even_function(0), S = even_function(1), A = even_function(2),
-         G = even_function(3);
+  Series one = constant(1.0L), cosine = even_function(0), S = even_function(1),
+         A = even_function(2), G = even_function(3);
   Series A2 = A * A, S2 = S * S, AS = A * S, S_cosine = S * cosine, cosine2 = cosine * cosine;
-  Series k1 = G - AS, k2 = times_argument(A2), k3 = A * derivative(S) - S * derivative(A);
+  Series D = over_argument(one + 2.0L * (A - S));
+  Series spread = over_argument(D - A2), turn = over_argument(one - S2), spin = times_argument(A2);
+  Series k1 = G - AS, k3 = A * derivative(S) - S * derivative(A);
 };
 
-Series constant(long double value) {
-  Series f(num_terms, 0.0L);
-  f[0] = value;
-  return f;
+const ElementSeries& element_series() {
+  static const ElementSeries series;
+  return series;
 }
 
 /// sum over elements of weight x^p f(x^2 sigma), as a series in sigma.
-Series sum(const Moments& weight, int p, Series f) {
+Series sum(const MassMoments& weight, int p, Series f) {
   for (std::size_t j = 0; j < f.size(); ++j) f[j] *= weight(p + 2 * static_cast<int>(j));
   return f;
 }
 
 }  // namespace
 
+SectionSeries exact_series(const Section& section, double payload) {
+  const ElementSeries& element = element_series();
+  const MassMoments mass = MassMoments::of_mass(section, payload);
+  const MassMoments inertia = MassMoments::of_inertia(section);
+  const long double l2 = static_cast<long double>(section.length) * section.length;
+  return {l2 * sum(mass, 4, element.A2) + sum(inertia, 2, element.S2) +
+              2.0L * sum(inertia, 2, element.spin),
+          l2 * sum(mass, 6, element.spread) + sum(inertia, 4, element.turn) -
+              2.0L * sum(inertia, 4, element.A2),
+          sum(mass, 2, element.A), sum(mass, 1, element.S)};
+}
+
 SectionTable section_table(const Section& section) {
-  static const ElementSeries element;
-  const Moments mass = Moments::of_mass(section, 0.0L);
-  const Moments inertia = Moments::of_inertia(section);
+  const ElementSeries& element = element_series();
+  const MassMoments mass = MassMoments::of_mass(section, 0.0L);
+  const MassMoments inertia = MassMoments::of_inertia(section);
   const long double l = section.length, l2 = l * l;
   std::vector<Series> f(num_shape_functions);
   f[h0] = l * sum(mass, 1, element.S);
@@ -97,7 +75,7 @@ SectionTable section_table(const Section& section) {
   f[c3] = sum(inertia, 0, element.cosine2) - l2 * sum(mass, 2, element.S2);
   f[k0] = l2 * sum(mass, 3, element.AS) + constant(inertia(1));
   f[k1] = sum(inertia, 3, element.k1);
-  f[k2] = l2 * sum(mass, 4, element.A2) + sum(inertia, 2, element.k2);
+  f[k2] = l2 * sum(mass, 4, element.A2) + sum(inertia, 2, element.spin);
   f[k3] = 2.0L * l2 * sum(mass, 5, element.k3);
   const SectionSeries alone = exact_series(section, 0.0);
   f[in_a] = alone.a;
