@@ -26,8 +26,7 @@ def dissipated(run: Trajectory) -> Array:
     values and rates at both ends, which the equations of motion give.
     """
     damping = np.repeat([section.damping for section in run.model.robot.sections], 2)
-    states = zip(run.q, run.qd, run.tension, strict=True)
-    qdd = np.array([run.model.forward_dynamics(*state) for state in states])
+    qdd = run.model.forward_dynamics(run.q, run.qd, run.tension)
     power, rate = run.qd**2 @ damping, 2.0 * (run.qd * qdd) @ damping
     h = np.diff(run.t)
     steps = h / 2.0 * (power[1:] + power[:-1]) + h**2 / 12.0 * (rate[:-1] - rate[1:])

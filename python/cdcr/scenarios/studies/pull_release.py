@@ -47,19 +47,17 @@ def tension() -> TensionTable:
 
 def beyond(run: Trajectory) -> FloatArray:
     """Return the tension of cable 1 where it ends, beyond the section (N,) [N]."""
-    states = zip(run.q, run.qd, run.tension, strict=True)
-    return np.array([run.model.tensions_along(*state)[-1, 0] for state in states])
+    return run.model.tensions_along(run.q, run.qd, run.tension)[:, -1, 0]
 
 
 def friction_power(run: Trajectory) -> FloatArray:
     """Return what friction turns into heat at each time (N,) [W]."""
-    states = zip(run.q, run.qd, run.tension, strict=True)
-    return np.array([run.model.friction_power(*state) for state in states])
+    return np.asarray(run.model.friction_power(run.q, run.qd, run.tension))
 
 
 def pulled(run: Trajectory) -> FloatArray:
     """Return how much of cable 1 has been pulled out of the robot at each time (N,) [m]."""
-    lengths = np.array([run.model.cable_lengths(q)[0] for q in run.q])
+    lengths = run.model.cable_lengths(run.q)[:, 0]
     return np.asarray(lengths[0] - lengths)
 
 
