@@ -21,6 +21,8 @@ __all__ = ["Cable", "Robot", "Section"]
 Vector = tuple[float, float, float]
 Matrix = tuple[Vector, Vector, Vector]  # three rows
 
+SCREEN = 1600  # characters
+
 _ZERO: Vector = (0.0, 0.0, 0.0)
 
 
@@ -136,6 +138,21 @@ class Robot:
             object.__setattr__(self, name, plain)
         check.done()
         check.done(self._to_core().violations())
+
+    def __repr__(self) -> str:
+        """Say what one would type, or what it is where that does not fit on a screen."""
+        text = ", ".join(f"{item.name}={getattr(self, item.name)!r}" for item in fields(self))
+        if len(text) <= SCREEN:
+            return f"Robot({text})"
+        return (
+            f"<Robot: {len(self.sections)} sections, {self.length:g} m, {self.mass:g} kg, "
+            f"{self.num_cables} cables>"
+        )
+
+    def _repr_html_(self) -> str:
+        from cdcr._notebook import robot_html
+
+        return robot_html(self)
 
     @property
     def mass(self) -> float:

@@ -119,6 +119,11 @@ class Trajectory:
         end = f": {self.message}" if self.message else ""
         return f"<Trajectory: {', '.join(parts)}, status {self.status.name}{end}>"
 
+    def _repr_html_(self) -> str:
+        from cdcr._notebook import run_html
+
+        return run_html(self)
+
     @property
     def success(self) -> bool:
         """Whether the run reached its last output time."""

@@ -94,6 +94,9 @@ class Scenario:
     tell: Callable[[Scenario, Any], tuple[Finding, ...]] = findings
     draw: Callable[[Scenario, Any], Figure] = _figure
 
+    def __repr__(self) -> str:
+        return f"<Scenario {self.name!r}: {self.title}>"
+
     @property
     def has_run(self) -> bool:
         """Whether anything runs in it; else it is a picture of the model alone."""
