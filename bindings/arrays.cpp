@@ -70,14 +70,14 @@ void check_bending(const Model& model, const Array& q, const char* name) {
   for (Index first = 0; first < end; first += size) {
     const Eigen::Map<const VectorXd> state(data + first, size);
     for (Index i = 0; i < model.num_sections(); ++i) {
-      const double theta = state.segment<2>(2 * i).norm();
+      const double theta = state.segment<2>(model.first_coordinate(i)).norm();
       if (theta <= max_bending) continue;
       std::vector<Index> before = sizes_of(q);
       before.pop_back();
       std::ostringstream text;
       text << name << index_text(first / size, before)
            << " must bend each section by at most 3 pi rad, got " << theta << " rad in section "
-           << i;
+           << i + 1;
       refuse(text);
     }
   }

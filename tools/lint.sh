@@ -38,6 +38,7 @@ check silence silent_library
 check gersemi gersemi --check --quiet $(cmake_sources)
 check clang-format clang-format --dry-run -Werror $(cpp_sources)
 check mypy mypy
+check imports env PYTHONPATH=python lint-imports --no-cache
 check clang-tidy clang_tidy
 
 if [ -n "$failed" ]; then

@@ -13,20 +13,24 @@ except ImportError as error:  # pragma: no cover
     ) from error
 
 from cdcr import paper, robots, scenarios
-from cdcr._control import Pid
-from cdcr._coordinates import bending, polar
 from cdcr._core import Controller, Equilibrium, Simulator, Stats, Status, max_bending, taylor_range
-from cdcr._inverse import InverseRun, inverse_run
-from cdcr._inverse_kinematics import InverseKinematics
-from cdcr._model import ConvergenceError, InfeasibleError, Model
-from cdcr._modes import Modes
-from cdcr._reference import Reference
-from cdcr._robot import Cable, Robot, Section
-from cdcr._simulate import TensionTable, simulate
-from cdcr._stability import stable_step
-from cdcr._subdivide import merge_state, subdivide_state
-from cdcr._trajectory import SlackEvent, Trajectory
-from cdcr._wrench import Wrench
+from cdcr.model.coordinates import bending, polar
+from cdcr.model.inverse_kinematics import InverseKinematics
+from cdcr.model.model import Model
+from cdcr.model.modes import Modes
+from cdcr.model.stability import stable_step
+from cdcr.model.statics import ConvergenceError, InfeasibleError
+from cdcr.model.wrench import Wrench
+from cdcr.motion.inverse import InverseRun, inverse_run
+from cdcr.motion.reference import Reference
+from cdcr.robot.cable import Cable
+from cdcr.robot.robot import Robot
+from cdcr.robot.section import Section
+from cdcr.robot.states import merge_state, subdivide_state
+from cdcr.runs.command import TensionTable
+from cdcr.runs.pid import Pid
+from cdcr.runs.simulate import simulate
+from cdcr.runs.trajectory import SlackEvent, Trajectory
 
 __version__: str = _core.__version__
 

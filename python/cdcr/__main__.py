@@ -1,6 +1,6 @@
 """``python -m cdcr``: the command line."""
 
-from cdcr._cli import main
+from cdcr.cli import main
 
 if __name__ == "__main__":
     main()

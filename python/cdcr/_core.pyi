@@ -15,7 +15,7 @@ from cdcr._core_robot import Section as Section
 from cdcr._core_statics import Allocation as Allocation
 from cdcr._core_statics import CoreModes as CoreModes
 from cdcr._core_statics import Equilibrium as Equilibrium
-from cdcr._wrench import Wrench
+from cdcr.model.wrench import Wrench
 
 _FloatArray = NDArray[np.float64]
 _FloatOrArray: TypeAlias = Any  # a float for one state, else an array

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 
-from cdcr._fields import nearest
-from cdcr._robot import Robot, Section
+from cdcr.base.check import nearest
+from cdcr.robot.robot import Robot
+from cdcr.robot.section import Section
 
 __all__ = ["amouri2020", "get", "names", "rao2021", "three_sections"]
 

@@ -76,19 +76,19 @@ TEST_CASE("states") {
   check_run(zero, Eigen::Vector2d(0.0, inf), second, none(),
             "qd0 must be 2 finite values, got [  0 inf]");
   check_run(Eigen::Vector2d(0.0, -9.5), zero, second, none(),
-            "q0 must bend each section by at most 3 pi rad, got [   0 -9.5]");
+            "q0 must bend each section by at most 3 pi rad, got 9.5 rad in section 1");
 }
 
 TEST_CASE("times") {
   check_run(zero, zero, VectorXd(0), none(), "t must hold at least one time, got none");
   check_run(zero, zero, Eigen::Vector3d(0.0, 1.0, 1.0), none(),
-            "t must be finite and strictly increasing, got 1 s at index 2");
+            "t must be finite and strictly increasing, got 1 s at index 2 after 1 s");
   check_run(zero, zero, Eigen::Vector2d(0.0, -1.0), none(),
-            "t must be finite and strictly increasing, got -1 s at index 1");
+            "t must be finite and strictly increasing, got -1 s at index 1 after 0 s");
   check_run(zero, zero, Eigen::Vector2d(nan, 1.0), none(),
             "t must be finite and strictly increasing, got nan s at index 0");
   check_run(zero, zero, Eigen::Vector2d(0.0, inf), none(),
-            "t must be finite and strictly increasing, got inf s at index 1");
+            "t must be finite and strictly increasing, got inf s at index 1 after 0 s");
 }
 
 TEST_CASE("constant tensions") {

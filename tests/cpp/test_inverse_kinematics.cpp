@@ -225,7 +225,7 @@ TEST_CASE("why not, in a sentence") {
   CHECK(message(2, {0.0, 0.0, 1.0}, {}, pi) ==
         "p is 1 m from the base, farther than the robot's 0.48 m; the nearest found is 0.52 m off");
   CHECK(message(1, {0.2, 0.0, 0.1}, upright, 0.5)
-            .find("section 0 stands at its max_theta of "
+            .find("section 1 stands at its max_theta of "
                   "0.5 rad; the nearest found is") == 0);
   CHECK(message(1, {0.1, 0.0, 0.1}, {}, pi)
             .find("the tip of one section moves on a surface, and p "

@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "cdcr/dynamics.hpp"
+#include "dynamics/parts.hpp"
 #include "support/cases.hpp"
 #include "support/residual.hpp"
 #include "support/tolerances.hpp"
@@ -117,7 +118,7 @@ TEST_CASE("bias at rest is the gradient of the potential energy") {
 TEST_CASE("the inverse of a I + b q q^T is (I - b/(a + b sigma) q q^T)/a") {
   for_each_case(2.0 * pi, [](const Model& model, Data& data, State state) {
     const double sigma = state.q.squaredNorm();
-    const auto v = model.table()(detail::ShapeTable::Group::inertia, sigma);
+    const auto v = detail::single_of(model).table(detail::ShapeTable::Group::inertia, sigma);
     const double a = v[0], b = v[1];
     MatrixXd expected = MatrixXd::Identity(2, 2);
     expected -= b / (a + b * sigma) * state.q * state.q.transpose();

@@ -315,7 +315,7 @@ TEST_CASE("wrong profiles and wrenches are refused with a sentence") {
       "a wrench's profile needs one factor for each time, got 2 times and 1 factors");
   CHECK_THROWS_SENTENCE(loads.add(wrench, {{0.0, 1.0, 0.5}, {1.0, 1.0, 1.0}, false, {}}),
                         "the times of a wrench's profile must be finite and strictly increasing, "
-                        "got 0.5 s at index 2");
+                        "got 0.5 s at index 2 after 1 s");
   CHECK_THROWS_SENTENCE(loads.add(wrench, {{nan}, {1.0}, false, {}}),
                         "the times of a wrench's profile must be finite and strictly increasing, "
                         "got nan s at index 0");

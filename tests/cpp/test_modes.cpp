@@ -138,7 +138,7 @@ TEST_CASE("bad arguments and robots without inertia are refused") {
   CHECK_THROWS_SENTENCE(modes(model, Eigen::Vector2d(nan, 0.0), none),
                         "q must be 2 finite values, got [nan   0]");
   CHECK_THROWS_SENTENCE(modes(model, Eigen::Vector2d(10.0, 0.0), none),
-                        "q must bend each section by at most 3 pi rad, got 10 rad in section 0");
+                        "q must bend each section by at most 3 pi rad, got 10 rad in section 1");
   CHECK_THROWS_SENTENCE(modes(model, VectorXd::Zero(2), -VectorXd::Ones(3)),
                         "tension must be 3 finite values >= 0 N (a cable cannot push), got "
                         "[-1 -1 -1]");

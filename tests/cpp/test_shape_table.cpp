@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cdcr/model.hpp"
+#include "dynamics/parts.hpp"
 #include "support/cases.hpp"
 #include "support/element_sum.hpp"
 #include "support/residual.hpp"
@@ -16,7 +17,7 @@ using Group = detail::ShapeTable::Group;
 using Four = Eigen::Matrix<Real, 4, 1>;
 
 Four read(const Model& model, Group group, double sigma) {
-  const auto values = model.table()(group, sigma);
+  const auto values = detail::single_of(model).table(group, sigma);
   return Four(values[0], values[1], values[2], values[3]);
 }
 

@@ -183,7 +183,7 @@ TEST_CASE("bad set-up is refused with a sentence") {
                         "qd must be 2 finite values, got [inf   1]");
   CHECK_THROWS_SENTENCE(sim.reset(q_start, qd_start, nan), "time must be finite, got nan");
   CHECK_THROWS_SENTENCE(sim.reset(Eigen::Vector2d(9.5, 0.0), qd_start),
-                        "q must bend each section by at most 3 pi rad, got [9.5   0]");
+                        "q must bend each section by at most 3 pi rad, got 9.5 rad in section 1");
   CHECK(sim.step(pull) == Status::not_started);
 }
 

@@ -298,14 +298,14 @@ def test_numbers_are_computed_and_not_typed_in(
     claims: dict[str, Claim], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # Twice the pull: every number of the row follows.
-    from cdcr.paper import _claims_response
+    from cdcr.paper.claims import response
 
-    monkeypatch.setattr(_claims_response, "PULL", 10.0)
-    doubled = _claims_response.step_tension()
+    monkeypatch.setattr(response, "PULL", 10.0)
+    doubled = response.step_tension()
     assert doubled.values["degrees"] == pytest.approx(2 * claims["step-tension"].values["degrees"])
     assert "29.956 deg" in doubled.computed
-    monkeypatch.setattr(_claims_response, "PRINTED_ANGLE", doubled.values["degrees"])
-    assert _claims_response.step_tension().verdict == HOLDS
+    monkeypatch.setattr(response, "PRINTED_ANGLE", doubled.values["degrees"])
+    assert response.step_tension().verdict == HOLDS
 
 
 def test_progress_counts_the_rows(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -142,7 +142,7 @@ def test_wrong_usage_exits_with_2_on_stderr(args: list[str]) -> None:
 )
 def test_a_missing_extra_is_named(tmp_path: Path, module: str, extra: str, args: list[str]) -> None:
     code = f"import sys\nsys.modules[{module!r}] = None\n"
-    done = python(f"{code}from cdcr._cli import main\nmain({args!r})\n", tmp_path)
+    done = python(f"{code}from cdcr.cli import main\nmain({args!r})\n", tmp_path)
     assert done.returncode == 2
     assert done.stdout == ""
     (line,) = done.stderr.splitlines()

@@ -9,12 +9,11 @@ import pytest
 pytest.importorskip("typer")
 
 from rich.console import Console
-from typer.testing import CliRunner, Result
 
-from cdcr import _cli_audit
-from cdcr._cli_app import app
+from cdcr.cli import audit as cli_audit
 from cdcr.paper import Claim, audit
 from cdcr.paper._audit import VERDICTS
+from command import cdcr_
 
 
 @pytest.fixture(scope="module")
@@ -22,21 +21,17 @@ def claims() -> list[Claim]:
     return audit()
 
 
-def cdcr_(*args: str) -> Result:
-    return CliRunner().invoke(app, list(args))
-
-
 @pytest.fixture
 def quick(claims: list[Claim], monkeypatch: pytest.MonkeyPatch) -> list[Claim]:
     """Have the command print rows that are computed already."""
-    monkeypatch.setattr(_cli_audit, "audit", lambda progress: claims)
+    monkeypatch.setattr(cli_audit, "audit", lambda progress: claims)
     return claims
 
 
 def printed(claims: list[Claim], width: int, *, colour: bool = False) -> str:
     console = Console(width=width, force_terminal=colour, color_system="256" if colour else None)
     with console.capture() as capture:
-        _cli_audit.print_audit(console, claims)
+        cli_audit.print_audit(console, claims)
     return capture.get()
 
 
@@ -78,11 +73,11 @@ def test_lines_fit_the_terminal_and_nothing_is_cut(claims: list[Claim], width: i
 @pytest.mark.parametrize("width", [80, 120])
 def test_verdicts_are_marked_by_sign_and_word(claims: list[Claim], width: int) -> None:
     text = printed(claims, width)
-    for verdict, (mark, _) in _cli_audit.MARKS.items():
+    for verdict, (mark, _) in cli_audit.MARKS.items():
         count = sum(claim.verdict == verdict for claim in claims)
         assert text.count(f"{mark} {verdict}") >= count > 0
-    assert len({mark for mark, _ in _cli_audit.MARKS.values()}) == len(VERDICTS)
-    assert set(_cli_audit.MARKS) == set(VERDICTS)
+    assert len({mark for mark, _ in cli_audit.MARKS.values()}) == len(VERDICTS)
+    assert set(cli_audit.MARKS) == set(VERDICTS)
 
 
 def test_colour_on_a_terminal_only(claims: list[Claim]) -> None:
@@ -110,7 +105,7 @@ def test_interrupted(monkeypatch: pytest.MonkeyPatch) -> None:
     def interrupted(progress: object) -> list[Claim]:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(_cli_audit, "audit", interrupted)
+    monkeypatch.setattr(cli_audit, "audit", interrupted)
     result = cdcr_("audit")
     assert result.exit_code == 130
     assert result.stderr.startswith("cdcr: interrupted")

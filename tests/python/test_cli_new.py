@@ -1,7 +1,6 @@
 """The command new: its file runs as it is, and with each of its comments switched on."""
 
 import json
-import os
 import re
 from dataclasses import fields
 from pathlib import Path
@@ -17,24 +16,15 @@ pytest.importorskip("matplotlib")
 pytest.importorskip("h5netcdf")
 
 from matplotlib.figure import Figure
-from typer.testing import CliRunner, Result
 
-from cdcr import _scenario_schema, _shape_schema
-from cdcr._cli_app import app
-from cdcr._scenario_template import TEMPLATE
+from cdcr.scenarios.file import schema, shape_schema
+from cdcr.scenarios.file.template import TEMPLATE
+from command import cdcr_, everything_in
 
 BLOCKS = TEMPLATE.split("\n\n")
 SWITCHED_OFF = [i for i, block in enumerate(BLOCKS) if re.search(r"^#\S", block, re.MULTILINE)]
 # Tensions are shared among cables that are named by other arithmetic than among all [rad].
 NAMED_CABLES = 1e-13
-
-
-def cdcr_(*args: object) -> Result:
-    return CliRunner().invoke(app, [str(arg) for arg in args])
-
-
-def everything_in(folder: Path) -> list[str]:
-    return sorted(os.listdir(folder))  # noqa: PTH208 - hidden files count
 
 
 @pytest.fixture
@@ -94,21 +84,21 @@ def test_there_are_blocks_to_switch_on() -> None:
 def test_every_key_is_shown() -> None:
     said = set(re.findall(r"\w+", TEMPLATE))
     schemas: tuple[type[BaseModel], ...] = (
-        _scenario_schema.ScenarioTable,
-        _scenario_schema.InitialTable,
-        _scenario_schema.OutputTable,
-        _scenario_schema.ControllerTable,
-        _scenario_schema.ReferenceTable,
-        _scenario_schema.TensionRows,
-        _scenario_schema.TensionFile,
-        _scenario_schema.WrenchTable,
-        _shape_schema.TrajectorySamples,
-        _shape_schema.TrajectoryFile,
-        *_shape_schema.TENSION_SHAPES.values(),
-        *_shape_schema.TRAJECTORY_SHAPES.values(),
+        schema.ScenarioTable,
+        schema.InitialTable,
+        schema.OutputTable,
+        schema.ControllerTable,
+        schema.ReferenceTable,
+        schema.TensionRows,
+        schema.TensionFile,
+        schema.WrenchTable,
+        shape_schema.TrajectorySamples,
+        shape_schema.TrajectoryFile,
+        *shape_schema.TENSION_SHAPES.values(),
+        *shape_schema.TRAJECTORY_SHAPES.values(),
     )
-    for schema in schemas:
-        assert set(schema.model_fields) - said == set(), schema.__name__
+    for table in schemas:
+        assert set(table.model_fields) - said == set(), table.__name__
     for item in (*fields(cdcr.Robot), *fields(cdcr.Section), *fields(cdcr.Cable)):
         assert {item.name, f"{item.name}_deg"} & said, item.name
 
@@ -133,7 +123,7 @@ def test_defaults_shown_are_the_defaults(tmp_path: Path) -> None:
 
 
 def _load(path: Path) -> cdcr.scenarios.Scenario:
-    from cdcr._scenario_file import load_scenario
+    from cdcr.scenarios.file.reader import load_scenario
 
     return load_scenario(path)
 

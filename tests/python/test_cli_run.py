@@ -21,8 +21,8 @@ from matplotlib.figure import Figure
 from rich.console import Console
 from typer.testing import Result
 
-from cdcr import _cli_run
-from cdcr._scenario_file import load_scenario
+from cdcr.cli import run as cli_run
+from cdcr.scenarios.file.reader import load_scenario
 from command import cdcr_, everything_in, refused
 
 FILES = ["step-tension.png", "step-tension.csv", "step-tension.nc"]
@@ -63,8 +63,8 @@ def test_run_writes_three_files_and_says_so(first: tuple[Path, Result]) -> None:
 def test_run_prints_its_findings(first: tuple[Path, Result]) -> None:
     _, result = first
     scenario = cdcr.scenarios.get("step-tension")
-    for finding in scenario.summary(scenario.simulate()):
-        assert finding.label in result.stdout
+    for metric in scenario.summary(scenario.simulate()):
+        assert metric.label in result.stdout
     words = result.stdout.split()
     for word in ("14.9778", "29.9555", "0.6892", "deg", "steps", "bdf,", "ms"):
         assert word in words
@@ -201,9 +201,9 @@ def test_ctrl_c_while_integrating(tmp_path: Path) -> None:
     """The signal itself, in a process of its own."""
     code = """
 import os, signal
-from cdcr import _cli_run
-from cdcr._cli import main
-_cli_run.DelayedBar.__call__ = lambda self, t: os.kill(os.getpid(), signal.SIGINT)
+from cdcr.cli import run as cli_run
+from cdcr.cli import main
+cli_run.DelayedBar.__call__ = lambda self, t: os.kill(os.getpid(), signal.SIGINT)
 main(["run", "step-tension", "--out", "new/out", "--t-end", "1000"])
 """
     done = subprocess.run(
@@ -242,10 +242,10 @@ def test_ctrl_c_while_writing_leaves_what_was_there(
 def test_progress_is_shown_on_long_runs_at_a_terminal(
     monkeypatch: pytest.MonkeyPatch, delay: float, terminal: bool, shown: bool
 ) -> None:
-    monkeypatch.setattr(_cli_run, "BAR_DELAY", delay)
+    monkeypatch.setattr(cli_run, "BAR_DELAY", delay)
     screen = io.StringIO()
     console = Console(file=screen, force_terminal=terminal, width=80)
-    with _cli_run.DelayedBar(console, "step-tension", 10.0) as bar:
+    with cli_run.DelayedBar(console, "step-tension", 10.0) as bar:
         bar(5.0)
     assert ("step-tension" in screen.getvalue()) is shown
     assert ("50%" in screen.getvalue()) is shown

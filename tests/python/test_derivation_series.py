@@ -23,7 +23,7 @@ import cdcr
 
 README = Path(__file__).parents[2] / "cpp" / "README.md"
 
-NUM_TERMS = 46  # as many as cpp/src/section_series.cpp keeps
+NUM_TERMS = 46  # as many as cpp/src/section/mass_moments.hpp keeps
 REFERENCE_TERMS = 80  # enough for 40 digits at 3 pi
 SAMPLES = 60  # bending angles in each of the three columns of the table
 

@@ -13,7 +13,7 @@ import pytest
 import xarray as xr
 
 import cdcr
-from cdcr import _export
+from cdcr.files.new_file import new_file
 
 UNITS = {
     "time": "s",
@@ -161,7 +161,7 @@ def test_no_silent_overwrite(run: cdcr.Trajectory, tmp_path: Path, suffix: str) 
 
 def test_a_file_that_appears_meanwhile_is_kept(tmp_path: Path) -> None:
     path = tmp_path / "run.csv"
-    with pytest.raises(FileExistsError), _export.new_file(path) as partial:  # noqa: PT012
+    with pytest.raises(FileExistsError), new_file(path) as partial:  # noqa: PT012
         partial.write_text("ours", encoding="utf-8")
         path.write_text("theirs", encoding="utf-8")
     assert path.read_text(encoding="utf-8") == "theirs"

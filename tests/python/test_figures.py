@@ -13,10 +13,10 @@ pytest.importorskip("matplotlib")
 
 from matplotlib.figure import Figure
 from rich.console import Console
-from typer.testing import CliRunner, Result
+from typer.testing import Result
 
-from cdcr import _figures, _figures_page
-from cdcr._cli_app import app
+from cdcr.cli import figures, page
+from command import cdcr_
 
 NAMES = [n for n in cdcr.scenarios.names() if cdcr.scenarios.get(n).paper_figure]
 FILES = {f"{name}{suffix}" for name in NAMES for suffix in (".png", ".svg")} | {"index.html"}
@@ -48,10 +48,6 @@ class Page(HTMLParser):
         assert self.open.pop() == tag
 
 
-def cdcr_(*args: object) -> Result:
-    return CliRunner().invoke(app, [str(arg) for arg in args])
-
-
 def names_in(folder: Path) -> set[str]:
     return {path.name for path in folder.iterdir()}
 
@@ -66,7 +62,7 @@ def first(tmp_path_factory: Any) -> tuple[Path, Result]:
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
     """Draw empty pictures, and leave out the audit, where they do not matter."""
     monkeypatch.setattr(cdcr.scenarios.Scenario, "figure", lambda self, run: Figure())
-    monkeypatch.setattr(_figures_page, "_claims", list)
+    monkeypatch.setattr(page, "audit", list)
 
 
 def test_all_files_are_written(first: tuple[Path, Result]) -> None:
@@ -115,8 +111,8 @@ def test_what_is_in_the_audit_is_escaped(monkeypatch: pytest.MonkeyPatch) -> Non
     class Claim:
         where, claim, computed, verdict = "Fig. 1", "a < b", "a & b", "holds"
 
-    monkeypatch.setattr(_figures_page, "_claims", lambda: [Claim()])
-    text = _figures_page.page([cdcr.scenarios.get("pid")])
+    monkeypatch.setattr(page, "audit", lambda: [Claim()])
+    text = page.page([cdcr.scenarios.get("pid")])
     assert "<td>a &lt; b</td><td>a &amp; b</td>" in text
     assert Page(text).open == []
 
@@ -142,11 +138,9 @@ def test_existing_files_are_kept_unless_told_otherwise(tmp_path: Path) -> None:
 
 @pytest.mark.usefixtures("quick")
 def test_the_same_picture_is_the_same_file(tmp_path: Path) -> None:
-    files = _figures.write_figures(tmp_path)
+    files = figures.write_figures(tmp_path)
     before = [path.read_bytes() for path in files]
-    assert [
-        path.read_bytes() for path in _figures.write_figures(tmp_path, overwrite=True)
-    ] == before
+    assert [path.read_bytes() for path in figures.write_figures(tmp_path, overwrite=True)] == before
 
 
 @pytest.mark.parametrize("error", [KeyboardInterrupt, RuntimeError])
@@ -160,14 +154,14 @@ def test_what_stops_it_leaves_nothing(
 
     monkeypatch.setattr(cdcr.scenarios.Scenario, "figure", fail)
     with pytest.raises(error):
-        _figures.write_figures(tmp_path / "a" / "b")
+        figures.write_figures(tmp_path / "a" / "b")
     assert names_in(tmp_path) == set()
 
 
 @pytest.mark.usefixtures("quick")
 def test_progress_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     told: list[tuple[int, str]] = []
-    _figures.write_figures(tmp_path, progress=lambda done, name: told.append((done, name)))
+    figures.write_figures(tmp_path, progress=lambda done, name: told.append((done, name)))
     assert told == list(enumerate((*NAMES, "index.html")))
 
 
@@ -175,11 +169,9 @@ def test_progress_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> No
 def test_the_bar_is_on_the_console_it_is_given(tmp_path: Path) -> None:
     from io import StringIO
 
-    from cdcr import _cli_figures
-
     stream = StringIO()
     console = Console(file=stream, force_terminal=True, width=80)
-    files = _cli_figures.figures(tmp_path, overwrite=False, console=console)
+    files = figures.figures(tmp_path, overwrite=False, console=console)
     assert {path.name for path in files} == FILES
     assert "%" in stream.getvalue()
 
@@ -190,8 +182,8 @@ def test_run_draws_what_has_no_run(tmp_path: Path, name: str) -> None:
     assert result.exit_code == 0, result.output
     assert names_in(tmp_path) == {f"{name}.png"}
     assert f"wrote {tmp_path / name}.png" in result.stdout
-    for finding in cdcr.scenarios.get(name).summary():
-        assert finding.label in result.stdout
+    for metric in cdcr.scenarios.get(name).summary():
+        assert metric.label in result.stdout
 
 
 def test_run_refuses_options_where_nothing_runs(tmp_path: Path) -> None:

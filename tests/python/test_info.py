@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 import cdcr
-from cdcr._stability import stable_step
+from cdcr.model.stability import stable_step
 
 pytest.importorskip("typer")
 
-from cdcr._cli_info import mode_rows
-from cdcr._info import at_rest
-from cdcr.scenarios import length_drive
+from cdcr.cli.info import mode_rows
+from cdcr.model.rest import at_rest
+from cdcr.scenarios.studies import length_drive
 from command import cdcr_
 
 REL = 1e-9  # eigenvalues and differences of well-conditioned matrices
@@ -102,7 +102,7 @@ def test_a_heavy_robot_buckles_and_says_so(tmp_path: Path) -> None:
     assert theta > 1.0
     # At rest the moment of weight balances that of the backbone.
     assert rest.model.bias(rest.q, [0.0, 0.0]) == pytest.approx([0.0, 0.0], abs=1e-9)
-    assert not rest.firm  # it turns about the vertical freely
+    assert not rest.is_nondegenerate  # it turns about the vertical freely
     robot.save(tmp_path / "heavy.toml")
     text = printed(tmp_path / "heavy.toml")
     assert f"bent by {math.degrees(theta):.2f} deg, buckled under" in " ".join(text.split())

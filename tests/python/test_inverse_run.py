@@ -16,8 +16,8 @@ import pytest
 from numpy.typing import NDArray
 
 import cdcr
-from cdcr._inverse import InverseRun, inverse_run
-from cdcr._reference import Reference
+from cdcr.motion.inverse import InverseRun, inverse_run
+from cdcr.motion.reference import Reference
 
 FloatArray = NDArray[np.float64]
 

@@ -52,7 +52,7 @@ def test_a_bad_bending_vector_is_refused(model: cdcr.Model, name: str) -> None:
         call(model, "bent")
     with refuses("q must be numbers of shape (..., 2), got list"):
         call(model, [1.0, [2.0]])
-    with refuses("q must bend each section by at most 3 pi rad, got 10 rad in section 0"):
+    with refuses("q must bend each section by at most 3 pi rad, got 10 rad in section 1"):
         call(model, [6.0, 8.0])
 
 
@@ -97,7 +97,7 @@ def test_a_bad_place_is_refused(model: cdcr.Model) -> None:
 def test_a_bad_start_of_the_search_is_refused(model: cdcr.Model) -> None:
     with refuses("q0 must have shape (2,), got (1,)"):
         model.equilibrium(TENSION, [0.0])
-    with refuses("q0 must bend each section by at most 3 pi rad, got 10 rad in section 0"):
+    with refuses("q0 must bend each section by at most 3 pi rad, got 10 rad in section 1"):
         model.equilibrium(TENSION, [10.0, 0.0])
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import cdcr
-from cdcr.scenarios import Scenario
+from scenario_runs import told
 
 # To the digits in which the numbers are stated.
 DIGITS = {0: 0.5, 1: 0.05, 2: 0.005, 3: 0.0005}
@@ -31,26 +31,6 @@ FIGURES = {
 PICTURES = (*list(FIGURES)[:6], "block-diagram")  # in which nothing runs
 
 
-class Told:
-    """A scenario with its run and what it tells, computed once."""
-
-    def __init__(self) -> None:
-        self._known: dict[str, tuple[Scenario, Any, dict[str, float]]] = {}
-
-    def __call__(self, name: str) -> tuple[Scenario, Any, dict[str, float]]:
-        if name not in self._known:
-            scenario = cdcr.scenarios.get(name)
-            run = scenario.simulate() if scenario.has_run else None
-            found = {finding.key: finding.value for finding in scenario.summary(run)}
-            self._known[name] = scenario, run, found
-        return self._known[name]
-
-
-@pytest.fixture(scope="module")
-def told() -> Told:
-    return Told()
-
-
 def to_digits(value: float, digits: int) -> Any:
     return pytest.approx(value, abs=DIGITS[digits], rel=0.0)
 
@@ -65,7 +45,7 @@ def test_scenarios_come_in_the_order_of_the_papers_figures() -> None:
         assert f"Fig. {number}" in scenario.source
 
 
-def test_where_nothing_runs(told: Told) -> None:
+def test_where_nothing_runs() -> None:
     for name in FIGURES:
         scenario, run, _ = told(name)
         assert scenario.has_run == (name not in PICTURES)
@@ -80,7 +60,7 @@ def test_keys_of_findings_are_unique() -> None:
     for name in FIGURES:
         scenario = cdcr.scenarios.get(name)
         run = scenario.simulate(t_end=0.5) if scenario.has_run else None
-        keys = [finding.key for finding in scenario.summary(run)]
+        keys = [metric.key for metric in scenario.summary(run)]
         assert len(set(keys)) == len(keys)
         assert keys
 
@@ -95,13 +75,11 @@ def test_keys_of_findings_are_unique() -> None:
         ("factors-disks-rotation", "H8_derived", -51.0, 0),
     ],
 )
-def test_errors_of_the_taylor_factors(
-    told: Told, name: str, factor: str, error: float, digits: int
-) -> None:
+def test_errors_of_the_taylor_factors(name: str, factor: str, error: float, digits: int) -> None:
     assert told(name)[2][f"{factor}_error"] == to_digits(error, digits)
 
 
-def test_printed_factors_are_told_where_they_differ(told: Told) -> None:
+def test_printed_factors_are_told_where_they_differ() -> None:
     disks = told("factors-disks")[2]
     assert disks["H5_derived_0"] == pytest.approx(0.633325, rel=REL)
     assert disks["H5_printed_0"] == pytest.approx(disks["H5_derived_0"] / 2, rel=REL)
@@ -116,7 +94,7 @@ def test_printed_factors_are_told_where_they_differ(told: Told) -> None:
     assert "H8_printed_0" not in rotation
 
 
-def test_errors_of_the_inertias(told: Told) -> None:
+def test_errors_of_the_inertias() -> None:
     found = told("kinetic-energy-terms")[2]
     assert found["M11_derived_error"] == to_digits(0.056, 3)
     assert found["M11_printed_error"] == to_digits(0.056, 3)
@@ -125,7 +103,7 @@ def test_errors_of_the_inertias(told: Told) -> None:
 
 
 def test_eq_21_as_printed_would_make_the_straight_robot_differ_by_direction() -> None:
-    from cdcr.scenarios.kinetic_energy_terms import as_printed
+    from cdcr.scenarios.studies.kinetic_energy_terms import as_printed
 
     theta = 1e-4
     M11, M22 = as_printed(np.array([theta]), cdcr.robots.amouri2020())
@@ -133,7 +111,7 @@ def test_eq_21_as_printed_would_make_the_straight_robot_differ_by_direction() ->
     assert M22[0] / theta**2 == pytest.approx(5.8670e-3, abs=5e-8)
 
 
-def test_gravity(told: Told) -> None:
+def test_gravity() -> None:
     found = told("gravity-ratio")[2]
     assert found["ratio_0"] == to_digits(23.8, 1)
     assert found["ratio_end"] == to_digits(21.0, 1)
@@ -146,7 +124,7 @@ def test_gravity(told: Told) -> None:
 
 
 def test_gravity_ratio_is_continuous_at_the_straight_robot() -> None:
-    from cdcr.scenarios.gravity_ratio import energy_ratio, stiffness
+    from cdcr.scenarios.studies.gravity_ratio import energy_ratio, stiffness
 
     start = 1.0 - stiffness("upright") / stiffness("no gravity")
     near = energy_ratio(1e-3, "upright")[0]
@@ -158,7 +136,7 @@ def test_gravity_ratio_is_continuous_at_the_straight_robot() -> None:
     assert start == pytest.approx(cubes * g * section.length / 3 / section.stiffness, rel=1e-9)
 
 
-def test_free_oscillation(told: Told) -> None:
+def test_free_oscillation() -> None:
     _, run, found = told("free-oscillation")
     assert found["amplitude_start_deg"] == pytest.approx(45.0, rel=REL)
     assert found["amplitude_end_deg"] == pytest.approx(45.0, rel=1e-7)
@@ -172,12 +150,12 @@ def test_free_oscillation(told: Told) -> None:
     assert max(abs(value - 45.0) for value in loose) > 0.5
 
 
-def test_step_tension_settles_nowhere_but_swings_about_14_978(told: Told) -> None:
+def test_step_tension_settles_nowhere_but_swings_about_14_978() -> None:
     assert told("step-tension")[2]["theta_static_deg"] == to_digits(14.978, 3)
 
 
-def test_two_cables(told: Told) -> None:
-    from cdcr.scenarios.two_cables import settled
+def test_two_cables() -> None:
+    from cdcr.scenarios.studies.two_cables import settled
 
     scenario, run, found = told("two-cables")
     assert "ours" in scenario.source
@@ -195,7 +173,7 @@ def test_two_cables(told: Told) -> None:
     assert np.all(run.tension[:, 2] == 0.0)
 
 
-def test_circle_tracking(told: Told) -> None:
+def test_circle_tracking() -> None:
     _, run, found = told("circle-tracking")
     for cable in (1, 2, 3):
         assert found[f"tension_{cable}_max"] == to_digits(5.754, 3)
@@ -207,7 +185,7 @@ def test_circle_tracking(told: Told) -> None:
     np.testing.assert_allclose(np.rad2deg(run.theta), 15.0, atol=0.05)
 
 
-def test_plane_tracking(told: Told) -> None:
+def test_plane_tracking() -> None:
     _, run, found = told("plane-tracking")
     assert found["tension_1_end"] == to_digits(41.6, 1)
     assert found["tension_2_end"] == to_digits(20.8, 1)
@@ -219,7 +197,7 @@ def test_plane_tracking(told: Told) -> None:
 
 @pytest.mark.parametrize("name", ["circle-tracking", "plane-tracking"])
 def test_rates_of_a_sweep_are_its_derivatives(name: str) -> None:
-    from cdcr.scenarios import circle_tracking, plane_tracking
+    from cdcr.scenarios.library import circle_tracking, plane_tracking
 
     sweep = circle_tracking.CIRCLE if name.startswith("circle") else plane_tracking.PLANE
     h = 1e-4
@@ -234,7 +212,7 @@ def test_rates_of_a_sweep_are_its_derivatives(name: str) -> None:
     np.testing.assert_array_equal(scenario.qd0, sweep.reference(np.array([0.0, 1.0])).qd[0])
 
 
-def test_pid_readings(told: Told) -> None:
+def test_pid_readings() -> None:
     _, _, found = told("pid")
     assert 2.0 <= found["radians_plain_unlimited_end_deg"] <= 2.1
     assert found["degrees_plain_unlimited_end_deg"] == to_digits(13.9, 1)
@@ -250,7 +228,7 @@ def test_pid_readings(told: Told) -> None:
     assert "degrees_plain_settling_s" not in found
 
 
-def test_the_recommended_loop_never_pushes_and_is_the_run(told: Told) -> None:
+def test_the_recommended_loop_never_pushes_and_is_the_run() -> None:
     _, run, found = told("pid")
     assert found["degrees_forward_min_N"] >= 0.0
     assert found["degrees_forward_end_deg"] == to_digits(15.53, 2)
@@ -261,7 +239,7 @@ def test_the_recommended_loop_never_pushes_and_is_the_run(told: Told) -> None:
 
 
 @pytest.mark.parametrize("name", FIGURES)
-def test_every_scenario_draws_labelled_axes(told: Told, name: str) -> None:
+def test_every_scenario_draws_labelled_axes(name: str) -> None:
     pytest.importorskip("matplotlib")
     scenario, run, _ = told(name)
     figure: Any = scenario.figure(run)

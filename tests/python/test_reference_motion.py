@@ -11,7 +11,7 @@ import pytest
 from numpy.typing import NDArray
 
 import cdcr
-from cdcr._reference import Reference
+from cdcr.motion.reference import Reference
 
 FloatArray = NDArray[np.float64]
 

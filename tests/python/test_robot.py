@@ -161,7 +161,7 @@ def test_keywords_are_pythons_business() -> None:
 )
 def test_what_is_no_number_is_refused(name: str, value: Any, shown: str) -> None:
     (sentence,) = refusal(cdcr.Section, **FULL | {name: value})
-    wanted = {f.name: f.metadata["wanted"] for f in dataclasses.fields(cdcr.Section)}[name]
+    wanted = {f.name: f.metadata["requirement"] for f in dataclasses.fields(cdcr.Section)}[name]
     assert sentence == f"{name} must be {wanted}, got {shown}"
 
 
@@ -174,47 +174,17 @@ def test_a_number_too_large_for_a_float_is_refused() -> None:
 @pytest.mark.parametrize("name", NUMBERS)
 def test_refusals_name_the_ranges_of_the_core(name: str) -> None:
     """The range for wrong types, said in Python, and the one for wrong values, said in C++."""
-    wanted = {f.name: f.metadata["wanted"] for f in dataclasses.fields(cdcr.Section)}[name]
+    wanted = {f.name: f.metadata["requirement"] for f in dataclasses.fields(cdcr.Section)}[name]
     for value in (math.nan, math.inf, -1.0):
         (sentence,) = refusal(cdcr.Section, **FULL | {name: value})
         allowed = wanted.removeprefix("a number ")
         assert sentence == f"{name} must be {allowed}, got {value:g}"
 
 
-@pytest.mark.parametrize("name", ["length", "backbone_diameter", "youngs_modulus", "cable_radius"])
-def test_zero_is_refused_where_it_makes_no_sense(name: str) -> None:
-    (sentence,) = refusal(cdcr.Section, **FULL | {name: 0})
-    assert sentence.startswith(f"{name} must be > 0 ")
-    assert sentence.endswith(", got 0")
-
-
-@pytest.mark.parametrize(
-    "name",
-    [
-        "backbone_mass",
-        "disk_mass",
-        "disk_diameter",
-        "damping",
-        "cable_stiffness",
-        "cable_damping",
-        "cable_friction",
-    ],
-)
-def test_zero_is_taken_where_it_makes_sense(name: str) -> None:
-    assert getattr(cdcr.Section(**FULL | {name: 0}), name) == 0.0
-
-
 @pytest.mark.parametrize("value", [10.0, "10", True, 2**31, 10**30])
 def test_number_of_disks_must_be_whole(value: Any) -> None:
     (sentence,) = refusal(cdcr.Section, **FULL | {"num_disks": value})
     assert sentence.startswith("num_disks must be a whole number 0 to 64, got ")
-
-
-@pytest.mark.parametrize("value", [-1, 65])
-def test_number_of_disks_out_of_range(value: int) -> None:
-    assert refusal(cdcr.Section, **FULL | {"num_disks": value}) == [
-        f"num_disks must be 0 to 64, got {value}"
-    ]
 
 
 @pytest.mark.parametrize(
@@ -232,12 +202,6 @@ def test_each_bad_cable_angle_is_named() -> None:
     assert refusal(cdcr.Section, **FULL | {"cable_angles": [0.0, "x", 1.0, False]}) == [
         "cable_angles[1] must be a finite number of rad, got 'x' (str)",
         "cable_angles[3] must be a finite number of rad, got False (bool)",
-    ]
-    assert refusal(cdcr.Section, **FULL | {"cable_angles": [0.0, math.inf]}) == [
-        "cable_angles[1] must be a finite number of rad, got inf"
-    ]
-    assert refusal(cdcr.Section, **FULL | {"cable_angles": [0.0] * 17}) == [
-        "the number of cable_angles must be 0 to 16, got 17"
     ]
 
 
@@ -258,13 +222,11 @@ def test_long_values_are_shown_short() -> None:
 @pytest.mark.parametrize(
     ("fields", "sentence"),
     [
-        ({"payload": -1}, "payload must be >= 0 kg and finite, got -1"),
         ({"payload": "1"}, "payload must be a number >= 0 kg and finite, got '1' (str)"),
         ({"gravity": (0, 0)}, "gravity must be three numbers in m/s^2, got (0, 0) (tuple)"),
         ({"gravity": -9.81}, "gravity must be three numbers in m/s^2, got -9.81 (float)"),
         ({"gravity": "down"}, "gravity must be three numbers in m/s^2, got 'down' (str)"),
         ({"gravity": (0, 0, "g")}, "gravity[2] must be a number in m/s^2, got 'g' (str)"),
-        ({"gravity": (0, math.nan, 0)}, "gravity[1] must be a finite number of m/s^2, got nan"),
         ({"sections": []}, "the number of sections must be 1 to 32, got 0"),
         ({"sections": [{}]}, "sections[0] must be a cdcr.Section, got {} (dict)"),
         ({"sections": 1}, "sections must be a sequence of 1 to 32 cdcr.Section, got 1 (int)"),
@@ -273,12 +235,6 @@ def test_long_values_are_shown_short() -> None:
 def test_refusals_of_a_robot(fields: dict[str, Any], sentence: str) -> None:
     good = {"sections": [cdcr.Section(**FULL)]}
     assert refusal(cdcr.Robot, **good | fields) == [sentence]
-
-
-def test_too_many_sections_are_refused() -> None:
-    assert refusal(cdcr.Robot, sections=[cdcr.Section(**FULL)] * 33) == [
-        "the number of sections must be 1 to 32, got 33"
-    ]
 
 
 def test_a_single_section_must_still_be_in_a_list() -> None:

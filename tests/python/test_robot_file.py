@@ -16,8 +16,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 import cdcr
-from cdcr._robot_file import robot_text
-from cdcr._robot_schema import CableTable, RobotTable, SectionTable
+from cdcr.robot.file import robot_text
+from cdcr.robot.schema import table_of
 from robot_file import FILE, load, replaced
 
 not_negative = st.floats(min_value=0.0, allow_infinity=False)
@@ -207,10 +207,12 @@ def test_the_text_of_a_plain_robot_has_the_plain_fields_alone() -> None:
 
 def test_the_schema_has_the_fields_of_the_descriptions() -> None:
     section = {item.name for item in dataclasses.fields(cdcr.Section)}
-    assert set(SectionTable.model_fields) == section | {"cable_angles_deg"}
+    assert set(table_of(cdcr.Section).model_fields) == section | {"cable_angles_deg"}
     cable = {item.name for item in dataclasses.fields(cdcr.Cable)}
-    assert set(CableTable.model_fields) == cable | {"angle_deg"}
-    assert set(RobotTable.model_fields) == {item.name for item in dataclasses.fields(cdcr.Robot)}
+    assert set(table_of(cdcr.Cable).model_fields) == cable | {"angle_deg"}
+    assert set(table_of(cdcr.Robot).model_fields) == {
+        item.name for item in dataclasses.fields(cdcr.Robot)
+    }
 
 
 def test_angles_in_degrees(tmp_path: Path) -> None:

@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from cdcr._robot_schema import CableTable, RobotTable, SectionTable
+import cdcr
+from cdcr.robot.schema import table_of
 from robot_file import FILE, load, replaced
 
 CABLE = "[[cables]]\nradius = 0.01\nangle = 0.5\nend_section = 0\n"
@@ -28,15 +29,15 @@ def test_angles_in_both_units_are_refused(tmp_path: Path) -> None:
 
 
 def test_an_unknown_key_is_named_with_the_nearest_and_all_known_ones(tmp_path: Path) -> None:
-    known = ", ".join(SectionTable.model_fields)
+    known = ", ".join(table_of(cdcr.Section).model_fields)
     assert refusal(tmp_path, replaced("damping", "dampign")) == [
         f"sections[0].dampign is not a known key. Did you mean 'damping'? Known keys: {known}"
     ]
-    known = ", ".join(RobotTable.model_fields)
+    known = ", ".join(table_of(cdcr.Robot).model_fields)
     assert refusal(tmp_path, "colour = 1\n" + FILE) == [
         f"colour is not a known key. Known keys: {known}"
     ]
-    known = ", ".join(CableTable.model_fields)
+    known = ", ".join(table_of(cdcr.Cable).model_fields)
     assert refusal(tmp_path, FILE + CABLE + "raduis = 1\n") == [
         f"cables[0].raduis is not a known key. Did you mean 'radius'? Known keys: {known}"
     ]
@@ -56,11 +57,15 @@ def test_each_required_key_is_missed(tmp_path: Path, name: str) -> None:
 
 
 def test_sections_are_missed(tmp_path: Path) -> None:
-    wanted = "one [[sections]] table for each section"
-    assert refusal(tmp_path, "payload = 1.0\n") == [f"sections is missing; it must be {wanted}"]
-    assert refusal(tmp_path, "sections = 1\n") == [f"sections must be {wanted}, got 1 (integer)"]
+    requirement = "one [[sections]] table for each section"
+    assert refusal(tmp_path, "payload = 1.0\n") == [
+        f"sections is missing; it must be {requirement}"
+    ]
+    assert refusal(tmp_path, "sections = 1\n") == [
+        f"sections must be {requirement}, got 1 (integer)"
+    ]
     assert refusal(tmp_path, "sections = [1]\n") == [
-        f"sections must be {wanted}, got 1 (integer) at sections[0]"
+        f"sections must be {requirement}, got 1 (integer) at sections[0]"
     ]
     assert refusal(tmp_path, "sections = []\n") == ["the number of sections must be 1 to 32, got 0"]
 

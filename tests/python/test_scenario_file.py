@@ -10,9 +10,9 @@ import pytest
 
 import cdcr
 from cdcr import _core
-from cdcr._scenario_file import initial_state, load_scenario
-from cdcr._scenario_schema import ScenarioTable
 from cdcr.scenarios import Scenario
+from cdcr.scenarios.file.reader import initial_state, load_scenario
+from cdcr.scenarios.file.schema import ScenarioTable
 
 FILE = """\
 robot = "amouri2020"

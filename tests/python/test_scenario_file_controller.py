@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import cdcr
-from cdcr._scenario_file import load_scenario
 from cdcr.scenarios import Scenario
+from cdcr.scenarios.file.reader import load_scenario
 
 HEAD = 'robot = "amouri2020"\nt_end = 2\nnum_samples = 201\nmethod = "dopri5"\n'
 PID = 'type = "pid"\nkp = 2.0\nki = 0.5\nkd = 0.3\n'

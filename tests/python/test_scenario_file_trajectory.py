@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 import cdcr
-from cdcr._inverse import inverse_run
-from cdcr._reference import Reference
-from cdcr._scenario_file import load_scenario
-from cdcr._trajectory_file import read_trajectory
+from cdcr.motion.inverse import inverse_run
+from cdcr.motion.reference import Reference
 from cdcr.scenarios import Scenario
+from cdcr.scenarios.file.reader import load_scenario
+from cdcr.scenarios.file.trajectory import read_trajectory
 
 # The motion's own arithmetic [rad], [rad/s], [rad/s^2], and what follows from it [N].
 ROUNDING = 1e-13
@@ -71,7 +71,7 @@ def test_rates_of_a_shape_are_those_of_its_angles(tmp_path: Path, shape: str) ->
     scenario = load(tmp_path, shape)
     h = 1e-4
     for t in (0.7, 3.3, 8.0):
-        motion = scenario.drive.motion  # type: ignore[attr-defined]
+        motion = scenario.input_source.motion  # type: ignore[union-attr]
         (before, here, after), rates, accelerations = motion(np.array([t - h, t, t + h]))
         np.testing.assert_allclose((after - before) / (2 * h), rates[1], atol=DIFFERENCES)
         change = (after - 2 * here + before) / h**2

@@ -15,8 +15,8 @@ pytest.importorskip("h5netcdf")
 
 from typer.testing import CliRunner
 
-from cdcr._cli_app import app
-from cdcr._scenario_file import load_scenario
+from cdcr.cli.app import app
+from cdcr.scenarios.file.reader import load_scenario
 
 BASE = 'robot = "three_sections"\nt_end = 0.4\nnum_samples = 41\n'
 WRENCH = "[[wrenches]]\nsection = 2\n"

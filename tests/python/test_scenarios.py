@@ -9,7 +9,7 @@ import pytest
 
 import cdcr
 from cdcr.scenarios import Scenario
-from cdcr.scenarios._findings import (
+from cdcr.scenarios.metrics import (
     energy_drift,
     oscillation_period,
     static_theta,
@@ -37,7 +37,7 @@ def variant(scenario: Scenario, **changes: Any) -> cdcr.Trajectory:
 
 
 def values(scenario: Scenario, run: cdcr.Trajectory) -> dict[str, float]:
-    return {finding.key: finding.value for finding in scenario.summary(run)}
+    return {metric.key: metric.value for metric in scenario.summary(run)}
 
 
 def test_every_scenario_is_complete() -> None:
@@ -308,6 +308,6 @@ def test_a_scenario_may_tell_and_draw_what_it_likes(
     scenario: Scenario, run: cdcr.Trajectory
 ) -> None:
     picture: Any = object()
-    own = dataclasses.replace(scenario, tell=lambda s, r: (), draw=lambda s, r: picture)
+    own = dataclasses.replace(scenario, summarize=lambda s, r: (), plot=lambda s, r: picture)
     assert own.summary(run) == ()
     assert own.figure(run) is picture

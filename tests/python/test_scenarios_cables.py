@@ -1,25 +1,18 @@
 """Scenarios about cables and subdivision: what they tell holds by other means."""
 
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
 import pytest
 
 import cdcr
-from cdcr.scenarios import length_drive, pull_release, subdivision
-from cdcr.scenarios._integral import integral
+from cdcr.scenarios.studies import length_drive, pull_release, subdivision
+from cdcr.scenarios.studies.energy import integral
+from scenario_runs import told
 
 TABLE = 1e-3  # the trapezoidal rule on samples; the runs themselves are far better
 SMEARED = 0.05  # friction turns over a small range of speeds, not at once
 ROTARY = 1e-3, 3e-3, 6e-3  # rotary inertia, absent from the Ritz beam, lowers the three modes
-
-
-@lru_cache(maxsize=4)
-def told(name: str) -> tuple[Any, dict[str, float]]:
-    scenario = cdcr.scenarios.get(name)
-    run = scenario.simulate() if scenario.has_run else None
-    return run, {finding.key: finding.value for finding in scenario.summary(run)}
 
 
 def test_integral_of_straight_lines_is_exact() -> None:
@@ -29,7 +22,7 @@ def test_integral_of_straight_lines_is_exact() -> None:
 
 
 def test_friction_takes_the_area_of_the_loop() -> None:
-    run, found = told("pull-release")
+    _, run, found = told("pull-release")
     assert run.success
     assert found["friction_power_J"] > 0.9 * found["loop_J"] > 0.0
     assert abs(found["difference"]) < TABLE
@@ -42,7 +35,7 @@ def test_friction_takes_the_area_of_the_loop() -> None:
 
 
 def test_capstan_bounds_the_tension_and_gives_the_dead_band() -> None:
-    run, found = told("pull-release")
+    _, run, found = told("pull-release")
     assert found["ratio"] == pytest.approx(found["capstan"], rel=TABLE)
     assert found["capstan"] < 0.95  # else the test would tell nothing
     assert found["dead_band_N"] == pytest.approx(found["dead_band_expected_N"], rel=SMEARED)
@@ -53,7 +46,7 @@ def test_capstan_bounds_the_tension_and_gives_the_dead_band() -> None:
 
 
 def test_without_friction_there_is_no_loop() -> None:
-    run, found = told("pull-release")
+    _, run, found = told("pull-release")
     smooth = pull_release.frictionless(float(run.t[-1]))
     area = float(integral(smooth.tension[:, 0], pull_release.pulled(smooth)))
     assert np.all(np.abs(pull_release.friction_power(smooth)) < 1e-12)
@@ -67,7 +60,7 @@ def test_without_friction_there_is_no_loop() -> None:
 
 
 def test_longer_lag_comes_with_friction() -> None:
-    run, _ = told("pull-release")
+    _, run, _ = told("pull-release")
     up = int(np.searchsorted(run.t, 0.5 * pull_release.RAMP))
     down = int(np.searchsorted(run.t, 1.5 * pull_release.RAMP))
     assert run.tension[up, 0] == pytest.approx(run.tension[down, 0], rel=1e-2)
@@ -75,7 +68,7 @@ def test_longer_lag_comes_with_friction() -> None:
 
 
 def test_cables_driven_by_length_hold_their_shape() -> None:
-    run, found = told("length-drive")
+    _, run, found = told("length-drive")
     assert run.success
     assert found["balance"] < TABLE
     assert 1.0 < found["error_held_deg"] <= found["error_max_deg"] < 15.0
@@ -86,7 +79,7 @@ def test_cables_driven_by_length_hold_their_shape() -> None:
 
 
 def test_stiffer_cables_come_nearer() -> None:
-    _, found = told("length-drive")
+    _, _, found = told("length-drive")
     # Ten times as stiff without slack: a tenth of the error or less, as slack cables do not help.
     assert found["stiffer_slack"] == 0.0
     assert found["stiffer_error_held_deg"] < found["error_held_deg"] / 9.0
@@ -97,7 +90,7 @@ def test_stiffer_cables_come_nearer() -> None:
 
 
 def test_slack_cables_pull_nothing_and_events_come_in_pairs() -> None:
-    run, found = told("length-drive")
+    _, run, found = told("length-drive")
     assert found["slack"] >= 3.0
     assert np.all(run.tension >= 0.0)
     for cable in range(run.model.num_cables):
@@ -139,7 +132,7 @@ def test_frequencies_are_those_of_an_independent_beam() -> None:
     for mode, rotary in enumerate(ROTARY):
         assert subdivision.beam()[mode] == pytest.approx(beam[mode], rel=rotary)
         assert subdivision.beam()[mode] < beam[mode]
-    _, found = told("subdivision")
+    _, _, found = told("subdivision")
     stated = (25.0, 4.75, 2.05, 1.14, 0.73)
     for parts, percent in enumerate(stated, start=1):
         assert found[f"excess_1_of_{parts}"] == pytest.approx(percent, abs=0.006)
@@ -155,7 +148,7 @@ def test_frequencies_fall_towards_the_beam_with_order_two() -> None:
 
 
 def test_step_responses_come_together() -> None:
-    _, found = told("subdivision")
+    _, _, found = told("subdivision")
     assert found["step_1_mm"] > 2.0 * found["step_2_mm"] > 4.0 * found["step_4_mm"] > 0.0
     # One part swings about F r / K, as fast as the frequency says.
     run = subdivision.responses()[1]
@@ -166,7 +159,7 @@ def test_step_responses_come_together() -> None:
 @pytest.mark.parametrize("name", ["pull-release", "length-drive", "subdivision"])
 def test_pictures_name_their_axes_with_units(name: str) -> None:
     pytest.importorskip("matplotlib")
-    run, _ = told(name)
+    _, run, _ = told(name)
     figure = cdcr.scenarios.get(name).figure(run)
     labels = [axes.get_ylabel() for axes in figure.axes if axes.name != "3d"]
     assert len(labels) >= 3

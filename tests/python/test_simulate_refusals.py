@@ -33,7 +33,7 @@ def refuses(sentence: str) -> Any:
         ({"q0": [0.0, NAN]}, "q0[1] must be finite, got nan"),
         (
             {"q0": [0.0, 10.0]},
-            "q0 must bend each section by at most 3 pi rad, got 10 rad in section 0",
+            "q0 must bend each section by at most 3 pi rad, got 10 rad in section 1",
         ),
         ({"qd0": [[0.0, 0.0]]}, "qd0 must have shape (2,), got (1, 2)"),
         ({"qd0": [INF, 0.0]}, "qd0[0] must be finite, got inf"),
@@ -43,7 +43,7 @@ def refuses(sentence: str) -> Any:
         ({"t": [0.0, NAN]}, "t[1] must be finite, got nan"),
         (
             {"t": [0.0, 0.5, 0.5]},
-            "t must be finite and strictly increasing, got 0.5 s at index 2",
+            "t must be finite and strictly increasing, got 0.5 s at index 2 after 0.5 s",
         ),
         ({"t": "soon"}, "t must be numbers of shape (any,), got str"),
         ({"method": "euler"}, "method must be one of 'rk4', 'dopri5', 'bdf', 'adams', got 'euler'"),
@@ -176,3 +176,7 @@ def test_tension_and_controller(model: cdcr.Model) -> None:
         run(model, tension=[1.0, 0.0, 0.0], controller=pid)
     with refuses("give either tension or controller, not both"):
         run(model, controller=pid, break_points=[0.1])
+    with refuses("give either command or controller, not both"):
+        run(model, command=[1.0, 0.0, 0.0], controller=pid)
+    with refuses("give either tension or command, two names for one thing, not both"):
+        run(model, tension=[1.0, 0.0, 0.0], command=[1.0, 0.0, 0.0])

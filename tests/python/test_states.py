@@ -167,7 +167,7 @@ def test_the_gradient_is_that_of_the_energy(model: cdcr.Model) -> None:
         ),
         (
             ([[0.0, 0.0], [6.0, 8.0]], [0.0, 0.0]),
-            "q[1] must bend each section by at most 3 pi rad, got 10 rad in section 0",
+            "q[1] must bend each section by at most 3 pi rad, got 10 rad in section 1",
         ),
         (([0.0, 0.0], [[0.0], [1.0, 2.0]]), "qd must be numbers of shape (..., 2), got list"),
     ],

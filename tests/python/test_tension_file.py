@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cdcr._scenario_file import load_scenario
 from cdcr.scenarios import Scenario
+from cdcr.scenarios.file.reader import load_scenario
 
 HEAD = 'robot = "amouri2020"\nt_end = 0.5\n[tension]\n'
 ROWS = "t = [0, 1]\nrows = [[0, 0, 0], [1, 2, 3]]\n"

@@ -2,6 +2,7 @@
 
 import math
 import warnings
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,9 +13,9 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 import cdcr
-from cdcr._scenario_file import load_scenario
-from cdcr._tension_shapes import Pulse, Ramp, Shape, Sine, Step, TensionShapes
 from cdcr.scenarios import Scenario
+from cdcr.scenarios.file.reader import load_scenario
+from cdcr.scenarios.file.shapes import Shape, TensionShapes, pulse, ramp, sine, step
 
 # One evaluation of a sum of a few terms near 10 N.
 ROUNDING = 1e-14
@@ -23,10 +24,10 @@ RUN = 1e-10
 TIGHT: dict[str, Any] = {"method": "dopri5", "rtol": 1e-12, "atol": 1e-14}
 HEAD = 'robot = "amouri2020"\nt_end = 2.0\nmethod = "dopri5"\nrtol = 1e-12\natol = 1e-14\n'
 
-STEP = Step(value=5.0, at=0.3)
-RAMP = Ramp(before=1.0, after=3.0, start=0.5, end=1.0)
-PULSE = Pulse(value=4.0, start=0.2, end=0.9, base=0.5)
-SINE = Sine(mean=2.0, amplitude=1.5, frequency=0.5, phase=math.pi / 2, start=0.25)
+STEP = step(value=5.0, at=0.3)
+RAMP = ramp(before=1.0, after=3.0, start=0.5, end=1.0)
+PULSE = pulse(value=4.0, start=0.2, end=0.9, base=0.5)
+SINE = sine(mean=2.0, amplitude=1.5, frequency=0.5, phase=math.pi / 2, start=0.25)
 
 
 def model() -> cdcr.Model:
@@ -84,7 +85,7 @@ def test_no_shapes_no_tension() -> None:
 
 
 def test_what_rounding_leaves_below_zero_is_zero() -> None:
-    parts = [Step(value=0.3), Step(value=-0.1, at=1.0), Step(value=-0.2, at=1.0)]
+    parts = [step(value=0.3), step(value=-0.1, at=1.0), step(value=-0.2, at=1.0)]
     assert 0.3 - 0.1 - 0.2 < 0.0
     tension = TensionShapes(1, [(0, part) for part in parts])
     assert tension(2.0)[0] == 0.0
@@ -103,8 +104,8 @@ def test_what_rounding_leaves_below_zero_is_zero() -> None:
 def test_accepted_shapes_never_push(data: list[tuple[float, float, float, float]]) -> None:
     shapes: list[tuple[int, Shape]] = []
     for value, start, length, amplitude in data:
-        shapes.append((0, Ramp(after=value, start=start, end=start + length)))
-        shapes.append((0, Sine(mean=value, amplitude=amplitude, frequency=1.7, start=start)))
+        shapes.append((0, ramp(after=value, start=start, end=start + length)))
+        shapes.append((0, sine(mean=value, amplitude=amplitude, frequency=1.7, start=start)))
     t = np.linspace(0.0, 6.0, 1201)
     try:
         tension = TensionShapes(1, shapes)
@@ -130,7 +131,7 @@ def restarted(edges: list[float], rows: list[list[float]], at: float) -> NDArray
 
 @pytest.mark.parametrize("method", ["bdf", "adams", "dopri5"])
 def test_a_run_over_jumps_is_one_restarted_there(method: str) -> None:
-    tension = TensionShapes(3, [(0, STEP), (2, Pulse(value=3.0, start=0.1, end=0.7))])
+    tension = TensionShapes(3, [(0, STEP), (2, pulse(value=3.0, start=0.1, end=0.7))])
     t = np.array([0.0, 0.05, 0.3, 0.31, 2.0])
     options = TIGHT | {"method": method}
     run = tension.run(model(), [0.0, 0.0], [0.0, 0.0], t, **options)
@@ -145,15 +146,15 @@ def test_a_run_over_jumps_is_one_restarted_there(method: str) -> None:
 
 
 def test_a_jump_beside_a_sine_is_a_restart() -> None:
-    def sine(t: float) -> float:
+    def wave(t: float) -> float:
         return 2.0 + 1.5 * math.sin(3.0 * math.pi * t)
 
-    shapes = TensionShapes(3, [(0, STEP), (1, Sine(mean=2.0, amplitude=1.5, frequency=1.5))])
+    shapes = TensionShapes(3, [(0, STEP), (1, sine(mean=2.0, amplitude=1.5, frequency=1.5))])
     q, qd = np.zeros(2), np.zeros(2)
     for t, pull in (([0.0, 0.3], 0.0), ([0.3, 2.0], 5.0)):
 
         def function(t: float, pull: float = pull) -> list[float]:
-            return [pull, sine(t), 0.0]
+            return [pull, wave(t), 0.0]
 
         run = cdcr.simulate(model(), q, qd, t=t, tension=function, **TIGHT)
         q, qd = run.q[-1], run.qd[-1]
@@ -176,7 +177,7 @@ def test_fixed_steps_keep_their_order_over_jumps() -> None:
 
 
 def test_ramps_run_as_a_table() -> None:
-    shapes = TensionShapes(3, [(0, Ramp(after=5.0, start=0.4, end=1.2)), (1, Ramp(after=1, end=2))])
+    shapes = TensionShapes(3, [(0, ramp(after=5.0, start=0.4, end=1.2)), (1, ramp(after=1, end=2))])
     table = cdcr.TensionTable(
         [0.0, 0.4, 1.2, 2.0],
         [[0.0, 0.0, 0.0], [0.0, 0.2, 0.0], [5.0, 0.6, 0.0], [5.0, 1.0, 0.0]],
@@ -189,7 +190,7 @@ def test_ramps_run_as_a_table() -> None:
 
 
 def test_a_smooth_sine_runs_as_a_function() -> None:
-    shapes = TensionShapes(3, [(1, Sine(mean=2.0, amplitude=1.0, frequency=2.0))])
+    shapes = TensionShapes(3, [(1, sine(mean=2.0, amplitude=1.0, frequency=2.0))])
     t, rest = np.linspace(0.0, 2.0, 9), [0.0, 0.0]
 
     def function(t: float) -> list[float]:
@@ -201,7 +202,7 @@ def test_a_smooth_sine_runs_as_a_function() -> None:
 
 
 def test_costs_and_failures_of_the_stretches_add_up() -> None:
-    tension = TensionShapes(3, [(0, Step(value=1.0, at=0.5)), (0, Step(value=500.0, at=1.0))])
+    tension = TensionShapes(3, [(0, step(value=1.0, at=0.5)), (0, step(value=500.0, at=1.0))])
     t, rest = np.linspace(0.0, 2.0, 41), [0.0, 0.0]
     run = tension.run(model(), rest, rest, t, **TIGHT)
     assert run.status.name == "bending_limit"
@@ -216,10 +217,28 @@ def test_costs_and_failures_of_the_stretches_add_up() -> None:
     assert short.stats.steps < part.stats.steps
 
 
+def test_lengths_put_together_from_shapes_are_commands_and_no_tensions() -> None:
+    robot = cdcr.robots.amouri2020(damping=0.02)
+    section = replace(robot.sections[0], cable_stiffness=5e3)
+    model = cdcr.Model(replace(robot, sections=(section,)))
+    shapes = [(j, step(value=length)) for j, length in enumerate(model.rest_command())]
+    lengths = TensionShapes(3, [*shapes, (0, ramp(after=-0.01, start=0.1, end=0.2))])
+    t = np.linspace(0.0, 0.4, 41)
+    rest = np.zeros(2)
+    run, table = lengths.run(model, rest, rest, t), cdcr.TensionTable(t, lengths(t))
+    np.testing.assert_array_equal(run.command, lengths(t))
+    whole = cdcr.simulate(model, rest, rest, t=t, command=table)
+    np.testing.assert_allclose(run.tension, whole.tension, rtol=0, atol=1e-2)
+    assert 10.0 < run.tension.max() < 50.0
+    assert {event.cable for event in run.slack_events} == {
+        event.cable for event in whole.slack_events
+    }
+
+
 def test_a_taylor_model_warns_once() -> None:
     taylor = cdcr.Model(cdcr.robots.amouri2020(), formulation="taylor")
     tension = TensionShapes(
-        3, [(0, Step(value=v, at=a)) for v, a in ((20, 0.0), (5, 0.4), (1, 0.5))]
+        3, [(0, step(value=v, at=a)) for v, a in ((20, 0.0), (5, 0.4), (1, 0.5))]
     )
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
@@ -238,9 +257,9 @@ def test_shapes_in_a_file(tmp_path: Path) -> None:
         3,
         [
             (0, STEP),
-            (0, Ramp(after=2.0, end=1.0)),
-            (1, Pulse(value=3.0, start=0.2, end=0.9, base=1.0)),
-            (2, Sine(mean=2.0, amplitude=1.0, frequency=1.5, phase=math.pi / 2)),
+            (0, ramp(after=2.0, end=1.0)),
+            (1, pulse(value=3.0, start=0.2, end=0.9, base=1.0)),
+            (2, sine(mean=2.0, amplitude=1.0, frequency=1.5, phase=math.pi / 2)),
         ],
     )
     run = scenario.simulate(num_samples=21)

@@ -9,7 +9,7 @@ import pytest
 import cdcr
 
 NAN, INF = np.nan, np.inf
-Q, QD, STILL = np.array([0.3, -0.2, 0.1, 0.4]), np.array([1.0, 0.5, -2.0, 1.0]), np.zeros(4)
+Q, QD = np.array([0.3, -0.2, 0.1, 0.4]), np.array([1.0, 0.5, -2.0, 1.0])
 
 
 def refuses(sentence: str) -> Any:
@@ -145,12 +145,3 @@ def test_a_wrench_at_a_time() -> None:
     assert [linear.at(t).force[0] for t in (0.0, 1.5, 2.0, 9.0)] == [6.0, 2.0, -2.0, -2.0]
     assert [held.at(t).force[0] for t in (0.0, 1.5, 2.0, 9.0)] == [6.0, 6.0, -2.0, -2.0]
     assert called.at(3.0).moment == (0.0, 36.0, 0.0)
-
-
-def test_a_dead_force_is_its_jacobian_transposed(model: cdcr.Model) -> None:
-    wrench = cdcr.Wrench(section=1, fraction=0.4, force=(0.3, -0.2, 0.5), moment=(0.1, 0.2, -0.1))
-    tension = np.zeros(model.num_cables)
-    with_it = model.forward_dynamics(Q, QD, tension, wrenches=wrench)
-    felt = model.jacobian(Q, 1, 0.4).T @ [*wrench.force, *wrench.moment]
-    expected = model.forward_dynamics(Q, QD, tension) + np.linalg.solve(model.mass_matrix(Q), felt)
-    np.testing.assert_allclose(with_it, expected, rtol=1e-10)

@@ -21,5 +21,6 @@
 #include "cdcr/statics.hpp"
 #include "cdcr/status.hpp"
 #include "cdcr/tension_input.hpp"
+#include "cdcr/total_force.hpp"
 #include "cdcr/version.hpp"
 #include "cdcr/wrench.hpp"

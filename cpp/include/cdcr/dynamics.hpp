@@ -1,7 +1,7 @@
 #pragma once
 
-#include "cdcr/cables.hpp"
 #include "cdcr/model.hpp"
+#include "cdcr/total_force.hpp"
 #include "cdcr/types.hpp"
 #include "cdcr/wrench.hpp"
 

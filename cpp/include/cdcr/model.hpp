@@ -5,18 +5,9 @@
 
 #include "cdcr/formulation.hpp"
 #include "cdcr/robot.hpp"
-#include "cdcr/shape_table.hpp"
 #include "cdcr/types.hpp"
 
 namespace cdcr {
-
-namespace detail {
-struct Chain;
-}
-
-/// Largest bending angle of a section [rad]: one and a half turns. The section's polynomials end
-/// there, and functions of the shape return NaN beyond it.
-inline constexpr double max_bending = 3.0 * 3.14159265358979323846;
 
 /// A robot made ready for computing: its polynomials, stiffnesses and cable geometry.
 ///
@@ -29,19 +20,25 @@ class Model {
   [[nodiscard]] const Robot& robot() const noexcept { return robot_; }
   [[nodiscard]] Formulation formulation() const noexcept { return formulation_; }
   [[nodiscard]] Index num_sections() const noexcept { return stiffness_.size(); }
-  [[nodiscard]] Index num_coordinates() const noexcept { return 2 * num_sections(); }
+  [[nodiscard]] Index num_coordinates() const noexcept { return actuation_.rows(); }
+  /// Where the coordinates of a section begin in q; for num_sections, where they end.
+  [[nodiscard]] Index first_coordinate(Index section) const noexcept { return first_[section]; }
   [[nodiscard]] Index num_cables() const noexcept { return actuation_.cols(); }
 
   /// Every cable, in the order of tensions (num_cables).
   [[nodiscard]] const std::vector<Cable>& cables() const noexcept { return cables_; }
   /// B of Q = B F (2n, num_cables) [m]: tensions to generalised force. Constant.
   [[nodiscard]] const MatrixXd& actuation_matrix() const noexcept { return actuation_; }
-  /// Rows of B that are not zero by construction, 2 (end_section + 1) for each cable.
+  /// Rows of B that are not zero by construction, one number for each cable.
   [[nodiscard]] const std::vector<Index>& cable_rows() const noexcept { return cable_rows_; }
   /// Cable lengths of the straight robot (num_cables) [m].
   [[nodiscard]] const VectorXd& straight_lengths() const noexcept { return straight_lengths_; }
   /// Bending stiffness K of each section (n) [N m/rad].
   [[nodiscard]] const VectorXd& stiffness() const noexcept { return stiffness_; }
+  /// Elastic stiffness of each coordinate (num_coordinates) [N m/rad].
+  [[nodiscard]] const VectorXd& coordinate_stiffness() const noexcept {
+    return coordinate_stiffness_;
+  }
   /// Viscous damping of each section (n) [N m s/rad].
   [[nodiscard]] const VectorXd& damping() const noexcept { return damping_; }
   /// Coulomb's coefficient of each cable in the holes of each section (n, num_cables).
@@ -57,33 +54,49 @@ class Model {
   [[nodiscard]] const Vector3d& root_gravity() const noexcept { return root_gravity_; }
   [[nodiscard]] bool has_gravity() const noexcept { return has_gravity_; }
 
-  /// One section with nothing but a point on its tip; such a robot has a table().
-  [[nodiscard]] bool has_closed_form() const noexcept { return table_ != nullptr; }
-  [[nodiscard]] const detail::ShapeTable& table() const noexcept { return *table_; }
-  [[nodiscard]] const detail::Chain& chain() const noexcept { return *chain_; }
+  /// One section with nothing but a point on its tip.
+  [[nodiscard]] bool has_closed_form() const noexcept { return has_closed_form_; }
+
+  /// What the equations of motion read; private to the library.
+  struct Parts;
+  [[nodiscard]] const std::shared_ptr<const Parts>& parts() const noexcept { return parts_; }
 
  private:
   Robot robot_;
   std::vector<Cable> cables_;
   std::vector<Index> cable_rows_;
   Formulation formulation_;
-  std::shared_ptr<const detail::ShapeTable> table_;
-  std::shared_ptr<const detail::Chain> chain_;
-  VectorXd stiffness_, damping_, straight_lengths_;
+  std::shared_ptr<const Parts> parts_;
+  std::vector<Index> first_;
+  VectorXd stiffness_, coordinate_stiffness_, damping_, straight_lengths_;
   MatrixXd actuation_, friction_;
   Vector3d root_gravity_ = Vector3d::Zero();
   Index singular_section_ = -1;
-  bool has_gravity_ = false, has_friction_ = false, has_plain_cables_ = true;
+  bool has_gravity_ = false, has_friction_ = false, has_plain_cables_ = true,
+       has_closed_form_ = false;
 };
 
 /// Throws std::invalid_argument with a sentence when the model cannot be accelerated.
 void require_inertia(const Model& model);
 
-/// Scratch space of the dynamics functions: one for each thread.
-struct Data {
+/// What a position and a velocity of a model give, kept so that a second function of the same state
+/// does not compute it again, and scratch space. One for each thread and model.
+class Data {
+ public:
   explicit Data(const Model& model);
-  VectorXd force;         ///< generalised force (2n) [N m]
-  VectorXd acceleration;  ///< (2n) [rad/s^2]
+  Data(const Data& other);
+  Data(Data&& other) noexcept;
+  Data& operator=(Data other) noexcept;
+  ~Data();
+
+  VectorXd force;  ///< generalised force (num_coordinates) [N m]
+
+  /// What is kept; private to the library. None where the closed form applies.
+  class Kept;
+  [[nodiscard]] Kept* kept() noexcept { return kept_.get(); }
+
+ private:
+  std::unique_ptr<Kept> kept_;
 };
 
 }  // namespace cdcr

@@ -60,7 +60,7 @@ class Plant {
   Controller* controller_;
   const Loads* loads_;
   Data data_;
-  VectorXd command_, held_force_, force_;
+  VectorXd command_, force_;
   Wrenches wrenches_;
   std::vector<Index> length_driven_;
   Index segment_ = 0;   // of the input, or periods of the controller made

@@ -12,6 +12,10 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
+/// Largest bending angle of a section [rad]: one and a half turns. The section's polynomials end
+/// there, and functions of the shape return NaN beyond it.
+inline constexpr double max_bending = 3.0 * 3.14159265358979323846;
+
 /// Read-only vector argument; binds to a VectorXd, a segment or a Map without a copy.
 using ConstVectorRef = Eigen::Ref<const VectorXd>;
 /// Caller-owned output vector; it must already have its size.

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
-from cdcr.paper import _claims_appendix as appendix
-from cdcr.paper import _claims_assumptions as assumptions
-from cdcr.paper import _claims_control as control
-from cdcr.paper import _claims_energy as energy
-from cdcr.paper import _claims_kinematics as kinematics
-from cdcr.paper import _claims_motion as motion
-from cdcr.paper import _claims_response as response
-from cdcr.paper import _claims_scope as scope
-from cdcr.paper._claims_common import VERDICTS, Claim, Verdict
+from cdcr.paper.claims import appendix as appendix
+from cdcr.paper.claims import assumptions as assumptions
+from cdcr.paper.claims import control as control
+from cdcr.paper.claims import energy as energy
+from cdcr.paper.claims import kinematics as kinematics
+from cdcr.paper.claims import motion as motion
+from cdcr.paper.claims import response as response
+from cdcr.paper.claims import scope as scope
+from cdcr.paper.claims.common import VERDICTS, Claim, Verdict
 
 __all__ = ["CHECKS", "VERDICTS", "Claim", "Verdict", "audit", "tally"]
 

@@ -8,12 +8,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cdcr._coordinates import _finite
 from cdcr._core import max_bending
-from cdcr._fields import Check
-from cdcr._model import FORMULATIONS
-from cdcr._robot import Robot, Section
+from cdcr.base.arrays import finite
+from cdcr.base.check import Check
+from cdcr.model.model import FORMULATIONS
 from cdcr.paper._elements import Sums, cut_sums, disks, rod, sums, tip
+from cdcr.robot.robot import Robot
+from cdcr.robot.section import Section
 
 FloatArray = NDArray[np.float64]
 
@@ -210,7 +211,7 @@ def _checked_count(num_disks: int) -> int:
 
 def checked_angles(theta: ArrayLike) -> FloatArray:
     """Return bending angles as an array, or refuse them."""
-    angles = _finite(theta, "theta")
+    angles = finite(theta, "theta")
     largest = float(np.max(np.abs(angles), initial=0.0))
     if largest > max_bending:
         raise ValueError(
@@ -232,6 +233,6 @@ def only_section(robot: Robot) -> Section:
     for thing in (section, robot):
         for item in fields(thing):
             value = getattr(thing, item.name)
-            if item.metadata["rare"] and value != item.default:
+            if item.metadata["advanced"] and value != item.default:
                 raise ValueError(f"the paper's equations have no {item.name}, got {value!r}")
     return section

@@ -16,10 +16,10 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cdcr._coordinates import _finite
-from cdcr._robot import Robot
+from cdcr.base.arrays import finite
 from cdcr.paper._elements import bow, disks, rod, sinc, sinc_slope, tip
 from cdcr.paper._factors import check_kind, checked_angles, inertia_and_slopes, only_section
+from cdcr.robot.robot import Robot
 
 FloatArray = NDArray[np.float64]
 VelocityOrder = Literal["mended", "printed"]
@@ -128,8 +128,8 @@ class PolarModel:
             Where the robot is straight or an inertia is not positive, and for an argument out of
             its range.
         """
-        angle, direction = checked_angles(theta), _finite(phi, "phi")
-        bending, turning = _finite(thetad, "thetad"), _finite(phid, "phid")
+        angle, direction = checked_angles(theta), finite(phi, "phi")
+        bending, turning = finite(thetad, "thetad"), finite(phid, "phid")
         forces = self._checked_tension(tension)
         (M11, M22), (dM11, dM22) = self._inertia(angle)
         second, third = bending * turning, turning**2
@@ -158,7 +158,7 @@ class PolarModel:
         float or (...) array
             Energy [J].
         """
-        bending, turning = _finite(thetad, "thetad"), _finite(phid, "phid")
+        bending, turning = finite(thetad, "thetad"), finite(phid, "phid")
         (M11, M22), _ = inertia_and_slopes(checked_angles(theta), self.robot, self.formulation)
         return (M11 * bending**2 + M22 * turning**2) / 2.0
 
@@ -175,7 +175,7 @@ class PolarModel:
         float or (...) array
             Energy [J].
         """
-        angle, direction = checked_angles(theta), _finite(phi, "phi")
+        angle, direction = checked_angles(theta), finite(phi, "phi")
         x, weight, along, _ = self._weights(direction)
         y = angle[..., np.newaxis] * x
         out, up = (x * y * bow(y)) @ weight, (x * sinc(y)) @ weight
@@ -245,7 +245,7 @@ class PolarModel:
         return self.robot.gravity[2]
 
     def _checked_tension(self, tension: ArrayLike) -> FloatArray:
-        forces = _finite(tension, "tension")
+        forces = finite(tension, "tension")
         num_cables = self.robot.num_cables
         if forces.ndim == 0 or forces.shape[-1] != num_cables:
             raise ValueError(

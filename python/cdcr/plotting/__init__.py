@@ -4,7 +4,7 @@ Nothing here shows a window, uses pyplot or leaves Matplotlib's settings changed
 """
 # ruff: noqa: E402 - the extra is asked for before its first import, so that one sentence says so
 
-from cdcr._extras import require
+from cdcr.base.extras import require
 
 require("matplotlib", "plot")
 

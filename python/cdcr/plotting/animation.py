@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from cdcr._export import new_file
+from cdcr.files.new_file import new_file
 from cdcr.plotting import panels, space
 from cdcr.plotting.geometry import states_at
 from cdcr.plotting.robot3d import RobotArtists, show_robot
@@ -19,7 +19,7 @@ from cdcr.plotting.style import BLACK, StyledFigure, style
 from cdcr.plotting.video import MAX_GIF_FPS, film_path, write_film
 
 if TYPE_CHECKING:
-    from cdcr import Trajectory
+    from cdcr.runs.trajectory import Trajectory
 
 __all__ = ["animate"]
 

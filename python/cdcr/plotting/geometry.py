@@ -9,7 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from cdcr import Cable, Model, Trajectory
+    from cdcr.model.model import Model
+    from cdcr.robot.cable import Cable
+    from cdcr.runs.trajectory import Trajectory
 
 __all__ = ["RobotShape", "base_plate", "robot_shape", "states_at"]
 

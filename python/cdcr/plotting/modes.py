@@ -12,8 +12,8 @@ from cdcr.plotting.geometry import PIECES
 from cdcr.plotting.style import ALARM, BLACK, GREY, StyledFigure, line_colors, style
 
 if TYPE_CHECKING:
-    from cdcr._model import Model
-    from cdcr._modes import Modes
+    from cdcr.model.model import Model
+    from cdcr.model.modes import Modes
 
 __all__ = ["plot_modes"]
 
@@ -65,14 +65,14 @@ def plot_modes(modes: Modes, count: int = 4, *, deflection: float = 0.15) -> Sty
             for j, line in enumerate(pair):
                 axes.plot(*line.T, color=color, alpha=1.0 if j % len(SWING) == 0 else 0.45)
             axes.plot(*rest.T, color=BLACK, linewidth=2.4)
-            falls = modes.squared_frequency[k] <= 0.0
+            unstable = modes.squared_frequency[k] <= 0.0
             figure.text(
                 (k + 0.5) / shown,
                 1.0 - 0.5 * TITLE / size[1],
                 _label(modes, k),
                 ha="center",
                 va="center",
-                color=ALARM if falls else BLACK,
+                color=ALARM if unstable else BLACK,
             )
         if not modes.stable:
             figure.text(0.01, 0.01, "not stable", color=ALARM)
@@ -83,7 +83,7 @@ def plot_modes(modes: Modes, count: int = 4, *, deflection: float = 0.15) -> Sty
 def _label(modes: Modes, k: int) -> str:
     """Name mode k, with its frequency."""
     if modes.squared_frequency[k] <= 0.0:
-        return f"mode {k + 1}: falls away"
+        return f"mode {k + 1}: unstable"
     text = f"mode {k + 1}: {modes.frequency_hz[k]:.3g} Hz"
     ratio = modes.damping_ratio[k]
     return text if abs(ratio) < 1e-12 else f"{text}\ndamping ratio {ratio:.2g}"

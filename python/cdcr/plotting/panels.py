@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from cdcr.plotting.style import ALARM, BLACK, GREY, StyledFigure, line_colors, style
 
 if TYPE_CHECKING:
-    from cdcr._model import Model
-    from cdcr._trajectory import Trajectory
+    from cdcr.model.model import Model
+    from cdcr.runs.trajectory import Trajectory
 
 __all__ = [
     "cable_colors",

@@ -15,7 +15,8 @@ from cdcr.plotting.geometry import base_plate, robot_shape, states_at
 from cdcr.plotting.style import BLACK, DISK, GREY, StyledFigure, line_colors, style
 
 if TYPE_CHECKING:
-    from cdcr import Model, Trajectory
+    from cdcr.model.model import Model
+    from cdcr.runs.trajectory import Trajectory
 
 __all__ = ["RobotArtists", "plot_robot", "plot_run_robot", "section_colors", "show_robot"]
 

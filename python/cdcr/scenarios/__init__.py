@@ -1,7 +1,7 @@
 """Ready-made runs and pictures: the robot, what is done to it, a summary and a figure.
 
-A new scenario is one new file here that defines ``SCENARIO``; its name is the file's, with
-dashes for underscores.
+A new scenario is one new file in ``library`` that defines ``SCENARIO``; its name is the file's,
+with dashes for underscores.
 """
 
 from __future__ import annotations
@@ -9,8 +9,9 @@ from __future__ import annotations
 from importlib import import_module
 from pkgutil import iter_modules
 
-from cdcr._fields import nearest
-from cdcr.scenarios._scenario import Scenario
+from cdcr.base.check import nearest
+from cdcr.scenarios import library
+from cdcr.scenarios.scenario import Scenario
 
 __all__ = ["Scenario", "get", "names"]
 
@@ -40,7 +41,9 @@ _ORDER = (
 
 def names() -> tuple[str, ...]:
     """Return the names of all scenarios, in the order of the origin paper's figures."""
-    files = (module.name for module in iter_modules(__path__) if not module.name.startswith("_"))
+    files = (
+        module.name for module in iter_modules(library.__path__) if not module.name.startswith("_")
+    )
     found = {name.replace("_", "-") for name in files}
     ordered = [name for name in _ORDER if name in found]
     return (*ordered, *sorted(found.difference(ordered)))
@@ -68,5 +71,5 @@ def get(name: str) -> Scenario:
         raise ValueError(
             f"there is no scenario {name!r}.{nearest(name, known)} Known: {', '.join(known)}"
         )
-    scenario: Scenario = import_module(f"{__name__}.{name.replace('-', '_')}").SCENARIO
+    scenario: Scenario = import_module(f"{library.__name__}.{name.replace('-', '_')}").SCENARIO
     return scenario

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from typer.testing import CliRunner, Result
 
-from cdcr._cli_app import app
+from cdcr.cli.app import app
 
 
 def cdcr_(*args: object) -> Result:

@@ -1,0 +1,277 @@
+#include "cdcr/allocation.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "base/arguments.hpp"
+#include "cdcr/kinematics.hpp"
+
+namespace cdcr {
+namespace {
+
+// The search minimises |F|^2/2 + |B F - Q|^2/(2 epsilon): least-norm where Q can be met, nearest
+// elsewhere. Strictly convex, so an active set that lowers it at each change comes to an end.
+constexpr double epsilon = 1e-9;
+// Distance from Q, relative to the sizes at hand, that still counts as met.
+constexpr double met = 1e-10;
+// Share of the missing force along a cable that is zero but for rounding: it would not help.
+constexpr double indifferent = 1e-6;
+
+void check(const Model& model, const TensionLimits& limits) {
+  detail::require(!std::isnan(limits.min_tension) && limits.min_tension != HUGE_VAL &&
+                      limits.max_tension >= limits.min_tension,
+                  "tension limits must satisfy min_tension <= max_tension, got min_tension ",
+                  limits.min_tension, " N and max_tension ", limits.max_tension, " N");
+  for (const Index cable : limits.cables) {
+    detail::require(cable >= 0 && cable < model.num_cables(), "cables must be indices from 0 to ",
+                    model.num_cables() - 1, ", got ", cable);
+  }
+}
+
+}  // namespace
+
+Allocator::Allocator(const Model& model, const TensionLimits& limits)
+    : low_(limits.min_tension), high_(limits.max_tension), ldlt_(model.num_coordinates()) {
+  check(model, limits);
+  const Index m = model.num_coordinates(), c = model.num_cables();
+  place_.assign(static_cast<std::size_t>(c), limits.cables.empty() ? Place::lower : Place::unused);
+  for (const Index cable : limits.cables) place_[cable] = Place::lower;
+  B_ = model.actuation_matrix();
+  for (Index j = 0; j < c; ++j) {
+    if (place_[j] == Place::unused) B_.col(j).setZero();
+  }
+  if (c > 0) scale_ = B_.colwise().norm().maxCoeff();
+  B_ /= scale_;
+  normal_ = MatrixXd::Identity(m, m);
+  ldlt_.compute(normal_);
+  Q_ = rest_ = lambda_ = force_ = VectorXd::Zero(m);
+  F_ = tension_ = VectorXd::Zero(c);
+
+  if (limits.method != AllocationMethod::search && limits.cables.empty()) find_triples(model);
+  detail::require(limits.method != AllocationMethod::sections || !triples_.empty(),
+                  "method sections needs three cables, not on one side of the backbone, that end "
+                  "at every section, and all of them in use");
+}
+
+void Allocator::find_triples(const Model& model) {
+  for (Index k = 0; k < model.num_sections(); ++k) {
+    Triple triple{};
+    int count = 0;
+    for (Index j = 0; j < model.num_cables(); ++j) {
+      if (model.cables()[static_cast<std::size_t>(j)].end_section != k) continue;
+      if (count < 3) triple.cables[count] = j;
+      ++count;
+    }
+    MatrixXd b(2, 3);
+    for (int i = 0; count == 3 && i < 3; ++i)
+      b.col(i) = B_.col(triple.cables[i]).segment<2>(model.first_coordinate(k));
+    // The cross product of the rows of b spans its null space.
+    const Vector3d top = b.row(0).transpose(), bottom = b.row(1).transpose();
+    triple.null = top.cross(bottom);
+    if (count != 3 || !(triple.null.minCoeff() * triple.null.maxCoeff() > 0.0)) {
+      triples_.clear();
+      return;
+    }
+    triple.null *= (triple.null[0] > 0.0 ? 1.0 : -1.0) / triple.null.norm();
+    const Eigen::Matrix2d gram = b * b.transpose();
+    triple.pseudo_inverse = b.transpose() * gram.inverse();
+    triples_.push_back(triple);
+  }
+}
+
+bool Allocator::at_limit(Index cable) const noexcept {
+  return place_[cable] == Place::lower || place_[cable] == Place::upper;
+}
+
+/// The pseudo-inverse's part plus a multiple of the null vector; the multiple nearest to zero is
+/// least-norm.
+bool Allocator::solve_triple(const Triple& triple, double force_x, double force_y) noexcept {
+  Vector3d base;
+  base.noalias() = triple.pseudo_inverse * Eigen::Vector2d(force_x, force_y);
+  double least = -HUGE_VAL, most = HUGE_VAL;
+  for (int i = 0; i < 3; ++i) {
+    least = std::fmax(least, (low_ - base[i]) / triple.null[i]);
+    most = std::fmin(most, (high_ - base[i]) / triple.null[i]);
+  }
+  if (!(least <= most)) return false;
+  const double common = std::clamp(0.0, least, most);
+  for (int i = 0; i < 3; ++i) {
+    const Index j = triple.cables[i];
+    F_[j] = std::fmin(std::fmax(base[i] + common * triple.null[i], low_), high_);
+    place_[j] = F_[j] == low_ ? Place::lower : F_[j] == high_ ? Place::upper : Place::free;
+  }
+  return true;
+}
+
+/// Cables pull on all sections alike, so those that end at a section owe what the next does not
+/// get.
+bool Allocator::solve_in_closed_form() noexcept {
+  const auto n = static_cast<Index>(triples_.size());
+  for (Index k = 0; k < n; ++k) {
+    const bool last = k + 1 == n;
+    const double next_x = last ? 0.0 : Q_[2 * k + 2], next_y = last ? 0.0 : Q_[2 * k + 3];
+    const Triple& triple = triples_[static_cast<std::size_t>(k)];
+    if (!solve_triple(triple, Q_[2 * k] - next_x, Q_[2 * k + 1] - next_y)) return false;
+  }
+  return n > 0;
+}
+
+void Allocator::place_at_start() noexcept {
+  for (Index j = 0; j < F_.size(); ++j) {
+    if (place_[j] == Place::unused) continue;
+    F_[j] = std::fmin(std::fmax(0.0, low_), high_);
+    place_[j] = low_ >= 0.0 ? Place::lower : high_ <= 0.0 ? Place::upper : Place::free;
+  }
+}
+
+void Allocator::left_for_free() noexcept {
+  rest_ = Q_;
+  for (Index j = 0; j < F_.size(); ++j) {
+    if (place_[j] != Place::free) rest_ -= B_.col(j) * F_[j];
+  }
+}
+
+void Allocator::solve_free() noexcept {
+  normal_.setZero();
+  for (Index j = 0; j < F_.size(); ++j) {
+    if (place_[j] == Place::free) normal_.noalias() += B_.col(j) * B_.col(j).transpose();
+  }
+  normal_.diagonal().array() += epsilon;
+  ldlt_.compute(normal_);
+  left_for_free();
+  lambda_ = rest_;
+  ldlt_.solveInPlace(lambda_);
+}
+
+/// Moves towards the minimum over the free cables; true when one reached a limit on the way.
+bool Allocator::fix_first_beyond() noexcept {
+  solve_free();
+  double share = 1.0;
+  Index first = -1;
+  Place side = Place::free;
+  for (Index j = 0; j < F_.size(); ++j) {
+    if (place_[j] != Place::free) continue;
+    const double wanted = B_.col(j).dot(lambda_);
+    if (wanted >= low_ && wanted <= high_) continue;
+    const double limit = wanted < low_ ? low_ : high_;
+    const double part = (limit - F_[j]) / (wanted - F_[j]);
+    if (first < 0 || part < share) {
+      share = part;
+      first = j;
+      side = wanted < low_ ? Place::lower : Place::upper;
+    }
+  }
+  for (Index j = 0; j < F_.size(); ++j) {
+    if (place_[j] == Place::free) F_[j] += share * (B_.col(j).dot(lambda_) - F_[j]);
+  }
+  if (first < 0) return false;
+  F_[first] = side == Place::lower ? low_ : high_;
+  place_[first] = side;
+  return true;
+}
+
+/// Releases the fixed cable that most wants to move inwards; false when none does.
+bool Allocator::release_most_wanted() noexcept {
+  Index best = -1;
+  double most = 1e-9 * (1.0 + lambda_.norm());
+  for (Index j = 0; j < F_.size(); ++j) {
+    if (!at_limit(j) || low_ == high_) continue;
+    const double wanted = B_.col(j).dot(lambda_) - F_[j];
+    const double inwards = place_[j] == Place::lower ? wanted : -wanted;
+    if (inwards > most) {
+      most = inwards;
+      best = j;
+    }
+  }
+  if (best < 0) return false;
+  place_[best] = Place::free;
+  return true;
+}
+
+/// With the set known, refines the free tensions until Q is met to rounding: each pass leaves
+/// about epsilon of the error, and what cannot be met does not move the cables.
+void Allocator::polish() noexcept {
+  solve_free();
+  for (int pass = 0; pass < 3; ++pass) {
+    for (Index j = 0; j < F_.size(); ++j) {
+      if (place_[j] == Place::free) rest_ -= B_.col(j) * B_.col(j).dot(lambda_);
+    }
+    // rest_ is now the error of the force with F = B^T lambda on the free cables.
+    ldlt_.solveInPlace(rest_);
+    lambda_ += rest_;
+    left_for_free();
+  }
+  for (Index j = 0; j < F_.size(); ++j) {
+    if (place_[j] == Place::free) {
+      F_[j] = std::fmin(std::fmax(B_.col(j).dot(lambda_), low_), high_);
+    }
+  }
+}
+
+void Allocator::search() noexcept {
+  place_at_start();
+  // Each cable is released and caught a few times at most; the limit only guards rounding.
+  const Index max_changes = 50 * (F_.size() + 1);
+  for (Index change = 0; change < max_changes; ++change) {
+    if (fix_first_beyond()) continue;
+    if (!release_most_wanted()) break;
+  }
+  polish();
+}
+
+bool Allocator::solve(const ConstVectorRef& force) noexcept {
+  Q_ = force / scale_;
+  if (!solve_in_closed_form()) search();
+  tension_ = F_;
+  rest_ = Q_;
+  for (Index j = 0; j < F_.size(); ++j) rest_ -= B_.col(j) * F_[j];
+  force_ = scale_ * (Q_ - rest_);
+  double size = Q_.norm();
+  for (Index j = 0; j < F_.size(); ++j) size += std::abs(F_[j]) * B_.col(j).norm();
+  return rest_.norm() <= met * size;
+}
+
+Allocation allocate(const Model& model, const VectorXd& force, const TensionLimits& limits) {
+  detail::require_finite("force", force, model.num_coordinates());
+  Allocator allocator(model, limits);
+  Allocation result;
+  result.feasible = allocator.solve(force);
+  result.tension = allocator.tension();
+  result.force = allocator.force();
+  const VectorXd missing = force - result.force;
+  result.distance = missing.norm();
+  for (Index j = 0; j < model.num_cables() && !result.feasible; ++j) {
+    if (!allocator.at_limit(j)) continue;
+    const double wanted = model.actuation_matrix().col(j).dot(missing);
+    const double tension = result.tension[j];
+    const bool lower = tension == limits.min_tension, upper = tension == limits.max_tension;
+    const double noise = indifferent * model.actuation_matrix().col(j).norm() * result.distance;
+    if (!(lower && wanted < -noise) && !(upper && wanted > noise)) continue;
+    result.limiting.push_back(j);
+    result.limits.push_back(detail::sentence(cable_name(model, j), " at ", tension, " N (",
+                                             wanted < 0.0 ? "min" : "max", ")"));
+  }
+  return result;
+}
+
+std::string cable_name(const Model& model, Index cable) {
+  const int section = model.cables()[static_cast<std::size_t>(cable)].end_section;
+  int number = 0;
+  for (Index j = 0; j <= cable; ++j) {
+    if (model.cables()[static_cast<std::size_t>(j)].end_section == section) ++number;
+  }
+  return "cable " + std::to_string(number) + " of section " + std::to_string(section + 1);
+}
+
+void cable_commands(const Model& model, const ConstVectorRef& q, const ConstVectorRef& tension,
+                    VectorRef command) noexcept {
+  cable_lengths(model, q, command);
+  for (Index j = 0; j < model.num_cables(); ++j) {
+    const Cable& cable = model.cables()[static_cast<std::size_t>(j)];
+    command[j] = cable.length_driven() ? command[j] - tension[j] / cable.stiffness : tension[j];
+  }
+}
+
+}  // namespace cdcr

@@ -1,0 +1,30 @@
+#include "base/arguments.hpp"
+
+#include <cmath>
+
+namespace cdcr::detail {
+
+void require_finite(const char* item, const VectorXd& v, Index size) {
+  require(v.size() == size && v.allFinite(), item, " must be ", size, " finite values, got [",
+          v.transpose(), "]");
+}
+
+void require_increasing(const char* item, const double* times, Index size) {
+  for (Index i = 0; i < size; ++i) {
+    if (std::isfinite(times[i]) && (i == 0 || times[i] > times[i - 1])) continue;
+    refuse(item, " must be finite and strictly increasing, got ", times[i], " s at index ", i,
+           i > 0 ? sentence(" after ", times[i - 1], " s") : "");
+  }
+}
+
+void require_positive(const char* item, double value, const char* unit) {
+  require(value > 0.0 && std::isfinite(value), item, " must be > 0 ", unit, " and finite, got ",
+          value);
+}
+
+void require_not_negative(const char* item, double value, const char* unit) {
+  require(value >= 0.0 && std::isfinite(value), item, " must be >= 0 ", unit, " and finite, got ",
+          value);
+}
+
+}  // namespace cdcr::detail

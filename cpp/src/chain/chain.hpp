@@ -1,0 +1,91 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "cdcr/robot.hpp"
+#include "section/constant_curvature.hpp"
+
+// The robot of n sections as a chain of flexible bodies, each carried by the tip of the one before
+// (cpp/several-sections.md eqs. (23) to (34)). The recursions of this room are templates on the
+// kind of section; what they ask of it is in section/section_state.hpp.
+
+namespace cdcr::detail {
+
+/// What the chain ends in: a rigid body at the tip, expressed in the tip frame.
+struct Payload {
+  double mass = 0.0;
+  Vector3d position = Vector3d::Zero();
+  Matrix3d inertia = Matrix3d::Zero();  // about the tip
+
+  [[nodiscard]] bool has_inertia() const noexcept { return mass != 0.0 || !inertia.isZero(0.0); }
+};
+
+/// A robot made ready for the recursions.
+struct Chain {
+  explicit Chain(const Robot& robot);
+
+  [[nodiscard]] Index num_sections() const noexcept { return static_cast<Index>(sections.size()); }
+  [[nodiscard]] Index num_coordinates() const noexcept { return first.back(); }
+
+  std::vector<SectionParameters> sections;
+  std::vector<Index> first;  // coordinate of each section, and past the last
+  Payload payload;
+  Matrix3d root;     // orientation of the first section
+  Vector3d gravity;  // in the base frame
+};
+
+template <class S>
+[[nodiscard]] FrameState<S> root_of(const Chain& chain) {
+  return {chain.root.col(0).cast<S>(), chain.root.col(1).cast<S>(), chain.root.col(2).cast<S>(),
+          Vector3<S>::Zero()};
+}
+
+/// All sections of a chain in one state, by one pass from base to tip for q and one for qd.
+template <class Section>
+struct ChainState {
+  using S = typename Section::Scalar;
+
+  void update_position(const Chain& chain, const S* q) {
+    tip = root_of<S>(chain);
+    for (Index i = 0; i < chain.num_sections(); ++i) {
+      sections[i].update_position(chain.sections[i], tip, q + chain.first[i]);
+      tip = sections[i].end();
+    }
+  }
+  void update_velocity(const Chain& chain, const S* qd) {
+    tip.omega.setZero();
+    for (Index i = 0; i < chain.num_sections(); ++i) turn(chain, i, qd);
+  }
+  /// Both in one pass.
+  void update(const Chain& chain, const S* q, const S* qd) {
+    tip = root_of<S>(chain);
+    for (Index i = 0; i < chain.num_sections(); ++i) {
+      const Vector3<S> omega = tip.omega;
+      sections[i].update_position(chain.sections[i], tip, q + chain.first[i]);
+      tip = sections[i].end();
+      tip.omega = omega;
+      turn(chain, i, qd);
+    }
+  }
+
+  std::array<Section, max_sections> sections;
+  FrameState<S> tip;
+
+ private:
+  /// Velocity of section i, with tip.omega that of its base and then of its tip.
+  void turn(const Chain& chain, Index i, const S* qd) {
+    Section& section = sections[i];
+    if (i == 0) {
+      section.template update_velocity<false>(chain.sections[i], tip.omega, qd + chain.first[i]);
+    } else {
+      section.template update_velocity<true>(chain.sections[i], tip.omega, qd + chain.first[i]);
+    }
+    tip.omega = section.turning_rate();
+  }
+};
+
+template <class S>
+using ArcChainState = ChainState<ConstantCurvature<S>>;
+
+}  // namespace cdcr::detail

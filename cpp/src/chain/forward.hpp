@@ -1,0 +1,106 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <type_traits>
+
+#include "chain/chain.hpp"
+#include "chain/inertia.hpp"
+
+namespace cdcr::detail {
+
+/// Inverse of a symmetric positive definite matrix.
+template <class S, int m>
+[[nodiscard]] Eigen::Matrix<S, m, m> inverse_of(const Eigen::Matrix<S, m, m>& D) {
+  using Square = Eigen::Matrix<S, m, m>;
+  if constexpr (m == 2) {
+    const S factor = 1.0 / (D(0, 0) * D(1, 1) - D(0, 1) * D(0, 1));
+    const S across = -D(0, 1) * factor;
+    Square inverse;
+    inverse << D(1, 1) * factor, across, across, D(0, 0) * factor;
+    return inverse;
+  } else {
+    return D.llt().solve(Square::Identity(D.rows(), D.rows()));
+  }
+}
+
+/// Accelerations under a generalised force, by one pass from tip to base for articulated inertia
+/// and one out again for accelerations, eqs. (31), (32): O(n).
+template <class Section, class S = typename Section::Scalar>
+void forward_dynamics(const Chain& chain, const ChainState<Section>& state, const S* force,
+                      S* qdd) {
+  using Vectorm = typename Section::Vectorm;
+  using Matrixm = typename Section::Matrixm;
+  using Matrix3m = typename Section::Matrix3m;
+  struct Solved {
+    Matrix3m U_omega, U_v;  // force on the base that an acceleration of q needs
+    Matrixm inverse;        // of the section's articulated mass D
+    Vectorm u;              // D^-1 of the force on q at rest
+  };
+  const Index n = chain.num_sections();
+  std::array<Solved, max_sections> solved;
+  Articulated<S> rest = articulated_payload(chain.payload, state.tip);
+  // Eliminates q of section i; `carries` is false where no mass lies beyond it.
+  const auto eliminate = [&](Index i, auto carries) {
+    const Section& section = state.sections[i];
+    Solved& s = solved[i];
+    Matrixm D = section.own_mass();
+    Vectorm b = section.bias - Eigen::Map<const Vectorm>(force + chain.first[i]);
+    Vector3<S> f_tip, m_tip;
+    Matrix3m F, T;
+    if constexpr (carries) {
+      // What the rest of the chain asks of this tip: its own share, and that of q.
+      f_tip = rest.force + rest.G.transpose() * section.tip_angular_bias +
+              rest.M * section.tip_linear_bias;
+      m_tip = rest.moment + rest.J * section.tip_angular_bias + rest.G * section.tip_linear_bias;
+      F = rest.G.transpose() * section.J_omega + rest.M * section.J_v;
+      T = rest.J * section.J_omega + rest.G * section.J_v;
+      D += section.J_omega.transpose() * T + section.J_v.transpose() * F;
+      b += section.J_omega.transpose() * m_tip + section.J_v.transpose() * f_tip;
+      s.U_v = F + section.linear_coupling();
+    } else {
+      s.U_v = section.linear_coupling();
+    }
+    s.inverse = inverse_of<S, Section::m>(D);
+    s.u = s.inverse * b;
+    if (i == 0) return;  // its base neither turns nor passes anything on
+
+    if constexpr (carries) {
+      for (Index k = 0; k < F.cols(); ++k) T.col(k) += section.r.cross(F.col(k));
+      s.U_omega = T + section.angular_coupling();
+      shift(rest, section.r);
+    } else {
+      s.U_omega = section.angular_coupling();
+    }
+    add_section(rest, chain.sections[i].mass, section);
+    const Matrix3m UD = s.U_omega * s.inverse, VD = s.U_v * s.inverse;
+    rest.J -= UD * s.U_omega.transpose();
+    rest.G -= UD * s.U_v.transpose();
+    rest.M -= VD * s.U_v.transpose();
+    if constexpr (carries) {
+      rest.force = f_tip + section.force - s.U_v * s.u;
+      rest.moment = m_tip + section.r.cross(f_tip) + section.moment - s.U_omega * s.u;
+    } else {
+      rest.force = section.force - s.U_v * s.u;
+      rest.moment = section.moment - s.U_omega * s.u;
+    }
+  };
+  Index last = n - 1;
+  if (!chain.payload.has_inertia()) eliminate(last--, std::false_type());
+  for (Index i = last; i >= 0; --i) eliminate(i, std::true_type());
+
+  // At a base at rest weight is an acceleration upwards.
+  Vector3<S> omega = Vector3<S>::Zero(), v = -chain.gravity.template cast<S>();
+  for (Index i = 0; i < n; ++i) {
+    const Section& section = state.sections[i];
+    const Solved& s = solved[i];
+    Vectorm w = s.U_v.transpose() * v;
+    if (i > 0) w += s.U_omega.transpose() * omega;
+    const Vectorm a = -s.u - s.inverse * w;
+    Eigen::Map<Vectorm>(qdd + chain.first[i]) = a;
+    if (i + 1 == n) break;
+    v += omega.cross(section.r) + section.J_v * a + section.tip_linear_bias;
+    omega += section.J_omega * a + section.tip_angular_bias;
+  }
+}
+
+}  // namespace cdcr::detail

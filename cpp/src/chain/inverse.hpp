@@ -1,0 +1,54 @@
+#pragma once
+
+#include "chain/chain.hpp"
+#include "chain/inertia.hpp"
+
+namespace cdcr::detail {
+
+/// Generalised force that produces the accelerations: accelerations from base to tip, inertia
+/// forces back, eqs. (30), (33): O(n). Without `qdd` the bias.
+template <class Section, class S = typename Section::Scalar>
+void inverse_dynamics(const Chain& chain, const ChainState<Section>& state, const S* qdd,
+                      S* force) {
+  using Vectorm = typename Section::Vectorm;
+  using Matrix3m = typename Section::Matrix3m;
+  struct Inertial {
+    Vector3<S> moment, force;
+  };
+  const Index n = chain.num_sections();
+  std::array<Inertial, max_sections> inertial;
+  Vectorm rate = Vectorm::Zero();
+  // At a base at rest weight is an acceleration upwards.
+  Vector3<S> alpha = Vector3<S>::Zero(), v = -chain.gravity.template cast<S>();
+  for (Index i = 0; i < n; ++i) {
+    const Section& section = state.sections[i];
+    const Index first = chain.first[i];
+    if (qdd != nullptr) rate = Eigen::Map<const Vectorm>(qdd + first);
+    const Matrix3m H = section.linear_coupling();
+    Vectorm own = section.bias + section.own_mass() * rate + H.transpose() * v;
+    if (i > 0) {  // the root's base neither turns nor asks what acts on it
+      const Vector3<S> h = section.first_moment();
+      const Matrix3m N = section.angular_coupling();
+      inertial[i].force = section.force + chain.sections[i].mass * v + alpha.cross(h) + H * rate;
+      inertial[i].moment = section.moment + section.second_moment() * alpha + h.cross(v) + N * rate;
+      own += N.transpose() * alpha;
+    }
+    Eigen::Map<Vectorm>(force + first) = own;
+    v += alpha.cross(section.r) + section.J_v * rate + section.tip_linear_bias;
+    alpha += section.J_omega * rate + section.tip_angular_bias;
+  }
+
+  const Articulated<S> payload = articulated_payload(chain.payload, state.tip);
+  Vector3<S> moment = payload.moment + payload.J * alpha + payload.G * v;
+  Vector3<S> pull = payload.force + payload.G.transpose() * alpha + payload.M * v;
+  for (Index i = n - 1; i >= 0; --i) {
+    const Section& section = state.sections[i];
+    Eigen::Map<Vectorm>(force + chain.first[i]) +=
+        section.J_omega.transpose() * moment + section.J_v.transpose() * pull;
+    if (i == 0) break;
+    moment += section.r.cross(pull) + inertial[i].moment;
+    pull += inertial[i].force;
+  }
+}
+
+}  // namespace cdcr::detail

@@ -1,0 +1,85 @@
+#pragma once
+
+#include "cdcr/types.hpp"
+#include "section/shape_table.hpp"
+
+// One section with nothing but a point on its tip: equations of motion in closed form,
+// cpp/README.md eqs. (8) to (19). What a time step calls is inline, since a call would cost a third
+// of it.
+
+namespace cdcr::detail {
+
+/// What the closed form needs to know of its robot.
+struct SingleSection {
+  ShapeTable table;
+  double length, stiffness, damping;
+  Vector3d gravity;  // as the section sees it
+  bool has_gravity;
+};
+
+namespace closed_form {
+
+/// Adds the weight's part of dU/dq = -l [g_xy G_A + 2 (g_xy.q) G_A' q + 2 g_z G_S' q], eq. (15).
+inline void add_weight(const SingleSection& section, double x, double y, double sigma,
+                       double& out_x, double& out_y) noexcept {
+  const auto [G_A, G_S, dG_A, dG_S] = section.table(ShapeTable::Group::gravity, sigma);
+  const Vector3d& g = section.gravity;
+  const double l = section.length;
+  const double along_q = 2.0 * ((g[0] * x + g[1] * y) * dG_A + g[2] * dG_S);
+  out_x -= l * (g[0] * G_A + along_q * x);
+  out_y -= l * (g[1] * G_A + along_q * y);
+}
+
+/// h = (2 a' p + c) qd + (b' p^2 + (b - a') w) q + dU/dq, eq. (16).
+inline void section_bias(const SingleSection& section, const ShapeTable::Values& inertia, double x,
+                         double y, double xd, double yd, double& h_x, double& h_y) noexcept {
+  const auto [a, b, da, db] = inertia;
+  const double p = x * xd + y * yd;
+  const double w = xd * xd + yd * yd;
+  const double on_qd = 2.0 * da * p + section.damping;
+  const double on_q = db * p * p + (b - da) * w + section.stiffness;
+  h_x = on_qd * xd + on_q * x;
+  h_y = on_qd * yd + on_q * y;
+  if (section.has_gravity) add_weight(section, x, y, x * x + y * y, h_x, h_y);
+}
+
+/// Accelerations (2) under a generalised force (2).
+inline void forward_dynamics(const SingleSection& section, const double* q, const double* qd,
+                             const double* force, double* qdd) noexcept {
+  const double x = q[0], y = q[1];
+  const double sigma = x * x + y * y;
+  const auto v = section.table(ShapeTable::Group::inertia, sigma);
+  double h_x = 0.0, h_y = 0.0;
+  section_bias(section, v, x, y, qd[0], qd[1], h_x, h_y);
+  const double r_x = force[0] - h_x, r_y = force[1] - h_y;
+  // M^-1 r = (r - b/(a + b sigma) (q.r) q)/a, eq. (12), with one division for both quotients.
+  const double a = v[0], b = v[1], along = a + b * sigma;
+  const double inverse = 1.0 / (a * along);
+  const double q_r = b * (x * r_x + y * r_y);
+  qdd[0] = (along * r_x - q_r * x) * inverse;
+  qdd[1] = (along * r_y - q_r * y) * inverse;
+}
+
+void mass_matrix(const SingleSection& section, const ConstVectorRef& q, MatrixRef M) noexcept;
+void bias(const SingleSection& section, const ConstVectorRef& q, const ConstVectorRef& qd,
+          VectorRef h) noexcept;
+void inverse_dynamics(const SingleSection& section, const ConstVectorRef& q,
+                      const ConstVectorRef& qd, const ConstVectorRef& qdd,
+                      VectorRef force) noexcept;
+[[nodiscard]] double kinetic_energy(const SingleSection& section, const ConstVectorRef& q,
+                                    const ConstVectorRef& qd) noexcept;
+[[nodiscard]] double potential_energy(const SingleSection& section,
+                                      const ConstVectorRef& q) noexcept;
+void potential_gradient(const SingleSection& section, const ConstVectorRef& q,
+                        VectorRef gradient) noexcept;
+void potential_hessian(const SingleSection& section, const ConstVectorRef& q, MatrixRef H) noexcept;
+/// d(qdd)/dq and d(qdd)/dqd (2, 2) at a constant force.
+void acceleration_jacobians(const SingleSection& section, const ConstVectorRef& q,
+                            const ConstVectorRef& qd, const ConstVectorRef& force, MatrixRef on_q,
+                            MatrixRef on_qd) noexcept;
+/// M^-1 applied to the columns of `rows` (2, any).
+void solve_mass(const SingleSection& section, const ConstVectorRef& q, const MatrixXd& rows,
+                MatrixRef solution) noexcept;
+
+}  // namespace closed_form
+}  // namespace cdcr::detail

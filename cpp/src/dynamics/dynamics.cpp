@@ -1,0 +1,99 @@
+#include "cdcr/dynamics.hpp"
+
+#include "chain/dual.hpp"
+#include "chain/gradient.hpp"
+#include "dynamics/kept.hpp"
+#include "loads/cable_force.hpp"
+
+namespace cdcr {
+
+namespace closed_form = detail::closed_form;
+using detail::chain_of;
+using detail::single_of;
+
+void mass_matrix(const Model& model, Data& data, const ConstVectorRef& q, MatrixRef M) noexcept {
+  if (model.has_closed_form()) return closed_form::mass_matrix(single_of(model), q, M);
+  detail::mass_matrix(chain_of(model), data.kept()->at(model, q.data()), M);
+}
+
+void bias(const Model& model, Data& data, const ConstVectorRef& q, const ConstVectorRef& qd,
+          VectorRef h) noexcept {
+  if (model.has_closed_form()) return closed_form::bias(single_of(model), q, qd, h);
+  const auto& state = data.kept()->at(model, q.data(), qd.data());
+  detail::inverse_motion(chain_of(model), state, nullptr, h.data());
+}
+
+void forward_dynamics_force(const Model& model, Data& data, const ConstVectorRef& q,
+                            const ConstVectorRef& qd, const ConstVectorRef& force,
+                            VectorRef qdd) noexcept {
+  if (model.has_closed_form()) {
+    closed_form::forward_dynamics(single_of(model), q.data(), qd.data(), force.data(), qdd.data());
+    return;
+  }
+  const auto& state = data.kept()->at(model, q.data(), qd.data());
+  detail::forward_motion(chain_of(model), state, force.data(), qdd.data());
+}
+
+void forward_dynamics(const Model& model, Data& data, const ConstVectorRef& q,
+                      const ConstVectorRef& qd, const ConstVectorRef& tension,
+                      VectorRef qdd) noexcept {
+  if (model.has_closed_form() && model.has_plain_cables()) {
+    double force[2];
+    detail::single_actuation_force(model, tension.data(), force);
+    closed_form::forward_dynamics(single_of(model), q.data(), qd.data(), force, qdd.data());
+    return;
+  }
+  cable_force(model, q, qd, tension, data.force);
+  forward_dynamics_force(model, data, q, qd, data.force, qdd);
+}
+
+void forward_dynamics(const Model& model, Data& data, const ConstVectorRef& q,
+                      const ConstVectorRef& qd, const ConstVectorRef& tension,
+                      const Wrenches& wrenches, VectorRef qdd) noexcept {
+  total_force(model, q, qd, tension, wrenches, data.force);
+  forward_dynamics_force(model, data, q, qd, data.force, qdd);
+}
+
+void inverse_dynamics(const Model& model, Data& data, const ConstVectorRef& q,
+                      const ConstVectorRef& qd, const ConstVectorRef& qdd,
+                      VectorRef force) noexcept {
+  if (model.has_closed_form()) {
+    return closed_form::inverse_dynamics(single_of(model), q, qd, qdd, force);
+  }
+  const auto& state = data.kept()->at(model, q.data(), qd.data());
+  detail::inverse_motion(chain_of(model), state, qdd.data(), force.data());
+}
+
+double kinetic_energy(const Model& model, Data& data, const ConstVectorRef& q,
+                      const ConstVectorRef& qd) noexcept {
+  if (model.has_closed_form()) return closed_form::kinetic_energy(single_of(model), q, qd);
+  const auto& state = data.kept()->at(model, q.data(), qd.data());
+  return detail::kinetic_energy(chain_of(model), state, qd.data());
+}
+
+double potential_energy(const Model& model, Data& data, const ConstVectorRef& q) noexcept {
+  if (model.has_closed_form()) return closed_form::potential_energy(single_of(model), q);
+  return detail::potential_energy(chain_of(model), data.kept()->at(model, q.data()), q.data());
+}
+
+void potential_gradient(const Model& model, Data& data, const ConstVectorRef& q,
+                        VectorRef gradient) noexcept {
+  if (model.has_closed_form()) {
+    return closed_form::potential_gradient(single_of(model), q, gradient);
+  }
+  const auto& state = data.kept()->at(model, q.data());
+  detail::potential_gradient(chain_of(model), state, q.data(), gradient.data());
+}
+
+void potential_hessian(const Model& model, Data& /*data*/, const ConstVectorRef& q,
+                       MatrixRef H) noexcept {
+  if (model.has_closed_form()) return closed_form::potential_hessian(single_of(model), q, H);
+  const auto m = static_cast<int>(model.num_coordinates());
+  detail::ArcChainState<detail::Dual> state;
+  detail::differentiate(m, m, q.data(), H, [&](const detail::Dual* x, detail::Dual* y) {
+    state.update_position(chain_of(model), x);
+    detail::potential_gradient(chain_of(model), state, x, y);
+  });
+}
+
+}  // namespace cdcr

@@ -1,0 +1,92 @@
+#include "cdcr/linearization.hpp"
+
+#include "cdcr/dynamics.hpp"
+#include "chain/dual.hpp"
+#include "chain/forward.hpp"
+#include "loads/total_force.hpp"
+
+namespace cdcr {
+namespace {
+
+using detail::Dual;
+
+// 16 cables at most end on each section, and a robot has at most 64 beside those.
+constexpr int max_commands = 16 * max_sections + 64;
+
+/// The rows of A that say d(q)/dt = qd.
+void set_upper_rows(Index m, MatrixRef A) noexcept {
+  A.topRows(m).setZero();
+  A.topRightCorner(m, m).setIdentity();
+}
+
+/// Rows d(qdd)/d(q, qd) of A, and d(qdd)/d(command) where B is wanted, under all forces.
+void differentiate_motion(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
+                          const ConstVectorRef& command, const Wrenches& wrenches, MatrixRef A,
+                          MatrixRef* B) noexcept {
+  const auto m = static_cast<int>(model.num_coordinates());
+  const auto cables = static_cast<int>(model.num_cables());
+  Dual x[4 * max_sections], qdd[2 * max_sections], force[2 * max_sections];
+  Dual commands[max_commands];
+  detail::ArcChainState<Dual> state;
+  const detail::Chain& chain = detail::chain_of(model);
+  for (int i = 0; i < m; ++i) {
+    x[i] = Dual(q[i]);
+    x[m + i] = Dual(qd[i]);
+  }
+  for (int j = 0; j < cables; ++j) commands[j] = Dual(command[j]);
+  const auto sweep = [&](Dual* inputs, int num_inputs, MatrixRef out) {
+    for (int first = 0; first < num_inputs; first += detail::dual_width) {
+      const int count = std::min(detail::dual_width, num_inputs - first);
+      for (int k = 0; k < count; ++k) inputs[first + k].derivatives()[k] = 1.0;
+      detail::total_force<Dual>(model, x, x + m, commands, wrenches, force);
+      state.update_position(chain, x);
+      state.update_velocity(chain, x + m);
+      detail::forward_dynamics(chain, state, static_cast<const Dual*>(force), qdd);
+      for (int i = 0; i < m; ++i) {
+        out.row(i).segment(first, count) = qdd[i].derivatives().head(count).transpose();
+      }
+      for (int k = 0; k < count; ++k) inputs[first + k].derivatives().setZero();
+    }
+  };
+  sweep(x, 2 * m, A.bottomRows(m));
+  if (B != nullptr) sweep(commands, cables, B->bottomRows(m));
+}
+
+}  // namespace
+
+void state_jacobian(const Model& model, Data& data, const ConstVectorRef& q,
+                    const ConstVectorRef& qd, const ConstVectorRef& command,
+                    const Wrenches& wrenches, MatrixRef A) noexcept {
+  const Index m = model.num_coordinates();
+  set_upper_rows(m, A);
+  if (model.has_closed_form() && force_is_constant(model, wrenches)) {
+    actuation_force(model, command, data.force);
+    detail::closed_form::acceleration_jacobians(detail::single_of(model), q, qd, data.force,
+                                                A.bottomLeftCorner(m, m),
+                                                A.bottomRightCorner(m, m));
+    return;
+  }
+  differentiate_motion(model, q, qd, command, wrenches, A, nullptr);
+}
+
+void linearize(const Model& model, Data& data, const ConstVectorRef& q, const ConstVectorRef& qd,
+               const ConstVectorRef& command, const Wrenches& wrenches, MatrixRef A,
+               MatrixRef B) noexcept {
+  const Index m = model.num_coordinates();
+  B.topRows(m).setZero();
+  if (model.has_closed_form() && force_is_constant(model, wrenches)) {
+    state_jacobian(model, data, q, qd, command, wrenches, A);
+    detail::closed_form::solve_mass(detail::single_of(model), q, model.actuation_matrix(),
+                                    B.bottomRows(m));
+    return;
+  }
+  set_upper_rows(m, A);
+  differentiate_motion(model, q, qd, command, wrenches, A, &B);
+}
+
+void linearize(const Model& model, Data& data, const ConstVectorRef& q, const ConstVectorRef& qd,
+               const ConstVectorRef& command, MatrixRef A, MatrixRef B) noexcept {
+  linearize(model, data, q, qd, command, no_wrenches(), A, B);
+}
+
+}  // namespace cdcr

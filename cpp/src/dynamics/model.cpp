@@ -1,0 +1,123 @@
+#include "cdcr/model.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "dynamics/kept.hpp"
+#include "section/series.hpp"
+
+namespace cdcr {
+
+namespace {
+
+detail::SectionSeries series_of(const Section& section, double payload, Formulation formulation) {
+  switch (formulation) {
+    case Formulation::exact:
+      break;
+    case Formulation::taylor:
+      return detail::cut_after_fourth_power(detail::exact_series(section, payload));
+    case Formulation::printed:
+      return detail::printed_series(section, payload);
+    case Formulation::printed_taylor:
+      return detail::cut_after_fourth_power(detail::printed_series(section, payload));
+  }
+  return detail::exact_series(section, payload);
+}
+
+}  // namespace
+
+Model::Model(Robot robot, Formulation formulation)
+    : robot_(std::move(robot)), formulation_(formulation) {
+  validate(robot_);
+  const auto n = static_cast<Index>(robot_.sections.size());
+  cables_ = robot_.all_cables();
+  stiffness_.resize(n);
+  damping_.resize(n);
+  for (Index i = 0; i < n; ++i) {
+    const Section& section = robot_.sections[i];
+    stiffness_[i] = section.stiffness();
+    damping_[i] = section.damping;
+  }
+  const auto parts = std::make_shared<Parts>(Parts{detail::Chain(robot_), std::nullopt});
+  first_ = parts->chain.first;
+  coordinate_stiffness_.resize(parts->chain.num_coordinates());
+  for (Index i = 0; i < n; ++i) {
+    coordinate_stiffness_.segment(first_[i], first_[i + 1] - first_[i]).setConstant(stiffness_[i]);
+  }
+
+  // A cable runs from the base to the end of its own section: Q_k += r e(gamma) F for k <= i.
+  const auto num_cables = static_cast<Index>(cables_.size());
+  actuation_.setZero(parts->chain.num_coordinates(), num_cables);
+  straight_lengths_.setZero(num_cables);
+  for (Index j = 0; j < num_cables; ++j) {
+    const Cable& cable = cables_[j];
+    cable_rows_.push_back(first_[cable.end_section + 1]);
+    for (Index k = 0; k <= cable.end_section; ++k) {
+      actuation_.col(j).segment<detail::ConstantCurvature<double>::m>(first_[k]) =
+          detail::ConstantCurvature<double>::actuation(cable.radius, cable.angle);
+      straight_lengths_[j] += robot_.sections[k].length;
+    }
+  }
+
+  friction_.setZero(n, num_cables);
+  for (Index j = 0; j < num_cables; ++j) {
+    const Cable& cable = cables_[j];
+    for (Index k = 0; k <= cable.end_section; ++k) {
+      friction_(k, j) = cable.friction.value_or(robot_.sections[k].cable_friction);
+    }
+    if (cable.length_driven()) has_plain_cables_ = false;
+  }
+  has_friction_ = (friction_.array() > 0.0).any();
+  has_plain_cables_ = has_plain_cables_ && !has_friction_;
+  root_gravity_ = robot_.base_orientation.transpose() * robot_.gravity;
+  has_gravity_ = robot_.gravity != Vector3d::Zero();
+
+  const bool point = robot_.payload_position.isZero(0.0) && robot_.payload_inertia.isZero(0.0);
+  const Section& first = robot_.sections[0];
+  const bool alike =
+      first.disk_positions.empty() && first.disk_masses.empty() && first.disk_diameters.empty();
+  if (n == 1 && point && (alike || formulation == Formulation::exact)) {
+    parts->single =
+        detail::SingleSection{detail::ShapeTable(series_of(first, robot_.payload, formulation)),
+                              first.length,
+                              stiffness_[0],
+                              damping_[0],
+                              root_gravity_,
+                              has_gravity_};
+    has_closed_form_ = true;
+  } else if (formulation != Formulation::exact) {
+    throw std::invalid_argument(std::string("formulation must be exact for this robot, got ") +
+                                name(formulation) +
+                                ": the paper's inertia is that of one section with equal, equally "
+                                "spaced disks, and nothing "
+                                "but a point on its tip");
+  }
+  singular_section_ = detail::find_singular_section(parts->chain);
+  parts_ = parts;
+}
+
+void require_inertia(const Model& model) {
+  if (model.has_inertia()) return;
+  const std::string section = "sections[" + std::to_string(model.singular_section()) + "]";
+  throw std::invalid_argument(
+      "the robot has no dynamics, because " + section +
+      " can bend without moving any mass: give it a backbone_mass or disks with a disk_mass, or "
+      "the robot a payload");
+}
+
+Data::Data(const Model& model)
+    : force(VectorXd::Zero(model.num_coordinates())),
+      kept_(model.has_closed_form() ? nullptr : std::make_unique<Kept>(model)) {}
+Data::Data(const Data& other)
+    : force(other.force), kept_(other.kept_ ? std::make_unique<Kept>(*other.kept_) : nullptr) {}
+Data::Data(Data&& other) noexcept = default;
+Data& Data::operator=(Data other) noexcept {
+  force.swap(other.force);
+  kept_.swap(other.kept_);
+  return *this;
+}
+Data::~Data() = default;
+
+}  // namespace cdcr

@@ -1,0 +1,42 @@
+#include "cdcr/integrator.hpp"
+
+#include <cmath>
+
+#include "base/arguments.hpp"
+#include "integration/dopri5.hpp"
+#include "integration/rk4.hpp"
+
+namespace cdcr {
+namespace {
+
+void require(bool sound, const char* item, double value, const char* allowed) {
+  detail::require(sound, item, " must be ", allowed, ", got ", value);
+}
+
+}  // namespace
+
+void validate(const Options& o) {
+  // Below 1e-14 the error test measures rounding, and a run would never end.
+  require(o.rtol >= 1e-14 && o.rtol < 1.0, "rtol", o.rtol, "at least 1e-14 and below 1");
+  require(o.atol > 0.0 && std::isfinite(o.atol), "atol", o.atol, "> 0 and finite");
+  require(o.step > 0.0 && std::isfinite(o.step), "step", o.step, "> 0 s and finite");
+  require(o.max_step >= 0.0 && std::isfinite(o.max_step), "max_step", o.max_step,
+          ">= 0 s and finite (0: no limit)");
+  require(o.max_steps >= 1, "max_steps", static_cast<double>(o.max_steps), "at least 1");
+}
+
+std::unique_ptr<Integrator> make_integrator(Plant& plant, Method method, const Options& options) {
+  validate(options);
+  switch (method) {
+    case Method::rk4:
+      return std::make_unique<detail::Rk4>(plant, options);
+    case Method::dopri5:
+      return std::make_unique<detail::Dopri5>(plant, options);
+    case Method::bdf:
+    case Method::adams:
+      break;
+  }
+  detail::refuse("methods bdf and adams are made by make_cvode_integrator of cdcr/cvode.hpp");
+}
+
+}  // namespace cdcr

@@ -1,0 +1,145 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cdcr/dynamics.hpp"
+#include "cdcr/linearization.hpp"
+#include "cdcr/plant.hpp"
+#include "dynamics/bending.hpp"
+
+namespace cdcr {
+
+Plant::Plant(const Model& model, const TensionInput* input, Controller* controller,
+             const Loads& loads, Index num_cables)
+    : model_(&model),
+      input_(input),
+      controller_(controller),
+      loads_(&loads),
+      data_(model),
+      command_(VectorXd::Zero(model.num_cables())),
+      force_(VectorXd::Zero(model.num_coordinates())),
+      wrenches_(loads.wrenches()) {
+  require_inertia(model);
+  detail::require(num_cables == model.num_cables(), "tension must have one value for each of the ",
+                  model.num_cables(), " cables, got ", num_cables);
+  validate(model, loads.wrenches());
+  for (Index j = 0; j < model.num_cables(); ++j) {
+    if (model.cables()[static_cast<std::size_t>(j)].length_driven()) length_driven_.push_back(j);
+  }
+}
+
+Plant::Plant(const Model& model, const TensionInput& input, const Loads& loads)
+    : Plant(model, &input, nullptr, loads, input.num_cables()) {}
+
+Plant::Plant(const Model& model, Controller& controller, const Loads& loads)
+    : Plant(model, nullptr, &controller, loads, controller.num_cables()) {
+  segment_ = -1;
+}
+
+Status Plant::start_segment(double t, const VectorXd& y) {
+  const Index m = model_->num_coordinates();
+  Status status = Status::ok;
+  if (controller_ == nullptr) {
+    segment_ = input_->segment(t);
+    const auto& breaks = input_->break_points();
+    command_end_ = segment_ < static_cast<Index>(breaks.size())
+                       ? breaks[segment_]
+                       : std::numeric_limits<double>::infinity();
+    command_holds_ = input_->holds(segment_);
+    if (command_holds_) update_command(t, y.head(m), y.tail(m));
+  } else if (segment_ < 0 || t >= command_end_) {
+    // A stretch that begins within a period goes on under the tensions held.
+    if (segment_ < 0) start_ = t;
+    ++segment_;
+    command_end_ = start_ + static_cast<double>(segment_ + 1) * controller_->period();
+    command_holds_ = true;
+    status = controller_->update(t, y.head(m), y.tail(m), command_);
+  }
+  const auto& breaks = loads_->break_points();
+  const auto next = std::upper_bound(breaks.begin(), breaks.end(), t);
+  segment_start_ = t;
+  segment_end_ = next == breaks.end() ? command_end_ : std::min(*next, command_end_);
+  if (command_holds_ && force_is_constant(*model_, wrenches_)) {
+    total_force(*model_, y.head(m), y.tail(m), command_, wrenches_, force_);
+  }
+  if (loads_->hold()) update_wrenches(t);
+  return status;
+}
+
+void Plant::update_command(double t, const ConstVectorRef& q, const ConstVectorRef& qd) {
+  input_->evaluate(t, segment_, q, qd, command_);
+  if (!input_->is_function()) return;
+  detail::require(
+      check_tension(*model_, command_) == Status::ok,
+      "the tension function must give finite values >= 0 N (a cable cannot push), got [",
+      command_.transpose(), "] at t = ", t, " s");
+}
+
+void Plant::update_wrenches(double t) {
+  loads_->evaluate(t, segment_start_, segment_end_, wrenches_);
+}
+
+void Plant::derivative(double t, const double* y, double* dydt) {
+  const Index m = model_->num_coordinates();
+  const Eigen::Map<const VectorXd> q(y, m), qd(y + m, m);
+  Eigen::Map<VectorXd> qdd(dydt + m, m);
+  if (!command_holds_) {
+    // A step that went astray is the integrator's business: no user's function sees such a state.
+    if (input_->is_function() && check(y) != Status::ok) {
+      std::fill(dydt, dydt + 2 * m, std::numeric_limits<double>::quiet_NaN());
+      return;
+    }
+    update_command(t, q, qd);
+  }
+  for (Index i = 0; i < m; ++i) dydt[i] = y[m + i];
+  if (!command_holds_ || !force_is_constant(*model_, wrenches_)) {
+    if (!loads_->hold()) update_wrenches(t);
+    total_force(*model_, q, qd, command_, wrenches_, force_);
+  }
+  forward_dynamics_force(*model_, data_, q, qd, force_, qdd);
+}
+
+void Plant::jacobian(double t, const double* y, double* J) {
+  const Index m = model_->num_coordinates();
+  const Eigen::Map<const VectorXd> q(y, m), qd(y + m, m);
+  if (!command_holds_) update_command(t, q, qd);
+  if (!loads_->hold()) update_wrenches(t);
+  Eigen::Map<MatrixXd> A(J, 2 * m, 2 * m);
+  state_jacobian(*model_, data_, q, qd, command_, wrenches_, A);
+}
+
+void Plant::cables(double t, const VectorXd& y, VectorRef command, VectorRef tension) {
+  const Index m = model_->num_coordinates();
+  if (!command_holds_) update_command(t, y.head(m), y.tail(m));
+  command = command_;
+  cable_tensions(*model_, y.head(m), y.tail(m), command_, tension);
+}
+
+void Plant::pulls(double t, const double* y, double* pull) {
+  const Index m = model_->num_coordinates();
+  const Eigen::Map<const VectorXd> q(y, m), qd(y + m, m);
+  if (!command_holds_) update_command(t, q, qd);
+  for (std::size_t i = 0; i < length_driven_.size(); ++i) {
+    pull[i] = cable_pull(*model_, length_driven_[i], q, qd, command_[length_driven_[i]]);
+  }
+}
+
+Status Plant::check(const double* y) const noexcept {
+  return check_state(*model_, Eigen::Map<const VectorXd>(y, num_states()));
+}
+
+Status check_state(const Model& model, const ConstVectorRef& y) noexcept {
+  if (!y.allFinite()) return Status::non_finite_state;
+  const bool within = detail::largest_bending(model, y) <= max_bending;
+  return within ? Status::ok : Status::bending_limit;
+}
+
+Status check_tension(const Model& model, const ConstVectorRef& tension) noexcept {
+  if (tension.size() != model.num_cables()) return Status::invalid_tension;
+  for (Index j = 0; j < tension.size(); ++j) {
+    if (!(tension[j] >= 0.0) || !std::isfinite(tension[j])) return Status::invalid_tension;
+  }
+  return Status::ok;
+}
+
+}  // namespace cdcr

@@ -1,0 +1,88 @@
+#include "cdcr/simulator.hpp"
+
+#include <cmath>
+
+#include "cdcr/plant.hpp"
+#include "dynamics/bending.hpp"
+#include "integration/rk4.hpp"
+
+namespace cdcr {
+
+struct Simulator::Stages : detail::Rk4Stages {
+  using Rk4Stages::Rk4Stages;
+};
+
+Simulator::Simulator(const Model& model, double step, int substeps)
+    : model_(model),
+      data_(model),
+      period_(step),
+      substeps_(substeps),
+      stages_(std::make_unique<Stages>(2 * model.num_coordinates())) {
+  require_inertia(model);
+  detail::require_positive("step", step, "s");
+  detail::require(substeps >= 1, "substeps must be at least 1, got ", substeps);
+  force_ = VectorXd::Zero(model.num_coordinates());
+  q_ = qd_ = force_;
+  y_ = trial_ = VectorXd::Zero(2 * model.num_coordinates());
+}
+
+Simulator::~Simulator() = default;
+Simulator::Simulator(Simulator&&) noexcept = default;
+Simulator& Simulator::operator=(Simulator&&) noexcept = default;
+
+void Simulator::reset(const VectorXd& q, const VectorXd& qd, double time) {
+  const Index m = model_.num_coordinates();
+  detail::require_finite("q", q, m);
+  detail::require_finite("qd", qd, m);
+  detail::require(std::isfinite(time), "time must be finite, got ", time);
+  detail::require_bending("q", model_, q);
+  q_ = q;
+  qd_ = qd;
+  y_ << q, qd;
+  start_ = time_ = time;
+  periods_ = 0;
+  started_ = true;
+}
+
+Status Simulator::step(const ConstVectorRef& tension) noexcept {
+  return step(tension, no_wrenches());
+}
+
+Status Simulator::step(const ConstVectorRef& tension, const Wrenches& wrenches) noexcept {
+  if (!started_) return Status::not_started;
+  const Status tension_status = check_tension(model_, tension);
+  if (tension_status != Status::ok) return tension_status;
+
+  const Index m = model_.num_coordinates();
+  const bool force_holds = force_is_constant(model_, wrenches);
+  if (force_holds) total_force(model_, q_, qd_, tension, wrenches, force_);
+  const auto f = [&](double /*t*/, const double* y, double* dydt) {
+    const Eigen::Map<const VectorXd> q(y, m), qd(y + m, m);
+    Eigen::Map<VectorXd> rate(dydt, m), qdd(dydt + m, m);
+    rate = qd;
+    if (!force_holds) total_force(model_, q, qd, tension, wrenches, force_);
+    forward_dynamics_force(model_, data_, q, qd, force_, qdd);
+  };
+  const double h = period_ / substeps_;
+  y_.head(m) = q_;
+  y_.tail(m) = qd_;
+  for (int i = 0; i < substeps_; ++i) {
+    f(0.0, y_.data(), stages_->k1.data());
+    stages_->step(f, 0.0, h, y_, trial_);
+    const Status status = check_state(model_, trial_);
+    if (status != Status::ok) {
+      const auto check = [this, m](const double* y) {
+        return check_state(model_, Eigen::Map<const VectorXd>(y, 2 * m));
+      };
+      return stages_->why(status, check, f, 0.0, h, y_, trial_);
+    }
+    y_.swap(trial_);
+  }
+  q_ = y_.head(m);
+  qd_ = y_.tail(m);
+  ++periods_;
+  time_ = start_ + static_cast<double>(periods_) * period_;
+  return Status::ok;
+}
+
+}  // namespace cdcr

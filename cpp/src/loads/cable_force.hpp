@@ -1,0 +1,165 @@
+#pragma once
+
+#include <cmath>
+
+#include "cdcr/model.hpp"
+#include "section/constant_curvature.hpp"
+
+// Forces of cables, cpp/several-sections.md eqs. (36) to (39), on any scalar.
+
+namespace cdcr::detail {
+
+/// Rate at which the part of a cable in a section shortens, or with q in place of qd its change.
+template <class S>
+[[nodiscard]] S shortening(const Model& model, Index cable, Index section, const S* rate) {
+  S sum(0.0);
+  for (Index i = model.first_coordinate(section); i < model.first_coordinate(section + 1); ++i) {
+    sum += model.actuation_matrix()(i, cable) * rate[i];
+  }
+  return sum;
+}
+
+/// Length that a cable driven by length misses, l - l_commanded [m]; negative when it hangs slack.
+template <class S>
+[[nodiscard]] S elongation(const Model& model, Index j, const S* q, const S& command) {
+  S length(model.straight_lengths()[j]);
+  for (Index k = 0; k <= model.cables()[static_cast<std::size_t>(j)].end_section; ++k) {
+    length -= shortening(model, j, k, q);
+  }
+  return length - command;
+}
+
+/// Pull of a length-driven cable's spring and damper; negative where it would have to push.
+template <class S>
+[[nodiscard]] S spring_force(const Model& model, Index j, const S* q, const S* qd,
+                             const S& command) {
+  const Cable& cable = model.cables()[static_cast<std::size_t>(j)];
+  S rate(0.0);
+  for (Index k = 0; k <= cable.end_section; ++k) {
+    rate -= shortening(model, j, k, qd);
+  }
+  return cable.stiffness * elongation(model, j, q, command) + cable.damping * rate;
+}
+
+/// Tension at the base, eq. (36).
+template <class S>
+[[nodiscard]] S base_tension(const Model& model, Index j, const S* q, const S* qd,
+                             const S& command) {
+  if (!model.cables()[static_cast<std::size_t>(j)].length_driven()) return command;
+  const S pull = spring_force(model, j, q, qd, command);
+  return pull > 0.0 ? pull : S(0.0);
+}
+
+/// (1 - e^-z)/z = e^-h sinh(h)/h with h = z/2, which loses no digits.
+template <class S>
+[[nodiscard]] S mean_decay(const S& z) {
+  using std::abs;
+  using std::exp;
+  using std::sinh;
+  const S h = 0.5 * z, decay = exp(S(-h));
+  if (abs(z) < 1e-2) return decay * (1.0 + h * h * (1.0 / 6.0 + h * h / 120.0));
+  return decay * sinh(h) / h;
+}
+
+/// Shift of the centre of weights e^-zx on [0, 1] from 1/2 towards 0, coth(h)/2 - 1/z.
+template <class S>
+[[nodiscard]] S centre_shift(const S& z) {
+  using std::abs;
+  using std::tanh;
+  if (abs(z) < 1e-2) return z * (1.0 / 12.0 - z * z * (1.0 / 720.0 - z * z / 30240.0));
+  return 0.5 / tanh(S(0.5 * z)) - 1.0 / z;
+}
+
+template <class S>
+[[nodiscard]] S larger(const S& a, const S& b) {
+  return a < b ? b : a;
+}
+template <class S>
+[[nodiscard]] S smaller(const S& a, const S& b) {
+  return b < a ? b : a;
+}
+
+/// Adds the generalised force of one cable that rubs in its holes, eqs. (37) to (39).
+///
+/// Within section k the tension falls as e^-zx with z = mu theta_k s. The direction s comes from
+/// the cable's speed v(x) through the holes, which is linear in x. What friction takes is
+/// mu theta_k s times the integral of e^-zx v; so s follows the mean of v where that has the sign
+/// of the weighted mean, and is zero in the small gap where it has not: friction never gives
+/// work. The tension that is left beyond each section goes to `beyond_sections` where that is
+/// wanted.
+template <class S>
+void add_capstan_force(const Model& model, Index j, const S* q, const S* qd, S tension, S* force,
+                       S* beyond_sections = nullptr) {
+  using std::sqrt;
+  using std::tanh;
+  const MatrixXd& B = model.actuation_matrix();
+  const auto end = static_cast<Index>(model.cables()[static_cast<std::size_t>(j)].end_section);
+  S beyond(0.0);  // rate of the length from here to the cable's end
+  for (Index k = 0; k <= end; ++k) beyond -= shortening(model, j, k, qd);
+  for (Index k = 0; k <= end; ++k) {
+    const S rate = -shortening(model, j, k, qd);
+    const Index first = model.first_coordinate(k), next = model.first_coordinate(k + 1);
+    const S sigma = ConstantCurvature<S>::squared_angle(q + first);
+    const double mu = model.friction()(k, j);
+    S effective = tension;
+    if (mu > 0.0 && sigma > 0.0) {
+      const S turn = mu * sqrt(sigma);
+      const S mean = beyond - 0.5 * rate;
+      const S shift = rate * centre_shift(turn);
+      const S none(0.0), forward = mean + shift, backward = mean - shift;
+      const S speed = smaller(larger(mean, forward), none) + larger(smaller(mean, backward), none);
+      const S z = turn * tanh(S(speed * (-1.0 / model.robot().sliding_speed)));
+      effective = tension * mean_decay(z);
+      using std::exp;
+      tension = tension * exp(S(-z));
+    }
+    for (Index i = first; i < next; ++i) force[i] += B(i, j) * effective;
+    beyond -= rate;
+    if (beyond_sections != nullptr) beyond_sections[k] = tension;
+  }
+}
+
+/// Q = B F, cable by cable: for so few numbers a general matrix product costs more than the
+/// dynamics. A cable reaches no further than the section it ends on.
+template <class S>
+void actuation_force(const Model& model, const S* tension, S* force) {
+  const double* column = model.actuation_matrix().data();
+  const Index m = model.num_coordinates();
+  for (Index i = 0; i < m; ++i) force[i] = S(0.0);
+  for (Index j = 0; j < model.num_cables(); ++j, column += m) {
+    const Index rows = model.cable_rows()[static_cast<std::size_t>(j)];
+    for (Index i = 0; i < rows; ++i) force[i] += column[i] * tension[j];
+  }
+}
+
+/// Q = B F of one section, whose sums stay in registers.
+inline void single_actuation_force(const Model& model, const double* tension,
+                                   double* force) noexcept {
+  const double* B = model.actuation_matrix().data();
+  double x = 0.0, y = 0.0;
+  for (Index j = 0; j < model.num_cables(); ++j) {
+    x += B[2 * j] * tension[j];
+    y += B[2 * j + 1] * tension[j];
+  }
+  force[0] = x;
+  force[1] = y;
+}
+
+/// Generalised force of all cables.
+template <class S>
+void cable_force(const Model& model, const S* q, const S* qd, const S* command, S* force) {
+  if (model.has_plain_cables()) return actuation_force(model, command, force);
+  for (Index i = 0; i < model.num_coordinates(); ++i) force[i] = S(0.0);
+  const MatrixXd& B = model.actuation_matrix();
+  for (Index j = 0; j < model.num_cables(); ++j) {
+    const S tension = base_tension(model, j, q, qd, command[j]);
+    if (model.has_friction()) {
+      add_capstan_force(model, j, q, qd, tension, force);
+      continue;
+    }
+    const Index rows = model.cable_rows()[static_cast<std::size_t>(j)];
+    for (Index i = 0; i < rows; ++i) force[i] += B(i, j) * tension;
+  }
+}
+
+}  // namespace cdcr::detail

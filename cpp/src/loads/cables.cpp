@@ -1,0 +1,70 @@
+#include "cdcr/cables.hpp"
+
+#include "loads/cable_force.hpp"
+
+namespace cdcr {
+
+void actuation_force(const Model& model, const ConstVectorRef& tension, VectorRef force) noexcept {
+  detail::actuation_force(model, tension.data(), force.data());
+}
+
+void cable_tensions(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
+                    const ConstVectorRef& command, VectorRef tension) noexcept {
+  for (Index j = 0; j < model.num_cables(); ++j) {
+    tension[j] = detail::base_tension(model, j, q.data(), qd.data(), command[j]);
+  }
+}
+
+void cable_force(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
+                 const ConstVectorRef& command, VectorRef force) noexcept {
+  detail::cable_force(model, q.data(), qd.data(), command.data(), force.data());
+}
+
+double cable_pull(const Model& model, Index cable, const ConstVectorRef& q,
+                  const ConstVectorRef& qd, double command) noexcept {
+  return detail::spring_force(model, cable, q.data(), qd.data(), command);
+}
+
+void tensions_along(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
+                    const ConstVectorRef& command, MatrixRef tension) noexcept {
+  double unused[2 * max_sections] = {};
+  tension.setZero();
+  for (Index j = 0; j < model.num_cables(); ++j) {
+    tension(0, j) = detail::base_tension(model, j, q.data(), qd.data(), command[j]);
+    detail::add_capstan_force(model, j, q.data(), qd.data(), double{tension(0, j)}, unused,
+                              &tension(1, j));
+  }
+}
+
+double friction_power(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
+                      const ConstVectorRef& command) noexcept {
+  if (!model.has_friction()) return 0.0;
+  double lost = 0.0, force[2 * max_sections] = {};
+  for (Index j = 0; j < model.num_cables(); ++j) {
+    const double tension = detail::base_tension(model, j, q.data(), qd.data(), command[j]);
+    lost += tension * model.actuation_matrix().col(j).dot(qd);
+    detail::add_capstan_force(model, j, q.data(), qd.data(), tension, force);
+  }
+  return lost - Eigen::Map<const VectorXd>(force, qd.size()).dot(qd);
+}
+
+double cable_energy(const Model& model, const ConstVectorRef& q,
+                    const ConstVectorRef& command) noexcept {
+  double energy = 0.0;
+  for (Index j = 0; j < model.num_cables(); ++j) {
+    const Cable& cable = model.cables()[static_cast<std::size_t>(j)];
+    if (!cable.length_driven()) continue;
+    const double longer = detail::elongation(model, j, q.data(), double{command[j]});
+    if (longer > 0.0) energy += 0.5 * cable.stiffness * longer * longer;
+  }
+  return energy;
+}
+
+void rest_command(const Model& model, VectorRef command) noexcept {
+  for (Index j = 0; j < model.num_cables(); ++j) {
+    const bool by_length = model.cables()[static_cast<std::size_t>(j)].length_driven();
+    command[j] = by_length ? model.straight_lengths()[j] : 0.0;
+  }
+}
+
+}  // namespace cdcr

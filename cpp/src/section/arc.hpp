@@ -1,0 +1,66 @@
+#pragma once
+
+#include <memory>
+
+#include "section/section_state.hpp"
+#include "section/section_table.hpp"
+
+namespace cdcr::detail {
+
+template <int N>
+void read(const PolynomialTable<N>& table, double sigma, Eigen::Array<double, N, 1>& f) {
+  table(sigma, f);
+}
+
+/// What is fixed about a constant-curvature section.
+struct SectionParameters {
+  std::shared_ptr<const SectionTable> table;  // shared by sections that are equal
+  const ArcTable* arcs;
+  double length, mass, stiffness, damping;
+};
+
+/// A circular arc from a section's base to a fraction of its length, cpp/several-sections.md
+/// eqs. (23) to (25): where it ends, and how the end moves with q.
+template <class S>
+struct Arc {
+  using Matrix3m = Eigen::Matrix<S, 3, 2>;
+
+  FrameState<S> base;
+  S q_x, q_y;
+  ArcValues<S> arc;
+  Vector3<S> q;           // the bending vector in space
+  Vector3<S> r;           // from the base to the end
+  Matrix3m J_omega, J_v;  // omega_end = omega + J_omega qd, v_end = v + omega x r + J_v qd
+
+  void update_position(const SectionParameters& section, const FrameState<S>& at, const S* bending,
+                       double fraction = 1.0) {
+    base = at;
+    q_x = fraction * bending[0];
+    q_y = fraction * bending[1];
+    read(*section.arcs, S(q_x * q_x + q_y * q_y), arc);
+    const double l = fraction * section.length;
+    q = base.x * q_x + base.y * q_y;
+    r = l * (arc[arc_a] * q + arc[arc_s] * base.z);
+    const Vector3<S> g = arc[arc_a] * base.z + arc[arc_g] * q;
+    const Vector3<S> dr = (2.0 * l) * (arc[arc_da] * q + arc[arc_ds] * base.z);
+    J_omega.col(0) = base.y - g * q_y;
+    J_omega.col(1) = g * q_x - base.x;
+    const S alpha = l * arc[arc_a];
+    J_v.col(0) = alpha * base.x + dr * q_x;
+    J_v.col(1) = alpha * base.y + dr * q_y;
+    if (fraction != 1.0) {
+      J_omega *= S(fraction);
+      J_v *= S(fraction);
+    }
+  }
+
+  /// Frame at the end, eq. (24); how fast it turns is left out.
+  [[nodiscard]] FrameState<S> end() const {
+    const S along = 1.0 - (q_x * q_x + q_y * q_y) * arc[arc_a];
+    const Vector3<S> pull = arc[arc_s] * base.z + arc[arc_a] * q;
+    return {base.x - pull * q_x, base.y - pull * q_y, along * base.z + arc[arc_s] * q,
+            Vector3<S>::Zero()};
+  }
+};
+
+}  // namespace cdcr::detail

@@ -1,0 +1,235 @@
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "cdcr/cables.hpp"
+#include "cdcr/statics.hpp"
+#include "dynamics/bending.hpp"
+#include "loads/command.hpp"
+#include "statics/static_problem.hpp"
+
+namespace cdcr {
+namespace {
+
+using detail::Balance;
+
+constexpr int max_iterations = 200;
+// A stiffness this small beside the largest is zero but for rounding.
+constexpr double neutral = 1e-12;
+// [rad], of one section: farther than this a linear model of the robot means little.
+constexpr double longest_step = 1.0;
+// Unbalanced moment over its rounding error that a stalled search may be left with.
+constexpr double stalled = 1e3;
+// Load steps: the first, and the one below which the robot may snap to another shape.
+constexpr double first_load_step = 0.25, snap_load_step = 1e-3;
+constexpr int max_load_steps = 400;
+constexpr int max_searches = 64;
+
+bool within_limit(const Model& model, const VectorXd& q) {
+  return q.allFinite() && detail::largest_bending(model, q) <= max_bending;
+}
+
+/// Newton's method from one start.
+class Search {
+ public:
+  explicit Search(Balance& balance)
+      : balance_(balance),
+        K_(balance.model().num_coordinates(), balance.model().num_coordinates()),
+        r_(K_.rows()),
+        trial_(K_.rows()),
+        trial_r_(K_.rows()),
+        llt_(K_.rows()) {}
+
+  /// Moves q to a point of rest; true when it got there.
+  bool run(VectorXd& q) {
+    balance_.residual(q, r_);
+    double merit = merit_of(q, r_);
+    for (int i = 0; i < max_iterations && size(r_) > balance_.noise(q); ++i, ++iterations_) {
+      balance_.stiffness(q, K_);
+      VectorXd step = balance_.has_energy() ? downhill_step() : newton_step();
+      const double longest = detail::largest_bending(balance_.model(), step);
+      if (!(longest < HUGE_VAL)) break;
+      if (longest > longest_step) step *= longest_step / longest;
+      if (!move(q, step, merit)) break;
+    }
+    // A search stalled by rounding has converged as far as the arithmetic allows; loads that
+    // overflow when squared have no scale to tell.
+    const double noise = balance_.noise(q);
+    return std::isfinite(noise) && size(r_) <= stalled * noise;
+  }
+
+  [[nodiscard]] int iterations() const { return iterations_; }
+  /// Largest component of what is out of balance where the last search ended.
+  [[nodiscard]] double residual() const { return size(r_); }
+
+ private:
+  static double size(const VectorXd& r) { return r.lpNorm<Eigen::Infinity>(); }
+
+  /// What each step has to lower: the energy, or else the unbalanced moment.
+  double merit_of(const VectorXd& q, const VectorXd& r) {
+    return balance_.has_energy() ? balance_.energy(q) : 0.5 * r.squaredNorm();
+  }
+
+  /// Newton step with the eigenvalues of K made positive, so that it always points downhill.
+  VectorXd downhill_step() {
+    llt_.compute(K_);
+    if (llt_.info() == Eigen::Success) {
+      const auto pivots = llt_.matrixLLT().diagonal();
+      if (pivots.minCoeff() > 1e-2 * pivots.maxCoeff()) return llt_.solve(-r_);
+    }
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(K_);
+    const double floor = 1e-6 * eigen.eigenvalues().cwiseAbs().maxCoeff();
+    const VectorXd curvature = eigen.eigenvalues().cwiseAbs().cwiseMax(floor);
+    const VectorXd in_eigenbasis = eigen.eigenvectors().transpose() * r_;
+    return -(eigen.eigenvectors() * in_eigenbasis.cwiseQuotient(curvature));
+  }
+
+  /// Newton step, or where K is singular the gradient's way with the largest stiffness.
+  VectorXd newton_step() {
+    VectorXd step = -K_.partialPivLu().solve(r_);
+    const double slope = r_.dot(K_ * step);
+    if (step.allFinite() && slope < -0.5 * r_.squaredNorm()) return step;
+    return -K_.transpose() * r_ / std::fmax(K_.squaredNorm(), 1e-300);
+  }
+
+  /// Goes along the step as far as the merit falls, by Armijo's rule; near the end differences
+  /// drown in rounding, so there a smaller unbalanced moment counts as progress too.
+  bool move(VectorXd& q, const VectorXd& step, double& merit) {
+    const bool near = size(r_) <= stalled * balance_.noise(q);
+    const double slope = balance_.has_energy() ? r_.dot(step) : r_.dot(K_ * step);
+    const int last_halving = near ? 0 : 32;
+    double factor = 1.0;
+    for (int halving = 0; halving <= last_halving; ++halving, factor *= 0.5) {
+      trial_ = q + factor * step;
+      if (!within_limit(balance_.model(), trial_)) continue;
+      balance_.residual(trial_, trial_r_);
+      const double trial_merit = merit_of(trial_, trial_r_);
+      const bool falls = !near && trial_merit <= merit + 1e-4 * factor * slope;
+      const bool closer = halving == 0 && trial_r_.norm() < 0.9 * r_.norm() &&
+                          trial_merit <= merit + 1e-12 * std::abs(merit);
+      if (!falls && !closer) continue;
+      q.swap(trial_);
+      r_.swap(trial_r_);
+      merit = trial_merit;
+      return true;
+    }
+    return false;
+  }
+
+  Balance& balance_;
+  MatrixXd K_;
+  VectorXd r_, trial_, trial_r_;
+  Eigen::LLT<MatrixXd> llt_;
+  int iterations_ = 0;
+};
+
+/// Lets the load grow from nothing to all, each time from the rest before; true when all is on.
+bool load_gradually(Balance& balance, Search& search, VectorXd& q, int& load_steps) {
+  q.setZero();
+  double load = 0.0, step = first_load_step;
+  bool arrived = false;
+  while (!arrived && load_steps < max_load_steps && step > 1e-6) {
+    ++load_steps;
+    const double next = std::fmin(1.0, load + step);
+    balance.set_load(next);
+    VectorXd moved = q;
+    const bool rests = search.run(moved);
+    const bool near = detail::largest_bending(balance.model(), moved - q) <= longest_step ||
+                      step <= snap_load_step;
+    if (!rests || !near) {
+      step *= 0.5;
+      continue;
+    }
+    q = moved;
+    load = next;
+    step *= 2.0;
+    arrived = load == 1.0;
+  }
+  balance.set_load(1.0);
+  return arrived;
+}
+
+VectorXd without_weight(const Model& model, const VectorXd& command) {
+  VectorXd q = VectorXd::Zero(model.num_coordinates());
+  for (Index j = 0; j < model.num_cables(); ++j) {
+    if (model.cables()[static_cast<std::size_t>(j)].length_driven()) continue;
+    q += model.actuation_matrix().col(j) * command[j];
+  }
+  return q.cwiseQuotient(model.coordinate_stiffness());
+}
+
+/// From other places, the same in every call.
+bool search_elsewhere(Search& search, VectorXd& q, int& searches) {
+  // Its numbers are the same everywhere.
+  std::mt19937 engine(1);  // NOLINT(bugprone-random-generator-seed): so must the answer be
+  while (searches < max_searches) {
+    ++searches;
+    const double width = searches % 2 == 0 ? 3.0 : 8.0;  // [rad]
+    for (double& component : q) {
+      component = width * (static_cast<double>(engine()) / 4294967296.0 - 0.5);
+    }
+    if (search.run(q)) return true;
+  }
+  return false;
+}
+
+/// Direct, then by growing load, then from elsewhere. The first failure is what a failure shows.
+void find(Balance& balance, Equilibrium& result) {
+  Search search(balance);
+  VectorXd& q = result.q;
+  const bool started_beyond = !within_limit(balance.model(), q);
+  if (started_beyond) q.setZero();
+  result.searches = 1;
+  bool found = search.run(q);
+  result.residual = search.residual();
+  VectorXd other = q;
+  if (!found) {
+    ++result.searches;
+    found = load_gradually(balance, search, other, result.load_steps);
+  }
+  if (!found) found = search_elsewhere(search, other, result.searches);
+  result.iterations = search.iterations();
+  if (found) {
+    q = other;
+    result.residual = search.residual();
+    result.status = Status::ok;
+  } else if (started_beyond || detail::largest_bending(balance.model(), q) > 0.999 * max_bending) {
+    result.status = Status::bending_limit;
+  }
+}
+
+void judge_stability(Balance& balance, Equilibrium& result) {
+  MatrixXd K(result.q.size(), result.q.size());
+  balance.stiffness(result.q, K);
+  if (balance.has_energy()) {
+    result.eigenvalues =
+        Eigen::SelfAdjointEigenSolver<MatrixXd>(K, Eigen::EigenvaluesOnly).eigenvalues();
+  } else {
+    result.eigenvalues = Eigen::EigenSolver<MatrixXd>(K, false).eigenvalues().real();
+    std::sort(result.eigenvalues.begin(), result.eigenvalues.end());
+  }
+  result.stable = result.eigenvalues.minCoeff() > neutral * result.eigenvalues.maxCoeff();
+}
+
+}  // namespace
+
+Equilibrium equilibrium(const Model& model, const VectorXd& command, const VectorXd& q0,
+                        const Wrenches& wrenches) {
+  detail::require_command(model, command);
+  if (q0.size() != 0) detail::require_finite("q0", q0, model.num_coordinates());
+  validate(model, wrenches);
+  Balance balance(model, command, wrenches);
+  Equilibrium result;
+  result.q = q0.size() == 0 ? without_weight(model, command) : q0;
+  find(balance, result);
+  judge_stability(balance, result);
+  const VectorXd rest = VectorXd::Zero(result.q.size());
+  result.tension.resize(model.num_cables());
+  cable_tensions(model, result.q, rest, command, result.tension);
+  return result;
+}
+
+}  // namespace cdcr

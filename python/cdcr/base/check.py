@@ -1,0 +1,139 @@
+"""Bad field values are refused with one clear sentence each."""
+
+from __future__ import annotations
+
+import math
+import reprlib
+from collections.abc import Collection, Iterable, Mapping, Set
+from contextlib import suppress
+from dataclasses import fields
+from numbers import Integral, Real
+from typing import Any
+
+import numpy as np
+
+_C_INT = 2**31 - 1  # largest count that the core can be told
+
+
+def format_value(value: object) -> str:
+    """Return a value as a refusal prints it: short, with its type."""
+    return f"{reprlib.repr(value)} ({type(value).__name__})"
+
+
+def nearest(word: str, known: Iterable[str]) -> str:
+    """Return ' Did you mean X?' for the known word most like `word`, or nothing."""
+    from difflib import get_close_matches
+
+    close = get_close_matches(word, known, n=1)
+    return f" Did you mean {close[0]!r}?" if close else ""
+
+
+class Check:
+    """Makes plain Python values of given ones, and keeps a sentence for each it cannot take.
+
+    A stand-in (NaN, 0, nothing) is returned for a refused value, so that all fields of an object
+    are looked at before `done` raises.
+    """
+
+    def __init__(self) -> None:
+        self.sentences: list[str] = []
+
+    def refuse(self, item: str, requirement: str, value: object) -> None:
+        """Keep the sentence '`item` must be `requirement`, got `value`'."""
+        self.sentences.append(f"{item} must be {requirement}, got {format_value(value)}")
+
+    def number(
+        self, item: str, value: object, requirement: str, above: float | None = None
+    ) -> float:
+        """Return any real number, NumPy scalars included, as a float; a bool is no number.
+
+        Where it must be `above` a limit, it must be finite too.
+        """
+        if isinstance(value, Real) and not isinstance(value, bool):
+            with suppress(OverflowError):
+                number = float(value)
+                if above is None or above < number < math.inf:
+                    return number
+        self.refuse(item, requirement, value)
+        return math.nan
+
+    def whole(
+        self, item: str, value: object, requirement: str, low: int = -_C_INT, high: int = _C_INT
+    ) -> int:
+        """Return any whole number from `low` to `high`, NumPy scalars included, as an int."""
+        if isinstance(value, Integral) and not isinstance(value, bool):
+            count = int(value)
+            if low <= count <= high:
+                return count
+        self.refuse(item, requirement, value)
+        return 0
+
+    def items(self, item: str, value: object, requirement: str) -> tuple[Any, ...]:
+        """Return any ordered collection (list, tuple, array of one dimension) as a tuple."""
+        unordered = isinstance(value, (str, bytes, bytearray, Mapping, Set))
+        if not unordered and isinstance(value, Collection) and getattr(value, "ndim", 1) == 1:
+            return tuple(value)
+        self.refuse(item, requirement, value)
+        return ()
+
+    def numbers(self, item: str, value: object, requirement: str, each: str) -> tuple[float, ...]:
+        """Return any sequence of real numbers as a tuple of floats."""
+        values = self.items(item, value, requirement)
+        return tuple(self.number(f"{item}[{i}]", one, each) for i, one in enumerate(values))
+
+    def vector(self, item: str, value: object, requirement: str, each: str) -> tuple[float, ...]:
+        """Return any sequence of three numbers as a tuple."""
+        before = len(self.sentences)
+        found = self.numbers(item, value, requirement, each)
+        if len(found) != 3 and len(self.sentences) == before:
+            self.refuse(item, requirement, value)
+        return found
+
+    def matrix(self, item: str, value: object, requirement: str) -> tuple[tuple[float, ...], ...]:
+        """Return three rows of three numbers, in sequences of any kind or an array, as tuples."""
+        rows = list(value) if isinstance(value, np.ndarray) and value.ndim == 2 else value
+        before = len(self.sentences)
+        found = tuple(
+            self.vector(f"{item}[{i}]", row, "three numbers", "a number")
+            for i, row in enumerate(self.items(item, rows, requirement))
+        )
+        if len(found) != 3 and len(self.sentences) == before:
+            self.refuse(item, requirement, value)
+        return found
+
+    def things(self, item: str, value: object, requirement: str, kind: type) -> tuple[Any, ...]:
+        """Return any sequence of things of one kind as a tuple."""
+        found = self.items(item, value, requirement)
+        for i, thing in enumerate(found):
+            if not isinstance(thing, kind):
+                self.refuse(f"{item}[{i}]", f"a cdcr.{kind.__name__}", thing)
+        return found
+
+    def keep(self, description: Any) -> None:
+        """Keep every field of a frozen description as plain values, by the kind of its quantity."""
+        for item in fields(description):
+            plain = self._plain(item.name, getattr(description, item.name), item.metadata)
+            object.__setattr__(description, item.name, plain)
+        self.done()
+
+    def _plain(self, item: str, value: object, about: Mapping[str, Any]) -> object:
+        kind, requirement = about["kind"], about["requirement"]
+        if isinstance(kind, type):
+            return self.things(item, value, requirement, kind)
+        if kind == "whole":
+            return self.whole(item, value, requirement)
+        if kind == "numbers":
+            return self.numbers(item, value, requirement, about["each"])
+        if kind == "vector":
+            return self.vector(item, value, requirement, about["each"])
+        if kind == "matrix":
+            return self.matrix(item, value, requirement)
+        if kind == "number or none" and value is None:
+            return None
+        return self.number(item, value, requirement)
+
+    def done(self, violations: Iterable[str] = ()) -> None:
+        """Raise a ValueError with all sentences, one a line, where there are any."""
+        self.sentences += violations
+        if self.sentences:
+            raise ValueError("\n".join(self.sentences))

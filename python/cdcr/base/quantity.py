@@ -1,0 +1,35 @@
+"""What the fields of a description say about themselves."""
+
+from __future__ import annotations
+
+from dataclasses import MISSING, field
+from typing import Any
+
+
+def quantity(
+    about: str,
+    unit: str,
+    requirement: str,
+    *,
+    kind: str | type = "number",
+    each: str = "",
+    default: Any = MISSING,
+    advanced: bool = False,
+) -> Any:
+    """Return a dataclass field that says what it is, for refusals and for comments in files.
+
+    Parameters
+    ----------
+    about, unit, requirement : str
+        What it is, in which unit, and what it must be.
+    kind : {"number", "number or none", "whole", "numbers", "vector", "matrix"} or type, optional
+        How `Check.keep` makes it plain; a type is that of every thing in a sequence.
+    each : str, optional
+        What every number in a sequence must be.
+    default : optional
+        Its value where it is left out.
+    advanced : bool, optional
+        Whether it stands in files and tables only where it differs from its default.
+    """
+    told = {"about": about, "unit": unit, "requirement": requirement, "advanced": advanced}
+    return field(default=default, metadata=told | {"kind": kind, "each": each})

@@ -1,0 +1,204 @@
+"""The commands: list, info, run, new, audit, figures."""
+
+from __future__ import annotations
+
+import json
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, cast
+
+import typer
+from rich.console import Console
+
+import cdcr
+from cdcr.cli import audit, figures, info, new, run, tables
+
+if TYPE_CHECKING:
+    from cdcr.runs.simulate import MethodName
+
+app = typer.Typer(
+    help="Dynamics of cable-driven continuum robots.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+
+def _warn_plainly(message: Warning | str, *_: object, **__: object) -> None:
+    """Show a warning as the sentence it is, without the place in the code it came from."""
+    typer.echo(f"cdcr: warning: {message}", err=True)
+
+
+@contextmanager
+def _told_plainly() -> Iterator[None]:
+    """Turn what users can mend into a sentence on stderr and an exit code, without a traceback."""
+    try:
+        with warnings.catch_warnings():
+            warnings.showwarning = _warn_plainly
+            yield
+    except KeyboardInterrupt:
+        typer.echo("cdcr: interrupted, no file was written", err=True)
+        raise typer.Exit(130) from None
+    except run.RunFailed as failure:
+        typer.echo(f"cdcr: {failure}", err=True)
+        raise typer.Exit(1) from None
+    except (run.Mistake, ImportError) as error:
+        typer.echo(f"cdcr: {error}", err=True)
+        raise typer.Exit(2) from None
+    except OSError as error:  # the system's own have a file and a reason, ours are sentences
+        sentence = f"{error.filename}: {error.strerror}" if error.strerror else str(error)
+        typer.echo(f"cdcr: {sentence}", err=True)
+        raise typer.Exit(2) from None
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"cdcr {cdcr.__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def cdcr_command(
+    version: Annotated[
+        bool,
+        typer.Option("--version", callback=_version, is_eager=True, help="Print the version."),
+    ] = False,
+) -> None:
+    """Dynamics of cable-driven continuum robots: scenarios, robots, pictures and data."""
+
+
+@app.command("list", short_help="List the known scenarios and robots.")
+def list_command() -> None:
+    """List the scenarios and robots that `run` and `info` know by name."""
+    with _told_plainly():
+        tables.print_list(Console())
+
+
+@app.command("info", short_help="Show what a robot is made of.")
+def info_command(
+    robot: Annotated[
+        str, typer.Argument(metavar="ROBOT|FILE.toml", help="A name from `cdcr list` or a file.")
+    ],
+) -> None:
+    """Show what a robot is made of and how it is at rest.
+
+    Sections, cables, masses, natural frequencies, stiffness of the tip, largest stable step.
+    """
+    with _told_plainly():
+        info.print_robot(Console(), robot, run.find_robot(robot))
+
+
+@app.command("run", short_help="Run a scenario; write picture and data; print a summary.")
+def run_command(
+    scenario: Annotated[
+        str,
+        typer.Argument(
+            metavar="NAME|FILE.toml", help="A scenario from `cdcr list` or a file of your own."
+        ),
+    ],
+    out: Annotated[
+        Path, typer.Option(help="Folder for the picture and the data; made where missing.")
+    ] = Path("out"),
+    method: Annotated[
+        str | None,
+        typer.Option(metavar="METHOD", help="Integrator: bdf, adams, dopri5 or rk4."),
+    ] = None,
+    t_end: Annotated[
+        float | None,
+        typer.Option(metavar="SECONDS", help="End of the run; samples keep their spacing."),
+    ] = None,
+    rtol: Annotated[
+        float | None, typer.Option(metavar="NUMBER", help="Relative tolerance of one step.")
+    ] = None,
+    atol: Annotated[
+        float | None,
+        typer.Option(metavar="NUMBER", help="Absolute tolerance of one step [rad], [rad/s]."),
+    ] = None,
+    max_steps: Annotated[
+        int | None,
+        typer.Option(metavar="NUMBER", help="Internal steps after which the run is given up."),
+    ] = None,
+    overwrite: Annotated[
+        bool, typer.Option("--overwrite", help="Replace files of an earlier run.")
+    ] = False,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print one JSON object in place of tables.")
+    ] = False,
+) -> None:
+    """Run a scenario; write a picture (.png) and the data (.csv, .nc); print a summary.
+
+    Exit codes: 0 all went well, 1 the integration failed, 2 something in the command or in a file
+    has to be mended first, 130 interrupted. Files appear only when a run is complete.
+    """
+    with _told_plainly():
+        report = run.run(
+            scenario,
+            out,
+            overwrite=overwrite,
+            console=Console(stderr=True),
+            method=cast("MethodName | None", method),
+            t_end=t_end,
+            rtol=rtol,
+            atol=atol,
+            max_steps=max_steps,
+        )
+        if as_json:
+            typer.echo(json.dumps(report.as_dict(), indent=2, allow_nan=False))
+        else:
+            tables.print_report(Console(), report)
+        if report.run is not None and not report.run.success:
+            raise run.RunFailed(f"{report.run.message} No file was written.")
+
+
+@app.command("new", short_help="Write a scenario file to start from.")
+def new_command(
+    file: Annotated[Path, typer.Argument(metavar="FILE.toml", help="The file to write.")],
+    overwrite: Annotated[
+        bool, typer.Option("--overwrite", help="Replace a file that is there.")
+    ] = False,
+) -> None:
+    """Write a scenario file that `run` takes as it is, with every option in a comment."""
+    with _told_plainly(), run.mistakes():
+        new.write_template(file, overwrite=overwrite)
+        typer.echo(f"wrote {file}; next: cdcr run {file}")
+
+
+@app.command("audit", short_help="Hold the origin paper's claims against its own equations.")
+def audit_command(
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print one JSON array in place of the table.")
+    ] = False,
+) -> None:
+    """Hold the claims of the origin paper against its own equations and Table 1.
+
+    One row per claim: where it stands, what the paper says, what follows from its equations, and a
+    verdict. Every number is computed by this command. Exit code 0, whatever the verdicts.
+    """
+    with _told_plainly():
+        claims = audit.compute(Console(stderr=True))
+        if as_json:
+            typer.echo(audit.as_json(claims))
+        else:
+            audit.print_audit(Console(), claims)
+
+
+@app.command("figures", short_help="Redraw all figures of the origin paper.")
+def figures_command(
+    out: Annotated[Path, typer.Option(help="Folder for the files; made where missing.")] = Path(
+        "figures"
+    ),
+    overwrite: Annotated[
+        bool, typer.Option("--overwrite", help="Replace files of an earlier call.")
+    ] = False,
+) -> None:
+    """Redraw all figures of the origin paper (.png, .svg); write index.html, which shows them.
+
+    Files appear only when all are complete.
+    """
+    with _told_plainly():
+        written = figures.figures(out, overwrite=overwrite, console=Console(stderr=True))
+    typer.echo(f"wrote {len(written) - 1} pictures and {written[-1]}")

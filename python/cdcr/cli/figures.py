@@ -1,0 +1,85 @@
+"""What ``cdcr figures`` does: draw the paper's scenarios and a page, write all files or none."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn
+
+from cdcr import scenarios
+from cdcr.base.extras import require
+from cdcr.cli.page import page
+from cdcr.cli.run import refuse_existing
+from cdcr.files.new_file import new_files
+from cdcr.scenarios import Scenario
+
+SUFFIXES = (".png", ".svg")
+INDEX = "index.html"
+
+
+def paper_scenarios() -> list[Scenario]:
+    """Return the scenarios that redraw a figure of the paper, in its order."""
+    known = [scenarios.get(name) for name in scenarios.names()]
+    return sorted((one for one in known if one.paper_figure), key=lambda one: one.paper_figure or 0)
+
+
+def targets(out: Path) -> tuple[Path, ...]:
+    """Return all files that `write_figures` writes into a folder."""
+    names = [f"{one.name}{suffix}" for one in paper_scenarios() for suffix in SUFFIXES]
+    return (*(out / name for name in names), out / INDEX)
+
+
+def write_figures(
+    out: Path, *, overwrite: bool = False, progress: Callable[[int, str], object] | None = None
+) -> tuple[Path, ...]:
+    """Draw every figure of the paper as PNG and SVG, and write the page that shows them.
+
+    The files appear together when all are complete. `progress` is told how many figures are done
+    and the name of the next. Needs the extra ``plot``.
+    """
+    drawn, files = paper_scenarios(), targets(out)
+    tell = progress or (lambda done, name: None)
+    with new_files(files, overwrite=overwrite) as written:
+        partial = {file.name: path for file, path in zip(files, written, strict=True)}
+        for done, scenario in enumerate(drawn):
+            tell(done, scenario.name)
+            _draw(scenario, partial)
+        tell(len(drawn), INDEX)
+        partial[INDEX].write_text(page(drawn), encoding="utf-8")
+    return files
+
+
+def _draw(scenario: Scenario, partial: dict[str, Path]) -> None:
+    run = scenario.simulate() if scenario.has_run else None
+    figure = scenario.figure(run)
+    for suffix in SUFFIXES:  # the layout found for the first serves all
+        # Without the date, the same picture is the same file.
+        metadata = {"Date": None} if suffix == ".svg" else None
+        figure.savefig(partial[f"{scenario.name}{suffix}"], metadata=metadata)
+        figure.set_layout_engine("none")
+
+
+def figures(out: Path, *, overwrite: bool, console: Console) -> tuple[Path, ...]:
+    """Write the paper's figures and their page; a bar on a terminal's stderr shows how far it is.
+
+    Returns the files written; the page is the last.
+    """
+    refuse_existing(out, targets(out), overwrite=overwrite)
+    require("matplotlib", "plot")
+    bar = Progress(
+        TextColumn("{task.description}"),
+        BarColumn(),
+        TaskProgressColumn(),
+        console=console,
+        transient=True,
+        disable=not console.is_terminal,
+    )
+    with bar:
+        task = bar.add_task("figures", total=len(paper_scenarios()))
+        return write_figures(
+            out,
+            overwrite=overwrite,
+            progress=lambda done, name: bar.update(task, completed=done, description=name),
+        )

@@ -1,0 +1,239 @@
+"""What ``cdcr run`` does: check first, run, then write all files or none."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
+
+from cdcr import robots, scenarios
+from cdcr.base.extras import require
+from cdcr.files.new_file import new_files
+from cdcr.robot.robot import Robot
+from cdcr.runs.simulate import MethodName
+from cdcr.runs.stats import STATS
+from cdcr.runs.trajectory import Trajectory
+from cdcr.scenarios import Scenario
+from cdcr.scenarios.file.reader import load_scenario
+from cdcr.scenarios.metrics import Metric
+
+# Files of a run, the modules they are written with, and the extras that bring these.
+NEEDED = {
+    ".png": (("matplotlib", "plot"),),
+    ".csv": (),
+    ".nc": (("xarray", "data"), ("h5netcdf", "data"), ("h5py", "data")),
+}
+MAX_NAMED = 4  # files named in one sentence
+BAR_DELAY = 1.0  # shorter runs show no progress bar [s]
+
+
+class RunFailed(Exception):
+    """The integration ended before its time."""
+
+
+class Mistake(Exception):
+    """Something the user can mend in the command or in a file."""
+
+
+@contextmanager
+def mistakes() -> Iterator[None]:
+    """Take a ValueError for a mistake of the user: only where user's values are looked at."""
+    try:
+        yield
+    except ValueError as error:
+        raise Mistake(str(error)) from error
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Report:
+    """A scenario from the command line and what came of it; no run where nothing runs in it."""
+
+    scenario: Scenario
+    method: str
+    run: Trajectory | None
+    wall_time: float  # of the integration alone [s]
+    metrics: tuple[Metric, ...]
+    files: tuple[Path, ...]
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return everything as JSON has it."""
+        told = {
+            "scenario": self.scenario.name,
+            "title": self.scenario.title,
+            "source": self.scenario.source,
+            "robot": asdict(self.scenario.robot),
+            "formulation": self.scenario.formulation,
+            "findings": {metric.key: metric.value for metric in self.metrics},
+            "files": [str(path) for path in self.files],
+        }
+        run = self.run
+        if run is None:
+            return told
+        return told | {
+            "method": self.method,
+            "t_end": float(run.t[-1]),
+            "num_samples": len(run),
+            "success": run.success,
+            "status": run.status.name,
+            "message": run.message,
+            "stats": {name: getattr(run.stats, name) for name in STATS},
+            "wall_time_s": self.wall_time,
+        }
+
+
+def run(
+    name: str,
+    out: Path,
+    *,
+    overwrite: bool,
+    console: Console,
+    method: MethodName | None,
+    t_end: float | None,
+    rtol: float | None,
+    atol: float | None,
+    max_steps: int | None,
+) -> Report:
+    """Run a scenario by name or file and write its files; a failed run writes none."""
+    scenario = find_scenario(name)
+    if not scenario.has_run:
+        given = {"t_end": t_end, "method": method, "rtol": rtol, "atol": atol}
+        _refuse_options(scenario, given | {"max_steps": max_steps})
+        return _picture(scenario, out, overwrite=overwrite)
+    files = scenario.files
+    targets = tuple(out / f"{scenario.name}{suffix}" for suffix in files)
+    refuse_existing(out, targets, overwrite=overwrite)
+    for suffix in files:
+        for module, extra in NEEDED[suffix]:
+            require(module, extra)
+    with DelayedBar(console, scenario.name, scenario.t_end if t_end is None else t_end) as bar:
+        start = time.perf_counter()
+        with mistakes():
+            trajectory = scenario.simulate(
+                t_end=t_end,
+                method=method,
+                rtol=rtol,
+                atol=atol,
+                max_steps=max_steps,
+                progress=bar,
+            )
+        wall_time = time.perf_counter() - start
+    if trajectory.success:
+        write(scenario, trajectory, targets, overwrite=overwrite)
+    return Report(
+        scenario=scenario,
+        method=method or scenario.method,
+        run=trajectory,
+        wall_time=wall_time,
+        metrics=scenario.summary(trajectory) if trajectory.success else (),
+        files=targets if trajectory.success else (),
+    )
+
+
+def _refuse_options(scenario: Scenario, given: dict[str, Any]) -> None:
+    pointless = [f"--{key.replace('_', '-')}" for key, value in given.items() if value is not None]
+    if pointless:
+        raise Mistake(
+            f"nothing runs in the scenario {scenario.name!r}, so it takes no {', '.join(pointless)}"
+        )
+
+
+def _picture(scenario: Scenario, out: Path, *, overwrite: bool) -> Report:
+    """Draw a scenario in which nothing runs."""
+    targets = (out / f"{scenario.name}.png",)
+    refuse_existing(out, targets, overwrite=overwrite)
+    require("matplotlib", "plot")
+    write(scenario, None, targets, overwrite=overwrite)
+    return Report(
+        scenario=scenario,
+        method="",
+        run=None,
+        wall_time=0.0,
+        metrics=scenario.summary(),
+        files=targets,
+    )
+
+
+def find_scenario(name: str) -> Scenario:
+    """Return a scenario of the package by name, or a user's one by its file."""
+    with mistakes():
+        is_file = _is_file(name, scenarios.names())
+        return load_scenario(name) if is_file else scenarios.get(name)
+
+
+def find_robot(name: str) -> Robot:
+    """Return a robot of the package by name, or a user's one by its file."""
+    with mistakes():
+        return Robot.load(name) if _is_file(name, robots.names()) else robots.get(name)
+
+
+def _is_file(name: str, known: tuple[str, ...]) -> bool:
+    return name not in known and (name.endswith(".toml") or Path(name).is_file())
+
+
+def refuse_existing(out: Path, targets: tuple[Path, ...], *, overwrite: bool) -> None:
+    """Refuse before the run what would stop it after."""
+    if out.exists() and not out.is_dir():
+        raise NotADirectoryError(f"{out} is a file, not a folder to write to")
+    existing = [str(path) for path in targets if path.exists()]
+    if existing and not overwrite:
+        named = existing if len(existing) <= MAX_NAMED else [existing[0], "and others"]
+        raise FileExistsError(
+            f"{', '.join(named)} exist{'s' if len(existing) == 1 else ''} already; "
+            "give --overwrite to replace, or another folder with --out"
+        )
+
+
+def write(
+    scenario: Scenario, run: Trajectory | None, targets: tuple[Path, ...], *, overwrite: bool
+) -> None:
+    """Write pictures and data of a run; they appear together when all are complete."""
+    with new_files(targets, overwrite=overwrite) as partial:
+        for path in partial:
+            if path.suffix == ".png":
+                scenario.figure(run).savefig(path)
+            elif run is not None:
+                run.save(path)
+
+
+class DelayedBar:
+    """A progress bar on a terminal, for a run that lasts longer than BAR_DELAY."""
+
+    def __init__(self, console: Console, name: str, t_end: float) -> None:
+        self._bar = Progress(
+            TextColumn("{task.description}"),
+            BarColumn(),
+            TaskProgressColumn(),
+            TimeRemainingColumn(),
+            console=console,
+            transient=True,
+        )
+        self._task = self._bar.add_task(name, total=t_end)
+        self._shown_from = time.monotonic() + BAR_DELAY
+        self._is_shown = False
+
+    def __enter__(self) -> DelayedBar:
+        return self
+
+    def __call__(self, t: float) -> None:
+        """Show the time reached [s]."""
+        is_late = time.monotonic() >= self._shown_from
+        if is_late and not self._is_shown and self._bar.console.is_terminal:
+            self._bar.start()
+            self._is_shown = True
+        self._bar.update(self._task, completed=t)
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if self._is_shown:
+            self._bar.stop()

@@ -1,0 +1,1 @@
+"""Files of any content: TOML and CSV read with clear refusals, writing all or nothing."""

@@ -1,0 +1,93 @@
+"""TOML files people write: read with line numbers and checked key by key."""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Iterable, Mapping
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from cdcr.base.check import nearest
+
+if TYPE_CHECKING:
+    from pydantic import BaseModel
+    from pydantic_core import ErrorDetails
+
+_TOML = import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
+_KINDS = {dict: "table", list: "array", str: "string", bool: "boolean", int: "integer"}
+
+
+def read_toml(path: Path, what: str) -> dict[str, Any]:
+    """Return the content of a file; `what` names it in the sentences, as in 'robot file'."""
+    try:
+        text = path.read_bytes().decode("utf-8")
+    except FileNotFoundError:
+        raise FileNotFoundError(f"there is no {what} {path}") from None
+    except IsADirectoryError:
+        raise ValueError(f"{path} is a folder, not a {what}") from None
+    except UnicodeDecodeError as error:
+        line = error.object[: error.start].count(b"\n") + 1
+        raise ValueError(f"{path}, line {line}: not UTF-8 text") from None
+    try:
+        table: dict[str, Any] = _TOML.loads(text)
+    except _TOML.TOMLDecodeError as error:
+        raise ValueError(f"{path}, {_place_and_reason(str(error), text)}") from None
+    return table
+
+
+def _place_and_reason(message: str, text: str) -> str:
+    found = re.fullmatch(r"(.*) \(at (?:line (\d+), column (\d+)|end of document)\)", message)
+    reason, line, column = found.groups() if found else (message, None, None)
+    if line is None:
+        return f"line {text.rstrip().count(chr(10)) + 1}: {reason} at the end of the file"
+    return f"line {line}, column {column}: {reason}"
+
+
+def schema_errors(schema: type[BaseModel], table: Mapping[str, Any], at: str = "") -> list[str]:
+    """Return a sentence for each key of a table that its schema does not allow.
+
+    Every field of the schema says in its description what it must be; the schemas are flat, tables
+    inside tables are checked on their own. `at` is the key path of the table inside the file.
+    """
+    from pydantic import ValidationError
+
+    try:
+        schema.model_validate(table)
+    except ValidationError as error:
+        # A key that may be of several types has an error for each; the first one tells enough.
+        first = {str(one["loc"][0]): one for one in reversed(error.errors(include_url=False))}
+        return [_sentence(schema, one, at) for one in reversed(first.values())]
+    return []
+
+
+def _sentence(schema: type[BaseModel], error: ErrorDetails, at: str) -> str:
+    """Say what one error of pydantic means for the writer of the file."""
+    key, *index = error["loc"]
+    path = f"{at}.{key}" if at else str(key)
+    if error["type"] == "extra_forbidden":
+        known = list(schema.model_fields)
+        guess = nearest(str(key), known)
+        return f"{path} is not a known key.{guess} Known keys: {', '.join(known)}"
+    requirement = schema.model_fields[str(key)].description
+    if error["type"] == "missing":
+        return f"{path} is missing; it must be {requirement}"
+    place = "".join(f"[{i}]" for i in index if isinstance(i, int))
+    return f"{path} must be {requirement}, got {format_toml(error['input'])}" + (
+        f" at {path}{place}" if place else ""
+    )
+
+
+def format_toml(value: object) -> str:
+    """Return a TOML value as a refusal prints it: short, with its kind in TOML's words."""
+    kind = _KINDS.get(type(value), type(value).__name__)
+    text = str(value).lower() if isinstance(value, bool) else repr(value)
+    return f"{text if len(text) <= 60 else text[:57] + '...'} ({kind})"
+
+
+def refuse(where: str, sentences: Iterable[str]) -> None:
+    """Raise a ValueError with the sentences, each after the file's name, if there are any."""
+    text = "\n".join(f"{where}: {sentence}" for sentence in sentences)
+    if text:
+        raise ValueError(text)

@@ -1,0 +1,1 @@
+"""The model and the answers it gives: statics, modes, stability, coordinates, wrenches."""

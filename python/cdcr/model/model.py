@@ -1,0 +1,285 @@
+"""The model: a robot made ready for computing."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, Literal, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from cdcr import _core
+from cdcr.model.inverse_kinematics import InverseKinematics
+from cdcr.model.modes import Modes, modes
+from cdcr.model.statics import checked_allocation, checked_equilibrium
+from cdcr.robot.robot import Robot
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from cdcr.model.wrench import Wrench
+
+FloatArray = NDArray[np.float64]
+
+FORMULATIONS = tuple(f.name.replace("_", "-") for f in _core.Formulation)
+
+
+class Model(_core.Model):
+    """Equations of motion of a robot: M(q) qdd + h(q, qd) = B F.
+
+    A model never changes, so threads may share one. q, qd, qdd are bending vectors and their rates,
+    base to tip, shape (2n,) in rad, rad/s, rad/s^2; tensions have shape (num_cables,) in N. Every
+    method raises ValueError naming the argument when its shape is wrong, it is not finite, a
+    tension is negative, or a section is bent beyond ``cdcr.max_bending``.
+
+    Parameters
+    ----------
+    robot : Robot
+        The robot described.
+    formulation : {"exact", "taylor", "printed", "printed-taylor"}, optional
+        Which inertia functions to use; all but the first are the origin paper's, for one section.
+
+    Examples
+    --------
+    >>> import cdcr
+    >>> model = cdcr.Model(cdcr.robots.amouri2020())
+    >>> q = model.equilibrium([5.0, 0.0, 0.0])
+    >>> print(f"{cdcr.polar(q)[0]:.6f} rad")
+    0.261411 rad
+    """
+
+    def __init__(self, robot: Robot, formulation: str = "exact") -> None:
+        if not isinstance(robot, Robot):
+            raise TypeError(f"robot must be a cdcr.Robot, got {type(robot).__name__}")
+        if formulation not in FORMULATIONS:
+            raise ValueError(f"formulation must be one of {FORMULATIONS}, got {formulation!r}")
+        super().__init__(robot._to_core(), _core.Formulation[formulation.replace("-", "_")])
+        self._robot = robot
+        self._formulation = formulation
+
+    @property
+    def robot(self) -> Robot:
+        """The robot described."""
+        return self._robot
+
+    @property
+    def formulation(self) -> str:
+        """Which inertia functions are used."""
+        return self._formulation
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle by description."""
+        return (Model, (self._robot, self._formulation))
+
+    def __repr__(self) -> str:
+        return (
+            f"<Model of {self.num_sections} section(s), {self.num_cables} cables, "
+            f"formulation {self._formulation!r}>"
+        )
+
+    @overload
+    def equilibrium(
+        self,
+        tension: ArrayLike,
+        q0: ArrayLike | None = ...,
+        wrenches: Wrench | Sequence[Wrench] = ...,
+        *,
+        throw: Literal[True] = ...,
+    ) -> FloatArray: ...
+    @overload
+    def equilibrium(
+        self,
+        tension: ArrayLike,
+        q0: ArrayLike | None = ...,
+        wrenches: Wrench | Sequence[Wrench] = ...,
+        *,
+        throw: Literal[False],
+    ) -> _core.Equilibrium: ...
+    def equilibrium(
+        self,
+        tension: ArrayLike,
+        q0: ArrayLike | None = None,
+        wrenches: Wrench | Sequence[Wrench] = (),
+        *,
+        throw: bool = True,
+    ) -> FloatArray | _core.Equilibrium:
+        """Bending vectors at rest under constant commands and wrenches, cpp/README.md eq. (18).
+
+        Newton's method, downhill in energy where all loads have one; where that fails, the load
+        grows from nothing to all, then other starts are tried. Nothing slides at rest, so this is
+        the equilibrium without friction. The answer may be unstable when gravity is strong and the
+        start is a point of rest; with ``throw=False`` it tells.
+
+        Parameters
+        ----------
+        tension : (num_cables,) array_like
+            Cable tensions [N]; lengths [m] for cables driven by length.
+        q0 : (2n,) array_like, optional
+            Where to start [rad]; by default the answer without gravity.
+        wrenches : Wrench or sequence of Wrench, optional
+            Constant forces and moments on the backbone.
+        throw : bool, optional
+            False: return all that was found, and raise nothing where nothing was. The old name of
+            that is `find_equilibrium`.
+
+        Returns
+        -------
+        (2n,) array or Equilibrium
+            Bending vectors [rad]; with ``throw=False`` also whether it is stable, the tensions
+            there, and a status.
+
+        Raises
+        ------
+        ConvergenceError
+            If there is no equilibrium within the bending limit, or none was found.
+        """
+        found = self.find_equilibrium(tension, q0, wrenches)
+        return checked_equilibrium(found) if throw else found
+
+    def modes(
+        self, q: ArrayLike, tension: ArrayLike, wrenches: Wrench | Sequence[Wrench] = ()
+    ) -> Modes:
+        """Natural frequencies and mode shapes of small motions about a shape.
+
+        The undamped ones are those of K phi = w^2 M phi, cpp/several-sections.md eq. (44), where K
+        is the static stiffness with the springs of length-driven cables and the wrenches; the
+        eigenvalues of `linearize` add damping, eq. (45). Where wrenches make K unsymmetric, its
+        symmetric part makes the shapes, and the eigenvalues alone tell all.
+
+        Parameters
+        ----------
+        q : (2n,) array_like
+            The shape, at rest there or held [rad].
+        tension : (num_cables,) array_like
+            Cable tensions [N]; lengths [m] for cables driven by length.
+        wrenches : Wrench or sequence of Wrench, optional
+            Constant forces and moments on the backbone.
+
+        Returns
+        -------
+        Modes
+
+        Examples
+        --------
+        >>> import cdcr
+        >>> model = cdcr.Model(cdcr.robots.amouri2020())
+        >>> model.modes([0.0, 0.0], [0.0, 0.0, 0.0])
+        <Modes at 1.448, 1.448 Hz, stable>
+        """
+        return modes(self, q, tension, wrenches)
+
+    @overload
+    def allocate(
+        self,
+        force: ArrayLike,
+        min_tension: float = ...,
+        max_tension: float = ...,
+        *,
+        method: str = ...,
+        throw: Literal[True] = ...,
+    ) -> FloatArray: ...
+    @overload
+    def allocate(
+        self,
+        force: ArrayLike,
+        min_tension: float = ...,
+        max_tension: float = ...,
+        *,
+        method: str = ...,
+        throw: Literal[False],
+    ) -> _core.Allocation: ...
+    def allocate(
+        self,
+        force: ArrayLike,
+        min_tension: float = 0.0,
+        max_tension: float = math.inf,
+        *,
+        method: str = "automatic",
+        throw: bool = True,
+    ) -> FloatArray | _core.Allocation:
+        """Least-norm cable tensions within limits that give a generalised force.
+
+        cpp/README.md eq. (20), cpp/several-sections.md eq. (46).
+
+        Parameters
+        ----------
+        force : (2n,) array_like
+            Generalised force [N m], as `inverse_dynamics` returns it.
+        min_tension, max_tension : float, optional
+            Limits of every tension [N], 0 <= min_tension <= max_tension.
+        method : {"automatic", "sections", "search"}, optional
+            The closed form, section by section, is for robots with three cables that end at every
+            section; the search takes any cables. Both give the same; by default the first is taken
+            where it applies.
+        throw : bool, optional
+            False: return all that was found, the nearest tensions where none give that force. The
+            old name of that is `find_tension`.
+
+        Returns
+        -------
+        (num_cables,) array or Allocation
+            Tensions [N]; with ``throw=False`` also their force, whether that is the one asked for,
+            and the cables in the way.
+
+        Raises
+        ------
+        InfeasibleError
+            If no tensions within the limits give that force; it carries the nearest ones and names
+            the cables that are in the way.
+        """
+        found = self.find_tension(force, min_tension, max_tension, method=method)
+        return checked_allocation(found, force, (min_tension, max_tension)) if throw else found
+
+    def inverse_kinematics(
+        self,
+        p: ArrayLike,
+        R: ArrayLike | None = None,
+        q0: ArrayLike | None = None,
+        *,
+        max_theta: ArrayLike | None = None,
+        orientation_weight: float | None = None,
+        tolerance: float | None = None,
+        seeds: int = 100,
+        iterations: int = 100,
+    ) -> InverseKinematics:
+        """Bending vectors that bring the tip to a point, and to an orientation if one is given.
+
+        Damped least squares from several starts, until one leads there; otherwise the nearest that
+        was found, with its distance and why. One section without an orientation has a closed form,
+        which needs no start. cpp/README.md eq. (7), cpp/several-sections.md eqs. (47), (48).
+
+        Parameters
+        ----------
+        p : (3,) array_like
+            Tip position in the base frame [m].
+        R : (3, 3) array_like, optional
+            Tip orientation in the base frame, a rotation matrix.
+        q0 : (2n,) array_like, optional
+            Where to start first [rad].
+        max_theta : float or (n,) array_like, optional
+            Largest bending angle, of all or of each section [rad]; by default 2 pi.
+        orientation_weight : float, optional
+            What one radian beside R is worth [m]; by default the robot's length / pi.
+        tolerance : float, optional
+            Residual that counts as reached [m]; by default 1e-9 of the robot's length.
+        seeds : int, optional
+            Starts at most; the same ones in every call.
+        iterations : int, optional
+            Steps from each start at most.
+
+        Returns
+        -------
+        InverseKinematics
+        """
+        return InverseKinematics(
+            *self._inverse_kinematics(
+                p,
+                R,
+                q0,
+                max_theta=max_theta,
+                orientation_weight=orientation_weight,
+                tolerance=tolerance,
+                seeds=seeds,
+                iterations=iterations,
+            )
+        )

@@ -1,0 +1,108 @@
+"""Small vibrations about a shape."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from cdcr.model.model import Model
+    from cdcr.model.wrench import Wrench
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Modes:
+    """Answer of `Model.modes`: cpp/several-sections.md eqs. (44), (45).
+
+    Attributes
+    ----------
+    model : Model
+        The robot.
+    q : (2n,) array
+        The shape it vibrates about [rad].
+    frequency : (2n,) array
+        Natural frequencies of the undamped robot, increasing [rad/s]; 0 where the robot does not
+        come back.
+    squared_frequency : (2n,) array
+        Their squares [rad^2/s^2], negative in the directions in which the robot is unstable.
+    shape : (2n, 2n) array
+        A mode shape in each column, of unit modal mass: shape.T @ M @ shape = 1 [rad/(m sqrt(kg))].
+    damping_ratio : (2n,) array
+        Of each mode alone, 1 is critical; 0 where the frequency is 0 [-].
+    eigenvalues : (4n,) complex array
+        Of the damped robot, couplings of the modes included, by magnitude [1/s].
+    stable : bool
+        Whether every small motion stays small.
+    """
+
+    model: Model
+    q: FloatArray
+    frequency: FloatArray
+    squared_frequency: FloatArray
+    shape: FloatArray
+    damping_ratio: FloatArray
+    eigenvalues: NDArray[np.complex128]
+    stable: bool
+
+    @property
+    def frequency_hz(self) -> FloatArray:
+        """Natural frequencies (2n,) [Hz]."""
+        return self.frequency / (2.0 * math.pi)
+
+    @property
+    def damped_frequency(self) -> FloatArray:
+        """Frequencies (4n,) at which the damped robot swings, one of each eigenvalue [rad/s]."""
+        return np.abs(self.eigenvalues.imag)
+
+    @property
+    def decay_rate(self) -> FloatArray:
+        """Rates (4n,) at which these motions decay, one of each eigenvalue [1/s]."""
+        return -self.eigenvalues.real
+
+    def plot(self, count: int = 4, **options: Any) -> Any:
+        """Draw the first modes. Needs the extra ``plot``.
+
+        Parameters
+        ----------
+        count : int
+            Modes to draw at most, the slowest first.
+        **options
+            As in `cdcr.plotting.plot_modes`.
+
+        Returns
+        -------
+        Figure
+        """
+        from cdcr.plotting import plot_modes
+
+        return plot_modes(self, count, **options)
+
+    def __repr__(self) -> str:
+        shown = ", ".join(f"{f:.4g}" for f in self.frequency_hz[:4])
+        more = ", ..." if len(self.frequency) > 4 else ""
+        return f"<Modes at {shown}{more} Hz, {'' if self.stable else 'not '}stable>"
+
+
+def modes(
+    model: Model, q: ArrayLike, tension: ArrayLike, wrenches: Wrench | Sequence[Wrench]
+) -> Modes:
+    """Return the modes about q; see Model.modes."""
+    found = model._modes(q, tension, wrenches)
+    return Modes(
+        model,
+        np.array(q, dtype=np.float64),
+        found.frequency,
+        found.squared_frequency,
+        found.shape,
+        found.damping_ratio,
+        found.eigenvalues,
+        found.stable,
+    )

@@ -1,0 +1,56 @@
+"""What a model at rest is asked: where it rests, and which tensions give a force."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from cdcr import _core
+
+FloatArray = NDArray[np.float64]
+
+
+class ConvergenceError(RuntimeError):
+    """A search ended without an answer; the message says what to try next."""
+
+
+class InfeasibleError(ValueError):
+    """No tensions within the limits give the force asked for.
+
+    Attributes
+    ----------
+    tension : (num_cables,) array
+        Tensions that come nearest [N].
+    force : (2n,) array
+        The generalised force they give [N m].
+    limiting : tuple of int
+        Indices of the cables whose limit is in the way.
+    """
+
+    def __init__(self, message: str, answer: _core.Allocation) -> None:
+        super().__init__(message)
+        self.tension = answer.tension
+        self.force = answer.force
+        self.limiting = tuple(answer.limiting)
+
+
+def checked_equilibrium(found: _core.Equilibrium) -> FloatArray:
+    """Return q at rest, or raise where none was found."""
+    if found.status is not _core.Status.ok:
+        raise ConvergenceError(_core.status_message(found.status))
+    return found.q
+
+
+def checked_allocation(
+    found: _core.Allocation, force: ArrayLike, limits: tuple[float, float]
+) -> FloatArray:
+    """Return tensions that give a force, or raise where none within the limits do."""
+    if not found.feasible:
+        names = ", ".join(found.limits)
+        reason = f"limited by {names}" if names else "no cable pulls that way"
+        raise InfeasibleError(
+            f"force {np.asarray(force)} N m cannot be met with tensions from {limits[0]} to "
+            f"{limits[1]} N: {reason}; the nearest force is {found.force} N m",
+            found,
+        )
+    return found.tension

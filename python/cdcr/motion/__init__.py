@@ -1,0 +1,1 @@
+"""Motions to follow, and the tensions that make the robot follow them."""

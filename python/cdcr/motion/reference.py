@@ -1,0 +1,262 @@
+"""Reference motions: what the robot is to do, with its rates and accelerations."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from cdcr import _core
+from cdcr.base.arrays import finite
+from cdcr.motion import splines
+from cdcr.motion.splines import Motion, Pair, TimeFunction
+
+FloatArray = NDArray[np.float64]
+Angle: TypeAlias = "ArrayLike | TimeFunction"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Reference:
+    """A smooth motion to follow, sampled: one row for each time. All arrays are read-only.
+
+    Made by `from_samples`, `from_functions` or `from_angles`; missing derivatives come from quintic
+    splines (extra ``track``).
+
+    Parameters
+    ----------
+    t : (N,) array_like
+        Times, at least two, strictly increasing [s].
+    q, qd, qdd : (N, 2n) array_like
+        Bending vectors, base to tip, their rates and accelerations [rad], [rad/s], [rad/s^2].
+    derivative_error : tuple of float, optional
+        Estimated largest error of qd [rad/s] and qdd [rad/s^2] where they come from splines; zero
+        where they were given. The estimate is the change that splines through every other sample
+        make, so it errs on the high side.
+    motion : callable, optional
+        The motion at any times (M,) within those of `t`: an array (3, M, 2n) of q, qd, qdd. By
+        default the quintic through q, qd and qdd at the samples on either side.
+
+    Raises
+    ------
+    ValueError
+        If the shapes do not fit, a value is not finite or the times do not increase.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import cdcr
+    >>> t = np.linspace(0.0, 10.0, 51)
+    >>> circle = cdcr.Reference.from_angles(t, np.pi / 12, lambda t: np.pi / 5 * t)
+    >>> circle
+    <Reference: 51 samples, t = 0 to 10 s, 1 section>
+    """
+
+    t: FloatArray
+    q: FloatArray
+    qd: FloatArray
+    qdd: FloatArray
+    derivative_error: tuple[float, float] = (0.0, 0.0)
+    motion: Motion | None = None
+
+    def __post_init__(self) -> None:
+        """Take copies nobody else can write to, and check that they fit together."""
+        t = splines.checked_times(self.t)
+        q = splines.checked_samples("q", self.q, t.size, "2n")
+        arrays = {"t": t, "q": q}
+        for name in ("qd", "qdd"):
+            arrays[name] = splines.checked_samples(name, getattr(self, name), t.size, q.shape[1])
+        for name, array in arrays.items():
+            array.setflags(write=False)
+            object.__setattr__(self, name, array)
+
+    def __len__(self) -> int:
+        """Return the number of samples."""
+        return len(self.t)
+
+    def __repr__(self) -> str:
+        """Say what a person wants to know first."""
+        n = self.q.shape[1] // 2
+        sections = f"{n} section{'' if n == 1 else 's'}"
+        return (
+            f"<Reference: {len(self)} samples, t = {self.t[0]:g} to {self.t[-1]:g} s, {sections}>"
+        )
+
+    @classmethod
+    def from_samples(
+        cls, t: ArrayLike, q: ArrayLike, qd: ArrayLike | None = None, qdd: ArrayLike | None = None
+    ) -> Reference:
+        """Make a reference of samples.
+
+        Parameters
+        ----------
+        t : (N,) array_like
+            Times, strictly increasing [s]; at least 11 where derivatives are missing.
+        q : (N, 2n) array_like
+            Bending vectors, base to tip [rad].
+        qd, qdd : (N, 2n) array_like, optional
+            Their rates [rad/s] and accelerations [rad/s^2].
+
+        Returns
+        -------
+        Reference
+        """
+        times = splines.checked_times(t)
+        values = splines.checked_samples("q", q, times.size, "2n")
+        rates = None if qd is None else splines.checked_samples("qd", qd, *values.shape)
+        accelerations = None if qdd is None else splines.checked_samples("qdd", qdd, *values.shape)
+        if rates is not None and accelerations is not None:
+            return cls(times, values, rates, accelerations)
+        pair = splines.of_samples(times, values if rates is None else rates)
+        given = [values, rates, accelerations]
+        fine, coarse = (splines.filled(given, spline(times)) for spline in pair)
+        alone = rates is None and accelerations is None
+        motion = pair.fine if alone else None
+        return cls(times, fine[0], fine[1], fine[2], splines.change(fine, coarse), motion)
+
+    @classmethod
+    def from_functions(
+        cls,
+        t: ArrayLike,
+        q: TimeFunction,
+        qd: TimeFunction | None = None,
+        qdd: TimeFunction | None = None,
+    ) -> Reference:
+        """Make a reference of functions of time.
+
+        Parameters
+        ----------
+        t : (N,) array_like
+            Times, strictly increasing [s]. Where derivatives are missing, the functions are called
+            at some thousand times between the first and the last.
+        q : callable
+            ``q(t)`` returns the bending vectors (2n,) [rad].
+        qd, qdd : callable, optional
+            Their rates [rad/s] and accelerations [rad/s^2].
+
+        Returns
+        -------
+        Reference
+        """
+        times = splines.checked_times(t)
+        named = (("q", q), ("qd", qd), ("qdd", qdd))
+
+        def with_spline(spline: Motion | None) -> Motion:
+            def motion(times: FloatArray) -> FloatArray:
+                given = [None if f is None else splines.called(name, f, times) for name, f in named]
+                return splines.filled(given, None if spline is None else spline(times))
+
+            return motion
+
+        if qd is not None and qdd is not None:
+            motion = with_spline(None)
+            return cls._of(times, Pair(motion, motion))
+        name, base = ("q", q) if qd is None else ("qd", qd)
+        pair = splines.of_function(times, name, base)
+        return cls._of(times, Pair(*map(with_spline, pair)))
+
+    @classmethod
+    def from_angles(cls, t: ArrayLike, theta: Angle, phi: Angle) -> Reference:
+        """Make a reference of bending and orientation angles.
+
+        Parameters
+        ----------
+        t : (N,) array_like
+            Times, strictly increasing [s].
+        theta, phi : float, (N,) or (N, n) array_like, or callable
+            Angles [rad]: constant; or samples at the times, at least 11 of them; or ``f(t)``
+            returning a number or (n,). Where the robot swings through straight let theta change its
+            sign, so that phi stays smooth. Full turns that samples of phi jump by are undone.
+
+        Returns
+        -------
+        Reference
+        """
+        times = splines.checked_times(t)
+        bending = splines.of_angle(times, "theta", theta)
+        orientation = splines.of_angle(times, "phi", phi)
+
+        def motion_of(bending: Motion, orientation: Motion) -> Motion:
+            return lambda times: splines.bending_vectors(bending(times), orientation(times))
+
+        return cls._of(times, Pair(*map(motion_of, bending, orientation)))
+
+    @classmethod
+    def _of(cls, times: FloatArray, pair: Pair) -> Reference:
+        """Sample the finer of two motions; their difference tells its error."""
+        error = (0.0, 0.0)
+        if pair.fine is not pair.coarse:
+            between = np.sort(np.concatenate([times, (times[1:] + times[:-1]) / 2.0]))
+            error = splines.change(pair.fine(between), pair.coarse(between))
+        q, qd, qdd = pair.fine(times)
+        return cls(times, q, qd, qdd, error, pair.fine)
+
+    @cached_property
+    def _angles(self) -> tuple[FloatArray, FloatArray]:
+        return _core.polar_along(self.q)
+
+    @property
+    def theta(self) -> FloatArray:
+        """Bending angles (N, n) [rad]; negative after a swing through straight."""
+        return self._angles[0]
+
+    @property
+    def phi(self) -> FloatArray:
+        """Orientation angles (N, n) [rad], continuous along the motion."""
+        return self._angles[1]
+
+    def at(self, t: ArrayLike) -> Reference:
+        """Return the same motion at other times.
+
+        Parameters
+        ----------
+        t : (M,) array_like
+            Times within its own, at least two [s].
+
+        Returns
+        -------
+        Reference
+        """
+        times = splines.checked_times(t)
+        q, qd, qdd = self.evaluate(times)
+        return Reference(times, q, qd, qdd, self.derivative_error, self.motion or self._quintic)
+
+    def evaluate(self, t: ArrayLike) -> FloatArray:
+        """Return q, qd and qdd at times within those of the reference.
+
+        Parameters
+        ----------
+        t : float or (M,) array_like
+            Times [s].
+
+        Returns
+        -------
+        (3, 2n) or (3, M, 2n) array
+            In order [rad], [rad/s], [rad/s^2].
+
+        Raises
+        ------
+        ValueError
+            For a time outside the reference.
+        """
+        times = finite(t, "t")
+        if times.ndim > 1:
+            raise ValueError(f"t must be a number or have shape (M,), got {times.shape}")
+        first, last = self.t[0], self.t[-1]
+        slack = 1e-12 * max(abs(first), abs(last))  # of an integrator's last stage
+        outside = (times < first - slack) | (times > last + slack)
+        if np.any(outside):
+            raise ValueError(
+                f"t must lie within the reference, {first:g} to {last:g} s, got "
+                f"{np.atleast_1d(times[outside])[0]:g} s"
+            )
+        inside = np.clip(np.atleast_1d(times), first, last)
+        found = (self.motion or self._quintic)(inside)
+        return found[:, 0] if times.ndim == 0 else found
+
+    @cached_property
+    def _quintic(self) -> Motion:
+        """Motion between the samples where none was given."""
+        return splines.quintic(self.t, self.q, self.qd, self.qdd)

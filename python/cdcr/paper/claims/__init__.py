@@ -1,0 +1,1 @@
+"""The claims of the origin paper, each computed beside what it says."""

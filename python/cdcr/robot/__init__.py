@@ -1,0 +1,1 @@
+"""Robots described: sections, cables, what acts on them, and their files."""

@@ -1,0 +1,134 @@
+"""Robot files: TOML with the fields of Robot, Section and Cable, units in comments."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import MISSING, Field, fields
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from cdcr import _core
+from cdcr.files.new_file import new_file
+from cdcr.files.toml import read_toml, refuse, schema_errors
+from cdcr.robot.cable import Cable
+from cdcr.robot.section import Section
+
+if TYPE_CHECKING:
+    from cdcr.robot.robot import Robot
+
+_HEAD = """\
+# A cable-driven continuum robot. SI units and radians.
+# Base frame: origin at the base, Z along the straight robot, X towards cable angle 0.
+# Instead of cable_angles, cable_angles_deg may be given, in degrees.
+"""
+
+
+def load_robot(kind: type[Robot], path: str | PathLike[str]) -> Robot:
+    """Return the robot of a file; see Robot.load."""
+    file = Path(path)
+    return robot_from_table(kind, read_toml(file, "robot file"), where=str(file))
+
+
+def save_robot(robot: Robot, path: str | PathLike[str], *, overwrite: bool) -> None:
+    """Write a robot file; see Robot.save."""
+    with new_file(Path(path), overwrite=overwrite) as part:
+        part.write_text(robot_text(robot), encoding="utf-8", newline="\n")
+
+
+def robot_from_table(kind: type[Robot], table: Mapping[str, Any], where: str) -> Robot:
+    """Return the robot a TOML table describes; refusals begin with `where` it stands."""
+    from cdcr.robot.schema import table_of
+
+    # mypy asks of a class what it asks of its objects: that they can be hashed.
+    refuse(where, schema_errors(table_of(kind), table))  # type: ignore[arg-type]
+    found: list[str] = []
+    for i, section in enumerate(table["sections"]):
+        found += schema_errors(table_of(Section), section, f"sections[{i}]")
+        found += _doubled(section, f"sections[{i}]", "cable_angles")
+    for j, cable in enumerate(table.get("cables", [])):
+        found += schema_errors(table_of(Cable), cable, f"cables[{j}]")
+        found += _doubled(cable, f"cables[{j}]", "angle")
+        if not {"angle", "angle_deg"} & cable.keys():
+            found.append(f"cables[{j}] must have angle [rad] or angle_deg [deg]")
+    refuse(where, found)
+
+    sections = [_fields_of(Section, one) for one in table["sections"]]
+    cables = [_fields_of(Cable, one) for one in table.get("cables", [])]
+    robot = _defaults(kind) | dict(table)
+    core = {
+        "sections": [_core.Section(**one) for one in sections],
+        "cables": [_core.Cable(**one) for one in cables],
+    }
+    refuse(where, _core.Robot(**robot | core).violations())
+    described = {
+        "sections": [Section(**one) for one in sections],
+        "cables": [Cable(**one) for one in cables],
+    }
+    return kind(**robot | described)
+
+
+def _doubled(table: Mapping[str, Any], at: str, name: str) -> list[str]:
+    both = name in table and f"{name}_deg" in table
+    return [f"{at} must have {name} or {name}_deg, not both"] if both else []
+
+
+def _fields_of(kind: type[Section | Cable], table: Mapping[str, Any]) -> dict[str, Any]:
+    """Return all fields of a description, angles in radians."""
+    values = _defaults(kind) | dict(table)
+    if "cable_angles_deg" in values:
+        values["cable_angles"] = [math.radians(a) for a in values.pop("cable_angles_deg")]
+    if "angle_deg" in values:
+        values["angle"] = math.radians(values.pop("angle_deg"))
+    return values
+
+
+def _defaults(kind: type[Robot | Section | Cable]) -> dict[str, Any]:
+    return {item.name: item.default for item in fields(kind) if item.default is not MISSING}
+
+
+def robot_text(robot: Robot) -> str:
+    """Return the robot as TOML; repr gives every float the digits it needs to come back exactly."""
+    return _HEAD + "\n" + "\n".join(robot_lines(robot)) + "\n"
+
+
+def robot_lines(robot: Robot, *, all_fields: bool = False) -> list[str]:
+    """Return the tables of a robot by lines, also with the advanced fields that say nothing."""
+    lines = list(_lines(robot, all_fields))
+    for section in robot.sections:
+        lines += ["", "[[sections]]", *_lines(section, all_fields)]
+    for cable in robot.cables:
+        lines += ["", "[[cables]]", *_lines(cable, all_fields)]
+    return lines
+
+
+def _lines(thing: Robot | Section | Cable, all_fields: bool) -> Iterator[str]:
+    """Yield 'key = value  # about [unit]' with the comments in one column."""
+    written = {
+        item.name: item.metadata for item in fields(thing) if _is_written(thing, item, all_fields)
+    }
+    pairs = {name: f"{name} = {_toml_value(getattr(thing, name))}" for name in written}
+    short = [len(pair) for pair in pairs.values() if len(pair) <= 40]
+    for name, pair in pairs.items():
+        about, unit = written[name]["about"], written[name]["unit"]
+        comment = f"{about} [{unit}]" if unit else about
+        yield f"{pair:<{max(short, default=0)}}  # {comment}"
+
+
+def _is_written(thing: Robot | Section | Cable, item: Field[Any], all_fields: bool) -> bool:
+    """Whether a field has a line: sections and cables are tables, and positions are a number."""
+    if item.name in ("sections", "cables"):
+        return False
+    if item.name == "num_disks" and isinstance(thing, Section) and thing.disk_positions:
+        return False
+    if all_fields or not item.metadata["advanced"]:
+        return True
+    # repr tells -0.0 from 0.0, which are equal.
+    return repr(getattr(thing, item.name)) != repr(item.default)
+
+
+def _toml_value(value: object) -> str:
+    if isinstance(value, tuple):
+        return f"[{', '.join(map(_toml_value, value))}]"
+    return repr(value)

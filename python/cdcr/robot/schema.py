@@ -1,0 +1,62 @@
+"""What a robot file may hold: keys and types, from the fields of the descriptions.
+
+Ranges are checked by the C++ library.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import MISSING, Field, fields
+from functools import cache
+from typing import Annotated, Any
+
+import pydantic
+
+_Int = Annotated[int, pydantic.Field(ge=-(2**31), lt=2**31)]  # what the core can be told
+_Three = Annotated[list[float], pydantic.Field(min_length=3, max_length=3)]
+_Rows = Annotated[list[_Three], pydantic.Field(min_length=3, max_length=3)]
+_TYPES: dict[str, Any] = {
+    "number": float,
+    "number or none": float,
+    "whole": _Int,
+    "numbers": list[float],
+    "vector": _Three,
+    "matrix": _Rows,
+}
+
+
+@cache
+def table_of(kind: type[Any]) -> type[pydantic.BaseModel]:
+    """Return what the table of a Robot, a Section or a Cable may hold.
+
+    A key may be left out where the field has a default, which then holds. Angles may be in degrees,
+    under keys that say so.
+    """
+    keys = {key: value for item in fields(kind) for key, value in _keys(item)}
+    config = pydantic.ConfigDict(extra="forbid", strict=True)
+    return pydantic.create_model(f"{kind.__name__}Table", __config__=config, **keys)
+
+
+def _keys(item: Field[Any]) -> Iterator[tuple[str, Any]]:
+    kind, unit = item.metadata["kind"], item.metadata["unit"]
+    given = ... if item.default is MISSING and unit != "rad" else None
+    if isinstance(kind, type):
+        table = f"one [[{item.name}]] table for each {item.name.removesuffix('s')}"
+        yield item.name, (list[dict[str, Any]], pydantic.Field(given, description=table))
+        return
+    for suffix, name in (("", unit), ("_deg", "deg")) if unit == "rad" else (("", unit),):
+        about = pydantic.Field(given, description=_requirement(item, name))
+        yield f"{item.name}{suffix}", (_TYPES[kind], about)
+
+
+def _requirement(item: Field[Any], unit: str) -> str:
+    """Return what a value must be, in the words of TOML."""
+    if item.metadata["kind"] in ("vector", "matrix"):
+        rows = "3 rows of " if item.metadata["kind"] == "matrix" else ""
+        return f"an array of {rows}3 numbers" + (f" [{unit}]" if unit else "")
+    words = str(item.metadata["requirement"]).removesuffix(", or None")
+    # "numbers in kg" and "a number of rad" are "numbers [kg]" and "a number [rad]" there.
+    return re.sub(r"(numbers?) (in|of) \S+$", rf"\1 [{unit}]", words).replace(
+        "a sequence", "an array"
+    )

@@ -1,0 +1,94 @@
+"""What drives the cables through a run: a constant, a table or a function of time."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal, TypeAlias, cast
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from cdcr import _core
+from cdcr.model.model import Model
+
+Interpolation = Literal["linear", "previous"]
+
+
+@dataclass(frozen=True, eq=False)
+class TensionTable:
+    """Commands of the cables at given times: tensions, or lengths where driven by length.
+
+    Parameters
+    ----------
+    t : (N,) array_like
+        Times, strictly increasing [s]. Integrators stop exactly at each.
+    tension : (N, num_cables) array_like
+        Commands at those times [N], [m] of cables driven by length. Before the first and after the
+        last time these rows hold.
+    interpolation : {"linear", "previous"}, optional
+        Connect the rows by lines, or hold each until the next time.
+    """
+
+    t: ArrayLike
+    tension: ArrayLike
+    interpolation: Interpolation = "linear"
+
+    def __post_init__(self) -> None:
+        if self.interpolation not in ("linear", "previous"):
+            raise ValueError(
+                f"interpolation must be 'linear' or 'previous', got {self.interpolation!r}"
+            )
+
+    def __repr__(self) -> str:
+        rows = " x ".join(str(size) for size in np.shape(self.tension))
+        return f"<TensionTable: {rows} commands, {self.interpolation}>"
+
+
+CommandFunction: TypeAlias = Callable[..., ArrayLike]
+Command: TypeAlias = (
+    "ArrayLike | TensionTable | tuple[ArrayLike, ArrayLike] | CommandFunction | None"
+)
+
+
+def _takes_state(function: Callable[..., Any]) -> bool:
+    """Whether a tension function wants (t, q, qd) rather than t alone."""
+    try:
+        parameters = inspect.signature(function).parameters.values()
+    except (TypeError, ValueError):
+        return False
+    if any(p.kind is p.VAR_POSITIONAL for p in parameters):
+        return True
+    kinds = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
+    accepted = sum(p.kind in kinds for p in parameters)
+    required = sum(p.kind in kinds and p.default is p.empty for p in parameters)
+    if required == 3:
+        return True
+    if required <= 1 <= accepted:
+        return False
+    raise ValueError(
+        f"a tension function must take (t) or (t, q, qd), got one that needs {required} arguments"
+    )
+
+
+def command_input(
+    model: Model, command: Command, break_points: Sequence[float] = ()
+) -> _core.TensionInput:
+    """Turn what a user gives as command or tension into the core's input."""
+    if command is None:
+        command = model.rest_command()
+    if callable(command):
+        function = command
+        if not _takes_state(function):
+            time_only = function
+            function = lambda t, q, qd: time_only(t)  # noqa: E731
+        return _core.TensionInput.function(model, function, [float(b) for b in break_points])
+    if len(break_points) > 0:
+        raise ValueError("break_points go with a tension function; a table has its own")
+    if isinstance(command, TensionTable):
+        linear = command.interpolation == "linear"
+        return _core.TensionInput.table(model, command.t, command.tension, linear)
+    if isinstance(command, tuple) and len(command) == 2 and np.ndim(command[1]) == 2:
+        return command_input(model, TensionTable(*command))
+    return _core.TensionInput.constant(model, cast("ArrayLike", command))

@@ -1,0 +1,104 @@
+"""Runs read back from the files that `save` writes."""
+
+from __future__ import annotations
+
+import csv
+import json
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cdcr._core import Status
+from cdcr.base.extras import require
+from cdcr.model.model import Model
+from cdcr.robot.cable import Cable
+from cdcr.robot.robot import Robot
+from cdcr.robot.section import Section
+from cdcr.runs.export import by_length
+from cdcr.runs.stats import STATS, make_stats
+
+FloatArray = NDArray[np.float64]
+
+
+def load(path: str | PathLike[str], model: Model | None) -> dict[str, Any]:
+    """Return the fields of a stored run but its slack events as tuples; see Trajectory.load."""
+    file = Path(path)
+    if file.suffix not in (".nc", ".csv"):
+        raise ValueError(f"the file name must end in .nc or .csv, got {file.name!r}")
+    if not file.is_file():
+        raise FileNotFoundError(f"there is no run {file}")
+    if file.suffix == ".nc":
+        return _netcdf(file, model)
+    if model is None:
+        raise ValueError(f"{file} holds numbers and no robot: give the model that ran, model=...")
+    return _csv(file, model)
+
+
+def _netcdf(file: Path, model: Model | None) -> dict[str, Any]:
+    xr: Any = require("xarray", "data")
+    require("h5netcdf", "data")
+    try:
+        with xr.open_dataset(file, engine="h5netcdf") as data:
+            found = data.load()
+        about = found.attrs
+        model = model or _model(json.loads(about["robot"]), about["formulation"])
+        rows = len(found.time)
+        command = found.command if "command" in found else found.tension
+        return {
+            "model": model,
+            "t": found.time.values,
+            "q": found.q.values.reshape(rows, -1),
+            "qd": found.qd.values.reshape(rows, -1),
+            "tension": found.tension.values,
+            "command": command.values,
+            "status": Status[about["status"]],
+            "message": about["message"],
+            "method": about["method"],
+            "stats": make_stats(int(about[name]) for name in STATS),
+            "slack_events": json.loads(about.get("slack_events", "[]")),
+        }
+    except (OSError, KeyError, AttributeError) as error:
+        raise ValueError(f"{file} is no run that cdcr has written: {error}") from None
+
+
+def _model(described: dict[str, Any], formulation: str) -> Model:
+    sections = [Section(**section) for section in described.pop("sections")]
+    cables = [Cable(**cable) for cable in described.pop("cables", ())]
+    return Model(Robot(sections=sections, cables=cables, **described), formulation)
+
+
+def _csv(file: Path, model: Model) -> dict[str, Any]:
+    try:
+        with file.open(encoding="utf-8", newline="") as opened:
+            header, *rows = csv.reader(opened)
+        table = np.array(rows, dtype=np.float64).reshape(-1, len(header))
+    except ValueError as error:
+        raise ValueError(f"{file} is no run that cdcr has written: {error}") from None
+    columns = dict(zip(header, table.T, strict=True))
+
+    def values(names: list[str]) -> FloatArray:
+        missing = [name for name in names if name not in columns]
+        if missing:
+            raise ValueError(f"{file} has no column {missing[0]!r}, which a run of this model has")
+        found = [columns[name] for name in names]
+        return np.stack(found, axis=1) if found else np.empty((len(table), 0))
+
+    parts = [f"{i + 1}_{axis}" for i in range(model.num_sections) for axis in "xy"]
+    cables = range(1, model.num_cables + 1)
+    tension = values([f"tension{j} [N]" for j in cables])
+    asked = values([f"command{j} [N or m]" for j in cables]) if by_length(model) else tension
+    return {
+        "model": model,
+        "t": values(["t [s]"])[:, 0],
+        "q": values([f"q{part} [rad]" for part in parts]),
+        "qd": values([f"qd{part} [rad/s]" for part in parts]),
+        "tension": tension,
+        "command": asked,
+        "status": Status.ok,
+        "message": f"{file.name} does not hold how the run ended, its method and its cost",
+        "stats": make_stats(),
+        "slack_events": [],
+    }

@@ -1,0 +1,148 @@
+"""Runs: the robot under its commands through time."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Sequence
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from cdcr import _core
+from cdcr.model.model import Model
+from cdcr.model.wrench import Wrench, loads
+from cdcr.runs.command import Command, command_input
+from cdcr.runs.trajectory import SlackEvent, Trajectory
+
+FloatArray = NDArray[np.float64]
+MethodName = Literal["bdf", "adams", "dopri5", "rk4"]
+
+
+def warn_beyond_taylor_range(model: Model, q: FloatArray) -> None:
+    """Warn once when a motion leaves the range that the paper gives its Taylor factors."""
+    if not model.formulation.endswith("taylor") or q.size == 0:
+        return
+    largest = float(np.hypot(q[:, 0::2], q[:, 1::2]).max())
+    if largest > _core.taylor_range * (1.0 + 1e-9):  # the range itself is inside it
+        warnings.warn(
+            f"formulation {model.formulation!r} holds for |theta| up to 3 pi/5 = "
+            f"{_core.taylor_range:.4f} rad; this motion reaches {largest:.4f} rad",
+            UserWarning,
+            stacklevel=3,
+        )
+
+
+def _options(given: dict[str, Any]) -> _core.Options:
+    return _core.Options(**{name: value for name, value in given.items() if value is not None})
+
+
+def simulate(
+    model: Model,
+    q0: ArrayLike,
+    qd0: ArrayLike,
+    *,
+    t: ArrayLike,
+    tension: Command = None,
+    command: Command = None,
+    controller: _core.Controller | None = None,
+    wrenches: Wrench | Sequence[Wrench] = (),
+    method: MethodName = "bdf",
+    rtol: float | None = None,
+    atol: float | None = None,
+    step: float | None = None,
+    max_step: float | None = None,
+    max_steps: int | None = None,
+    break_points: Sequence[float] = (),
+    progress: Callable[[float], object] | None = None,
+    throw: bool = False,
+) -> Trajectory:
+    """Run the robot from a state and sample it at output times.
+
+    Parameters
+    ----------
+    model : Model
+        The robot, ready for computing.
+    q0, qd0 : (2n,) array_like
+        Bending vectors and their rates at the first time [rad], [rad/s].
+    t : (N,) array_like
+        Output times, strictly increasing; the first is the start [s].
+    tension, command : optional
+        Two names for what is asked of the cables: tensions [N], lengths [m] of cables driven by
+        length. None (no tension, the lengths of the straight robot), (num_cables,) constants, a
+        `TensionTable` or a pair ``(times, rows)`` read as one, or a callable ``f(t)`` or
+        ``f(t, q, qd)``. A callable is the slow path: Python is called at every evaluation.
+    controller : Controller, optional
+        In place of `command`, such as a `Pid`: reset, then asked at the first time and each period
+        after, its tensions held in between.
+    wrenches : Wrench or sequence of Wrench, optional
+        Forces and moments on the robot; their profiles say how they change in time.
+    method : {"bdf", "adams", "dopri5", "rk4"}, optional
+        bdf and adams: CVODE. dopri5: Dormand-Prince 5(4), the quickest where nothing is stiff.
+        rk4: fixed step.
+
+    Returns
+    -------
+    Trajectory
+        A run that fails keeps the samples up to there; ``run.success`` and ``run.message`` tell.
+
+    Other Parameters
+    ----------------
+    rtol, atol : float, optional
+        Tolerances of one step, adaptive methods.
+    step : float, optional
+        Step of rk4 [s].
+    max_step : float, optional
+        Largest step of the adaptive methods [s].
+    max_steps : int, optional
+        Limit of internal steps in the run.
+    break_points : sequence of float, optional
+        Times at which a callable `command` is not smooth [s]; the run stops exactly there.
+    progress : callable, optional
+        Told the time reached, every few hundred steps.
+    throw : bool, optional
+        Raise RuntimeError with the message when the run fails.
+
+    Raises
+    ------
+    ValueError
+        For an argument out of range; the sentence names it.
+    """
+    try:
+        chosen = _core.Method[method]
+    except KeyError:
+        known = ", ".join(repr(m.name) for m in _core.Method)
+        raise ValueError(f"method must be one of {known}, got {method!r}") from None
+    if tension is not None and command is not None:
+        raise ValueError("give either tension or command, two names for one thing, not both")
+    asked = tension if command is None else command
+    options = _options(
+        {"rtol": rtol, "atol": atol, "step": step, "max_step": max_step, "max_steps": max_steps}
+    )
+    if controller is not None:
+        if asked is not None or len(break_points) > 0:
+            name = "tension" if command is None else "command"
+            raise ValueError(f"give either {name} or controller, not both")
+        raw = _core.simulate_controlled(
+            model, q0, qd0, t, controller, chosen, options, progress, loads(wrenches)
+        )
+    else:
+        source = command_input(model, asked, break_points)
+        raw = _core.simulate(model, q0, qd0, t, source, chosen, options, progress, loads(wrenches))
+    run = Trajectory(
+        model=model,
+        t=raw.t,
+        q=raw.q,
+        qd=raw.qd,
+        tension=raw.tension,
+        status=raw.status,
+        message=raw.message,
+        stats=raw.stats,
+        method=method,
+        command=raw.command,
+        slack_events=tuple(SlackEvent(*event) for event in raw.slack_events),
+    )
+    warn_beyond_taylor_range(model, run.q)
+    if throw and not run.success:
+        raise RuntimeError(run.message)
+    return run

@@ -1,0 +1,344 @@
+"""What a run returns: its samples, how it ended, and what people do with them."""
+
+from __future__ import annotations
+
+import base64
+import html
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple, cast
+
+import numpy as np
+
+from cdcr import _core
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from os import PathLike
+    from pathlib import Path
+    from typing import Any
+
+    import xarray
+    from matplotlib.figure import Figure
+    from numpy.typing import ArrayLike, NDArray
+
+    from cdcr._core import Stats, Status
+    from cdcr.model.model import Model
+
+__all__ = ["SlackEvent", "Trajectory"]
+
+
+class SlackEvent(NamedTuple):
+    """A length-driven cable turned slack or taut.
+
+    Attributes
+    ----------
+    time : float
+        When [s].
+    cable : int
+        Index of the cable.
+    slack : bool
+        Slack from here on, or taut again.
+    """
+
+    time: float
+    cable: int
+    slack: bool
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Trajectory:
+    """A run, sampled: one row for each output time reached. All arrays are read-only.
+
+    Parameters
+    ----------
+    model : Model
+        The robot that ran.
+    t : ndarray, shape (N,)
+        Output times [s].
+    q, qd : ndarray, shape (N, 2n)
+        Bending vectors [rad] and their rates [rad/s], base to tip.
+    tension : ndarray, shape (N, num_cables)
+        Cable tensions at the base [N]; at a jump, the value after it.
+    status : Status
+        How the run ended; anything but ``ok`` leaves the samples up to there.
+    message : str
+        Empty when all went well; else when the run stopped, why, and what to try.
+    stats : Stats
+        What the run cost.
+    method : str
+        The integration method, where known.
+    command : ndarray, shape (N, num_cables), optional
+        What was asked of the cables: tensions [N], lengths [m] of those driven by length.
+    slack_events : tuple of SlackEvent
+        When length-driven cables turned slack or taut; located by bdf and adams.
+    """
+
+    model: Model
+    t: NDArray[np.float64]
+    q: NDArray[np.float64]
+    qd: NDArray[np.float64]
+    tension: NDArray[np.float64]
+    status: Status
+    message: str
+    stats: Stats
+    method: str = ""
+    command: NDArray[np.float64] = None  # type: ignore[assignment]  # the tensions
+    slack_events: tuple[SlackEvent, ...] = ()
+
+    def __post_init__(self) -> None:
+        """Take copies nobody else can write to, and check that they fit together."""
+        num_samples, num_coordinates = np.size(self.t), self.model.num_coordinates
+        if self.command is None:
+            object.__setattr__(self, "command", self.tension)
+        shapes = {
+            "t": (num_samples,),
+            "q": (num_samples, num_coordinates),
+            "qd": (num_samples, num_coordinates),
+            "tension": (num_samples, self.model.num_cables),
+            "command": (num_samples, self.model.num_cables),
+        }
+        for name, shape in shapes.items():
+            array = np.array(getattr(self, name), dtype=np.float64)
+            if array.shape != shape:
+                raise ValueError(f"{name} must have shape {shape}, got {array.shape}")
+            object.__setattr__(self, name, _read_only(array))
+        if num_samples == 0:
+            raise ValueError(f"a run must have at least one sample, got none. {self.message}")
+
+    def __len__(self) -> int:
+        """Return the number of samples."""
+        return len(self.t)
+
+    def __repr__(self) -> str:
+        """Say what a person wants to know first."""
+        parts = [
+            _count(len(self), "sample"),
+            f"t = {self.t[0]:g} to {self.t[-1]:g} s",
+            _count(self.model.num_sections, "section"),
+            _count(self.model.num_cables, "cable"),
+        ]
+        parts += [self.method] if self.method else []
+        end = f": {self.message}" if self.message else ""
+        return f"<Trajectory: {', '.join(parts)}, status {self.status.name}{end}>"
+
+    def _repr_html_(self) -> str:
+        words = f"<div>{html.escape(repr(self))}</div>"
+        try:
+            png = cast("Any", self.plot())._repr_png_()
+        except ImportError:  # without the extra plot
+            return words
+        data = base64.b64encode(png).decode("ascii")
+        return f'<img src="data:image/png;base64,{data}" width="880" alt="the run"/>{words}'
+
+    @property
+    def success(self) -> bool:
+        """Whether the run reached its last output time."""
+        return self.status.name == "ok"
+
+    # cached_property writes to the instance's __dict__, which a frozen dataclass leaves open.
+
+    @cached_property
+    def _polar(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        theta, phi = _core.polar_along(self.q)
+        return _read_only(theta), _read_only(phi)
+
+    @property
+    def theta(self) -> NDArray[np.float64]:
+        """Bending angles (N, n) [rad]; negative after a swing through straight."""
+        return self._polar[0]
+
+    @property
+    def phi(self) -> NDArray[np.float64]:
+        """Orientation angles (N, n) [rad], continuous along the run."""
+        return self._polar[1]
+
+    @cached_property
+    def tip(self) -> NDArray[np.float64]:
+        """Tip positions (N, 3) in the base frame [m]."""
+        return _read_only(self.model.tips(self.q))
+
+    @cached_property
+    def kinetic_energy(self) -> NDArray[np.float64]:
+        """Kinetic energy (N,) [J]."""
+        return _read_only(self.model.kinetic_energy(self.q, self.qd))
+
+    @cached_property
+    def potential_energy(self) -> NDArray[np.float64]:
+        """Elastic energy plus weight (N,) [J]; the weight's is zero at the base."""
+        return _read_only(self.model.potential_energy(self.q))
+
+    @cached_property
+    def energy(self) -> NDArray[np.float64]:
+        """Total mechanical energy (N,) [J]."""
+        return _read_only(self.kinetic_energy + self.potential_energy)
+
+    @cached_property
+    def cable_energy(self) -> NDArray[np.float64]:
+        """Energy in the springs of cables driven by length (N,) [J]; not part of `energy`."""
+        return _read_only(self.model.cable_energy(self.q, self.command))
+
+    @cached_property
+    def friction_power(self) -> NDArray[np.float64]:
+        """Heat that friction of the cables makes (N,) [W], never negative."""
+        return _read_only(self.model.friction_power(self.q, self.qd, self.command))
+
+    @property
+    def energy_error(self) -> NDArray[np.float64]:
+        """Relative change of the total energy since the start (N,) [1].
+
+        (E - E[0]) / max(abs(E[0]), largest kinetic energy of the run); zero for a robot at rest
+        with E[0] = 0. An error only where nothing feeds or drains the robot: no damping, no
+        tension.
+        """
+        scale = max(abs(self.energy[0]), np.max(self.kinetic_energy))
+        return _read_only((self.energy - self.energy[0]) / (scale or 1.0))
+
+    @property
+    def energy_drift(self) -> float:
+        """Largest magnitude of ``energy_error`` [1]."""
+        return float(np.max(np.abs(self.energy_error)))
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Return the run as a Dataset with named dimensions, units and a description of the run.
+
+        Needs the extra ``data``.
+        """
+        from cdcr.runs import export
+
+        return export.to_xarray(self)
+
+    def save(self, path: str | PathLike[str], *, overwrite: bool = False) -> Path:
+        """Write the run to netCDF (``.nc``, extra ``data``) or CSV (``.csv``), in SI units.
+
+        Both keep every bit of every number. The file appears only when it is complete.
+
+        Parameters
+        ----------
+        path : path-like
+            The file, ending in ``.nc`` or ``.csv``, in a folder that exists.
+        overwrite : bool
+            Whether an existing file may be replaced.
+
+        Returns
+        -------
+        Path
+            The file written.
+
+        Raises
+        ------
+        ValueError
+            For another suffix.
+        FileExistsError
+            If the file exists and ``overwrite`` is false.
+        FileNotFoundError
+            If the folder is missing.
+        """
+        from cdcr.runs import export
+
+        return export.save(self, path, overwrite=overwrite)
+
+    @classmethod
+    def load(cls, path: str | PathLike[str], *, model: Model | None = None) -> Trajectory:
+        """Read a run from a file, as `save` writes it.
+
+        Parameters
+        ----------
+        path : path-like
+            The file, ending in ``.nc`` (extra ``data``) or ``.csv``.
+        model : Model, optional
+            The model that ran. A netCDF file has its own; a CSV file has none, nor how the run
+            ended, its method, cost and slack events: ``run.message`` says so.
+
+        Returns
+        -------
+        Trajectory
+
+        Raises
+        ------
+        ValueError
+            For another suffix, a CSV file without `model`, or a file that is no run of it.
+        FileNotFoundError
+            If there is no such file.
+        """
+        from cdcr.runs.load import load
+
+        fields = load(path, model)
+        events = tuple(SlackEvent(*event) for event in fields.pop("slack_events"))
+        return cls(**fields, slack_events=events)
+
+    def plot(self) -> Figure:
+        """Draw angles [deg], tensions, tip and energy over time. Needs the extra ``plot``.
+
+        A free run (no damping, no tension) also shows ``energy_error``. Save the picture with
+        ``run.plot().savefig("run.png")``.
+        """
+        from cdcr import plotting
+
+        return plotting.plot_run(self)
+
+    def plot_robot(self, times: ArrayLike | None = None, *, num: int = 5, ax: Any = None) -> Any:
+        """Draw the robot in space at several times, earlier ones fainter. Needs the extra ``plot``.
+
+        Parameters
+        ----------
+        times : (M,) array_like, optional
+            Times within the run [s]; by default `num` of them, evenly spaced.
+        num : int
+            How many shapes when `times` is not given.
+        ax : Axes3D, optional
+            Axes to draw into; by default those of a new figure.
+
+        Returns
+        -------
+        Axes3D
+            The axes; their figure is ``ax.figure``.
+        """
+        from cdcr import plotting
+
+        return plotting.plot_run_robot(self, times, num=num, ax=ax)
+
+    def animate(
+        self,
+        path: str | PathLike[str],
+        *,
+        fps: float = 30.0,
+        speed: float = 1.0,
+        overwrite: bool = False,
+        progress: Callable[[int, int], None] | None = None,
+    ) -> Path:
+        """Write a film of the robot beside its bending angles. Needs the extra ``plot``.
+
+        Parameters
+        ----------
+        path : path-like
+            ``.mp4`` (needs ffmpeg) or ``.gif``; without a suffix, ``.mp4`` where ffmpeg is found
+            and ``.gif`` elsewhere.
+        fps : float
+            Frames for each second of film.
+        speed : float
+            Seconds of the run for each second of film: 0.5 is slow motion.
+        overwrite : bool
+            Whether an existing file may be replaced.
+        progress : callable, optional
+            Told (frames done, frames in all) after each frame.
+
+        Returns
+        -------
+        Path
+            The file written.
+        """
+        from cdcr import plotting
+
+        return plotting.animate(
+            self, path, fps=fps, speed=speed, overwrite=overwrite, progress=progress
+        )
+
+
+def _read_only(array: NDArray[np.float64]) -> NDArray[np.float64]:
+    array.setflags(write=False)
+    return array
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}" + ("" if number == 1 else "s")

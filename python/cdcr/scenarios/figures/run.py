@@ -1,0 +1,80 @@
+"""The picture of a run: the robot in space beside its angles and tensions over time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
+
+from cdcr.plotting import panels, plot_run_robot, space
+from cdcr.plotting.style import BLACK, StyledFigure, line_colors, style
+from cdcr.scenarios.figures.workspace import new_figure
+from cdcr.scenarios.metrics import static_theta, swing_times
+
+if TYPE_CHECKING:
+    from cdcr.model.wrench import Wrench
+    from cdcr.runs.trajectory import Trajectory
+    from cdcr.scenarios.scenario import Scenario
+
+SIZE = (12.4, 6.8)  # of the picture [in]
+ROBOT_ROOM = np.array([4.3, 6.4])  # of the robot in space, left [in]
+MIN_SPAN = 10.0  # of the orientation angle, so that rounding noise fills no panel [deg]
+NUM_SHAPES = 5  # of the robot in space
+
+
+def run_figure(scenario: Scenario, run: Trajectory) -> StyledFigure:
+    """Draw the robot at several times of a run, its angles and its tensions."""
+    times = swing_times(run, NUM_SHAPES)
+    with style():
+        figure = new_figure(scenario.title, SIZE)
+        _draw_robot(figure, run, times)
+        _draw_panels(figure, run, scenario.wrenches)
+    return figure
+
+
+def _draw_robot(figure: StyledFigure, run: Trajectory, times: NDArray[np.float64]) -> None:
+    axes = space.add_axes(figure)
+    plot_run_robot(run, times, ax=axes)
+    scale, _ = space.fit(axes, ROBOT_ROOM)
+    space.place(axes, scale, ROBOT_ROOM)
+    handles, labels = axes.get_legend_handles_labels()
+    beside = (ROBOT_ROOM[0] / SIZE[0], 0.5)
+    figure.legend(handles, labels, loc="center left", bbox_to_anchor=beside, handlelength=1.4)
+
+
+def _draw_panels(figure: StyledFigure, run: Trajectory, wrenches: Sequence[Wrench]) -> None:
+    plots = [panels.plot_theta, _plot_phi, panels.plot_tension]
+    grid = figure.add_gridspec(
+        3, 1, left=0.525, right=0.98, bottom=0.09, top=0.91, hspace=0.35, height_ratios=[2, 1, 1]
+    )
+    for row, plot in enumerate(plots):
+        axes = figure.add_subplot(grid[row])
+        plot(axes, run)
+        if plot is panels.plot_theta:
+            _mark_rest(axes, static_theta(run, wrenches))
+        panels.show_time(axes, run, named=plot is plots[-1])
+    figure.align_ylabels()
+
+
+def _mark_rest(axes: Axes, rest: NDArray[np.float64] | None) -> None:
+    """Draw the bending angles of rest (n,) [deg], where there are some."""
+    if rest is None:
+        return
+    for angle, color in zip(rest, line_colors(len(rest)), strict=True):
+        axes.axhline(angle, color=BLACK if len(rest) == 1 else color, dashes=(6, 4), linewidth=1)
+    angles = ", ".join(f"{angle:.2f}" for angle in rest)
+    told = f"dashed: static equilibrium, {angles} deg" if len(rest) == 1 else "dashed: at rest"
+    axes.set_title(told, loc="left", fontsize=9.5)
+
+
+def _plot_phi(axes: Axes, run: Trajectory) -> None:
+    phi = panels.shown_phi(run)
+    for i, color in enumerate(line_colors(run.model.num_sections)):
+        axes.plot(run.t, phi[:, i], color=color)
+    axes.set_ylabel(r"orientation $\varphi$ [deg]")
+    shown = phi[np.isfinite(phi)]
+    if shown.size and np.ptp(shown) < MIN_SPAN:
+        axes.set_ylim(shown.min() - MIN_SPAN / 2, shown.max() + MIN_SPAN / 2)

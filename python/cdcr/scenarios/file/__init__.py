@@ -1,0 +1,1 @@
+"""Scenario files of users: what they may hold, read and run."""

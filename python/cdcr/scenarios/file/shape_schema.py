@@ -1,0 +1,166 @@
+"""What the shapes of scenario files may hold: of tensions and of trajectories."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, create_model
+
+_Finite = Annotated[float, Field(allow_inf_nan=False)]
+_Values = _Finite | list[_Finite]
+_Rows = list[_Finite] | list[list[_Finite]]
+_STRICT = ConfigDict(extra="forbid", strict=True)
+
+
+def _number(requirement: str, **limits: Any) -> Any:
+    return Field(allow_inf_nan=False, description=requirement, **limits)
+
+
+def _optional(requirement: str, **limits: Any) -> Any:
+    return Field(default=None, description=requirement, **limits)
+
+
+class TensionShape(BaseModel):
+    """What all [[tension]] tables have."""
+
+    model_config = _STRICT
+
+    cable: int = Field(ge=1, description="the number of a cable, from 1")
+    shape: str = Field(description='"step", "ramp", "pulse" or "sine"')
+
+
+class StepTable(TensionShape):
+    """Zero, then a value."""
+
+    value: float = _number("a number [N]")
+    at: float = _number("a number [s]", default=0.0)
+
+
+class PulseTable(TensionShape):
+    """A value for some time."""
+
+    value: float = _number("a number [N]")
+    start: float = _number("a number [s]")
+    end: float = _number("a number [s], later than start")
+    base: float = _number("a number [N]", default=0.0)
+
+
+class SineTable(TensionShape):
+    """A sine about a mean."""
+
+    mean: float = _number("a number [N]")
+    amplitude: float = _number("a number >= 0 [N]", ge=0.0)
+    frequency: float = _number("a number > 0 [Hz]", gt=0.0)
+    phase: float = _optional("a number [rad]", allow_inf_nan=False)
+    phase_deg: float = _optional("a number [deg]", allow_inf_nan=False)
+    start: float = _number("a number [s]", default=0.0)
+
+
+# A class body cannot have a field called `from`.
+RampTable: type[BaseModel] = create_model(
+    "RampTable",
+    __base__=TensionShape,
+    **{
+        "from": (float, _number("a number [N]", default=0.0)),
+        "to": (float, _number("a number [N]")),
+        "start": (float, _number("a number [s]", default=0.0)),
+        "end": (float, _number("a number [s], later than start")),
+    },  # type: ignore[call-overload]
+)
+
+TENSION_SHAPES: dict[str, type[BaseModel]] = {
+    "step": StepTable,
+    "ramp": RampTable,
+    "pulse": PulseTable,
+    "sine": SineTable,
+}
+
+
+def _of_sections(unit: str) -> Any:
+    return _optional(f"a number [{unit}], or an array with one for each section")
+
+
+class _Tracking(BaseModel):
+    """What all [trajectory] tables may have."""
+
+    model_config = _STRICT
+
+    min_tension: float = _optional("a number >= 0 [N]", ge=0.0, allow_inf_nan=False)
+    max_tension: float = _optional("a number > 0 [N], or inf for no limit", gt=0.0)
+    infeasible: Literal["raise", "nearest"] = _optional('"raise" or "nearest"')
+    feed_back: bool = _optional("true or false")
+    step: float = _optional("a number > 0 [s]", gt=0.0, allow_inf_nan=False)
+
+
+class _Direction(_Tracking):
+    shape: str = Field(description='"circle", "line", "swing" or "move"')
+    phi: _Values = _of_sections("rad")
+    phi_deg: _Values = _of_sections("deg")
+
+
+class CircleTable(_Direction):
+    """A fixed bending angle that goes round; phi is where it starts."""
+
+    theta: _Values = _of_sections("rad")
+    theta_deg: _Values = _of_sections("deg")
+    turns_per_second: _Values = Field(
+        description="a number [1/s], or an array with one for each section"
+    )
+
+
+class LineTable(_Direction):
+    """A bending angle that grows evenly; theta is where it starts."""
+
+    theta: _Values = _of_sections("rad")
+    theta_deg: _Values = _of_sections("deg")
+    theta_rate: _Values = _of_sections("rad/s")
+    theta_rate_deg: _Values = _of_sections("deg/s")
+
+
+class SwingTable(_Direction):
+    """A bending angle that swings as a sine through straight."""
+
+    amplitude: _Values = _of_sections("rad")
+    amplitude_deg: _Values = _of_sections("deg")
+    frequency: float = _number("a number > 0 [Hz]", gt=0.0)
+
+
+class MoveTable(_Direction):
+    """From straight to theta and phi, from rest to rest, and holding them after."""
+
+    theta: _Values = _of_sections("rad")
+    theta_deg: _Values = _of_sections("deg")
+    start: float = _number("a number [s]", default=0.0)
+    duration: float = _number("a number > 0 [s]", gt=0.0)
+
+
+TRAJECTORY_SHAPES: dict[str, type[BaseModel]] = {
+    "circle": CircleTable,
+    "line": LineTable,
+    "swing": SwingTable,
+    "move": MoveTable,
+}
+
+
+def _samples(unit: str) -> Any:
+    return _optional(f"an array with a number [{unit}] for each time, or a row of them")
+
+
+class TrajectorySamples(_Tracking):
+    """A [trajectory] with its samples in the file."""
+
+    t: list[_Finite] = Field(description="an array of increasing times [s]")
+    q: list[list[_Finite]] = _optional("an array with one row [rad] for each time")
+    theta: _Rows = _samples("rad")
+    theta_deg: _Rows = _samples("deg")
+    phi: _Rows = _samples("rad")
+    phi_deg: _Rows = _samples("deg")
+
+
+class TrajectoryFile(_Tracking):
+    """A [trajectory] that names a CSV file."""
+
+    file: str = Field(
+        description="the name of a CSV file with the columns t, theta_deg 1, phi_deg 1, ... "
+        "or t, theta 1, phi 1, ... or t, q 1 x, q 1 y, ..."
+    )

@@ -1,0 +1,177 @@
+"""A motion of a user's file, the tensions it needs, and what these make the robot do."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cdcr._core import Status
+from cdcr.model.model import Model
+from cdcr.motion.inverse import Infeasible, InverseRun, inverse_run
+from cdcr.motion.reference import Reference
+from cdcr.motion.splines import Motion
+from cdcr.runs.simulate import simulate
+from cdcr.runs.stats import total
+from cdcr.runs.trajectory import Trajectory
+from cdcr.scenarios.file.shapes import warn_once
+from cdcr.scenarios.file.values import error_prefix
+from cdcr.scenarios.metrics import Metric, run_metrics
+from cdcr.scenarios.scenario import Scenario
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class TrackedMotion:
+    """A motion to follow, by tensions from inverse dynamics.
+
+    Parameters
+    ----------
+    motion : callable
+        From times (M,) [s] to q, qd, qdd (3, M, 2n).
+    where : str
+        What a refusal begins with.
+    min_tension, max_tension : float
+        Limits of every tension [N].
+    infeasible : {"raise", "nearest"}
+        What to do where the limits are too narrow.
+    feed_back : bool
+        Whether the tensions are then fed to the robot.
+    step : float, optional
+        Time between the tensions fed, which lines connect [s]; by default they are found anew
+        whenever the integrator asks.
+    derivative_error : tuple of float
+        Of the rates and accelerations of samples [rad/s], [rad/s^2].
+    """
+
+    motion: Motion
+    where: str
+    min_tension: float = 0.0
+    max_tension: float = np.inf
+    infeasible: Infeasible = "raise"
+    feed_back: bool = False
+    step: float | None = None
+    derivative_error: tuple[float, float] = (0.0, 0.0)
+
+    @property
+    def integrates(self) -> bool:
+        """Whether the tensions are fed to the robot."""
+        return self.feed_back
+
+    def reference(self, t: FloatArray) -> Reference:
+        """Return the motion at times (N,) [s]."""
+        q, qd, qdd = self.motion(t)
+        return Reference(t, q, qd, qdd, self.derivative_error, self.motion)
+
+    def start(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """Return q and qd at t = 0."""
+        q, qd, _ = self.motion(np.zeros(1))[:, 0]
+        return tuple(q.tolist()), tuple(qd.tolist())
+
+    def inverse(self, model: Model, t: FloatArray) -> InverseRun:
+        """Return the tensions needed at times (N,) [s]."""
+        with error_prefix(self.where):
+            needed = inverse_run(
+                model,
+                self.reference(t),
+                min_tension=self.min_tension,
+                max_tension=self.max_tension,
+                infeasible="nearest",
+            )
+            if self.infeasible == "raise" and not np.all(needed.feasible):
+                raise ValueError(_out_of_reach(needed))
+        return needed
+
+    def run(
+        self,
+        model: Model,
+        q0: tuple[float, ...],
+        qd0: tuple[float, ...],
+        t: FloatArray,
+        **options: Any,
+    ) -> Trajectory:
+        """Run the robot under the tensions needed, or return the motion itself with them."""
+        needed = self.inverse(model, t)
+        if not self.feed_back:
+            return Trajectory(
+                model=model,
+                t=needed.t,
+                q=needed.q,
+                qd=needed.reference.qd,
+                tension=needed.tension,
+                status=Status.ok,
+                message="",
+                stats=total(()),
+                method="inverse dynamics",
+            )
+        if self.step is None:
+            with warn_once():
+                return simulate(model, q0, qd0, t=t, tension=needed.tension_at, **options)
+        intervals = max(1, round(float(t[-1] - t[0]) / self.step))
+        with warn_once():
+            table = self.inverse(model, np.linspace(t[0], t[-1], intervals + 1)).to_table()
+            return simulate(model, q0, qd0, t=t, tension=table, **options)
+
+    def summarize(self, scenario: Scenario, run: Trajectory) -> tuple[Metric, ...]:
+        """Return what every run shows, the tensions needed, and how well they lead the robot."""
+        with warn_once():
+            needed = self.inverse(run.model, run.t)
+        found = [*run_metrics(scenario, run)]
+        for j, tension in enumerate(needed.tension.T):
+            key, cable = f"tension_{j + 1}", f"tension needed of cable {j + 1}"
+            found += [
+                Metric(f"{key}_min_N", f"{cable}, smallest", float(tension.min()), "N"),
+                Metric(f"{key}_max_N", f"{cable}, largest", float(tension.max()), "N"),
+            ]
+        misses = float(np.sum(~needed.feasible))
+        if misses:
+            found.append(Metric("infeasible", "samples out of reach", misses, ""))
+        rate, acceleration = self.derivative_error
+        if acceleration > 0.0:
+            label = "error of the motion's"
+            found += [
+                Metric("rate_error", f"{label} rates, estimate", rate, "rad/s"),
+                Metric("acceleration_error", f"{label} accelerations", acceleration, "rad/s^2"),
+            ]
+        return (*found, *(self._errors(run) if self.feed_back else ()))
+
+    def _errors(self, run: Trajectory) -> tuple[Metric, ...]:
+        asked = self.reference(run.t).q
+        angle = np.linalg.norm(run.q - asked, axis=1)
+        tip = np.linalg.norm(run.tip - run.model.tips(asked), axis=1)
+        return (
+            Metric("path_error_rad", "path error, largest", float(angle.max()), "rad"),
+            Metric("path_error_end_rad", "path error at the end", float(angle[-1]), "rad"),
+            Metric("tip_error_m", "tip from its path, furthest", float(tip.max()), "m"),
+        )
+
+    def plot(self, scenario: Scenario, run: Trajectory) -> Figure:
+        """Return the picture of every run, with the motion asked for where it was fed back."""
+        from cdcr.scenarios.figures.run import run_figure
+
+        figure = run_figure(scenario, run)
+        if self.feed_back:
+            asked = self.reference(run.t)
+            for axes, angles in zip(figure.axes[1:3], (asked.theta, asked.phi), strict=True):
+                axes.plot(run.t, np.rad2deg(angles), color="black", linewidth=1.0, dashes=(6, 4))
+                axes.set_title("dashed: asked for", loc="left", fontsize=9.5)
+        return figure
+
+
+def _out_of_reach(needed: InverseRun) -> str:
+    misses = np.flatnonzero(~needed.feasible)
+    first = int(misses[0])
+    limiting = [str(cable + 1) for cable in needed.limiting[first]]
+    cables = f"cable{'' if len(limiting) == 1 else 's'} {', '.join(limiting)}"
+    return (
+        f"at t = {needed.t[first]:g} s the motion cannot be had with tensions from "
+        f"{needed.min_tension:g} to {needed.max_tension:g} N (limited by {cables}), nor at "
+        f"{misses.size - 1} more of {len(needed)} samples; widen the limits, slow the motion down, "
+        'or take the nearest tensions with infeasible = "nearest"'
+    )

@@ -1,0 +1,204 @@
+"""The [trajectory] table of scenario files: samples, a CSV file, or a shape.
+
+[trajectory]
+shape = "circle"                # or "line", "swing", "move"
+theta_deg = 15.0                # of all sections, or an array with one for each
+turns_per_second = 0.1
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cdcr.base.check import nearest
+from cdcr.files.number_csv import Layout, read_numbers
+from cdcr.files.toml import format_toml, refuse, schema_errors
+from cdcr.model.coordinates import bending
+from cdcr.motion.reference import Reference
+from cdcr.motion.splines import Motion, bending_vectors
+from cdcr.scenarios.file.tracking import TrackedMotion
+from cdcr.scenarios.file.values import count, error_prefix, of_sections, rival_errors
+
+FloatArray = NDArray[np.float64]
+
+AT = "trajectory"
+_COMMON = ("min_tension", "max_tension", "infeasible", "feed_back", "step")
+
+
+def read_trajectory(
+    table: dict[str, Any], num_sections: int, t_end: float, file: Path
+) -> TrackedMotion:
+    """Return the motion of a [trajectory] table, or refuse it with file, key and value."""
+    from cdcr.scenarios.file.shape_schema import TrajectoryFile, TrajectorySamples
+
+    given = [key for key in ("shape", "t", "file") if key in table]
+    if len(given) != 1:
+        got = f", got {' and '.join(given)}" if given else ""
+        refuse(str(file), [f"{AT} must have one of shape, t or file{got}"])
+    options: dict[str, Any] = {key: table[key] for key in _COMMON if key in table}
+    low, high = options.get("min_tension", 0.0), options.get("max_tension", math.inf)
+    if given == ["shape"]:
+        motion, error = _shape(table, num_sections, file), (0.0, 0.0)
+    else:
+        schema = TrajectoryFile if given == ["file"] else TrajectorySamples
+        refuse(str(file), [*schema_errors(schema, table, AT), *rival_errors(table, AT)])
+        reference = _samples(table, num_sections, file)
+        motion, error = reference.evaluate, reference.derivative_error
+        if reference.t[0] > 0.0 or reference.t[-1] < t_end:
+            reach = f"{reference.t[0]:g} to {reference.t[-1]:g} s"
+            sentence = f"{AT} must reach over the run, 0 to {t_end:g} s, got {reach}"
+            refuse(str(file), [sentence])
+    if low > high:
+        sentence = f"{AT}.max_tension must be at least min_tension, {low:g} N, got {high:g}"
+        refuse(str(file), [sentence])
+    return TrackedMotion(motion=motion, derivative_error=error, where=f"{file}, [{AT}]", **options)
+
+
+def _shape(table: dict[str, Any], num_sections: int, file: Path) -> Motion:
+    from cdcr.scenarios.file.shape_schema import TRAJECTORY_SHAPES
+
+    refuse(str(file), shape_errors(TRAJECTORY_SHAPES, table, AT))
+    with error_prefix(str(file)):
+        return _MOTIONS[table["shape"]](_Angles(table, num_sections))
+
+
+def shape_errors(shapes: Mapping[str, Any], table: Mapping[str, Any], at: str) -> list[str]:
+    """Return a sentence for an unknown shape, or one for each key that its table does not allow."""
+    shape = table.get("shape")
+    if not isinstance(shape, str) or shape not in shapes:
+        known = ", ".join(f'"{name}"' for name in shapes)
+        if "shape" not in table:
+            return [f"{at}.shape is missing; it must be one of {known}"]
+        guess = nearest(shape, shapes) if isinstance(shape, str) else ""
+        return [f"{at}.shape must be one of {known}, got {format_toml(shape)}.{guess}".rstrip(".")]
+    return schema_errors(shapes[shape], table, at)
+
+
+class _Angles:
+    """Reads values for all sections from a table."""
+
+    def __init__(self, table: Mapping[str, Any], num_sections: int) -> None:
+        self.table, self.num_sections = table, num_sections
+
+    def __call__(self, key: str, default: float | None = None) -> FloatArray:
+        return of_sections(self.table, key, self.num_sections, AT, default)
+
+
+def _with_rates(value: FloatArray, rate: FloatArray, acceleration: FloatArray) -> FloatArray:
+    return np.stack(np.broadcast_arrays(value, rate, acceleration))
+
+
+def _even(t: FloatArray, start: FloatArray, rate: FloatArray) -> FloatArray:
+    """Return angles (3, M, n) that grow at constant rates (n,)."""
+    return _with_rates(start + np.outer(t, rate), rate, np.zeros(1))
+
+
+def _circle(angles: _Angles) -> Motion:
+    theta, phi = angles("theta"), angles("phi", 0.0)
+    rate = 2.0 * math.pi * angles("turns_per_second")
+    return lambda t: bending_vectors(_even(t, theta, 0.0 * rate), _even(t, phi, rate))
+
+
+def _line(angles: _Angles) -> Motion:
+    theta, phi, rate = angles("theta", 0.0), angles("phi", 0.0), angles("theta_rate")
+    return lambda t: bending_vectors(_even(t, theta, rate), _even(t, phi, 0.0 * rate))
+
+
+def _swing(angles: _Angles) -> Motion:
+    amplitude, phi = angles("amplitude"), angles("phi", 0.0)
+    speed = 2.0 * math.pi * angles.table["frequency"]
+
+    def motion(t: FloatArray) -> FloatArray:
+        sine, cosine = (
+            np.outer(np.sin(speed * t), amplitude),
+            np.outer(np.cos(speed * t), amplitude),
+        )
+        theta = _with_rates(sine, speed * cosine, -(speed**2) * sine)
+        return bending_vectors(theta, _even(t, phi, 0.0 * phi))
+
+    return motion
+
+
+def _move(angles: _Angles) -> Motion:
+    goal = bending(angles("theta"), angles("phi", 0.0))
+    start, duration = angles.table.get("start", 0.0), angles.table["duration"]
+
+    def motion(t: FloatArray) -> FloatArray:
+        # The quintic from 0 to 1 that starts and ends without speed or acceleration.
+        s = np.clip((t - start) / duration, 0.0, 1.0)
+        share = [
+            s**3 * (10.0 - 15.0 * s + 6.0 * s**2),
+            30.0 * s**2 * (1.0 - s) ** 2 / duration,
+            60.0 * s * (1.0 - s) * (1.0 - 2.0 * s) / duration**2,
+        ]
+        return np.stack([np.outer(one, goal) for one in share])
+
+    return motion
+
+
+_MOTIONS = {"circle": _circle, "line": _line, "swing": _swing, "move": _move}
+
+
+def _samples(table: dict[str, Any], num_sections: int, file: Path) -> Reference:
+    if "file" in table:
+        path = file.parent / table["file"]
+        t, given = _read_csv(path, num_sections)
+        with error_prefix(str(path)):
+            return _reference(t, given)
+    given = {key: np.array(_rows(table, key, num_sections, file)) for key in _SAMPLED & set(table)}
+    for key, rows in given.items():
+        if len(rows) != len(table["t"]):
+            requirement = f"as many rows as t, {len(table['t'])}, got {len(rows)}"
+            refuse(str(file), [f"{AT}.{key} must have {requirement}"])
+    if "q" not in given and not {"theta", "theta_deg"} & set(given):
+        refuse(str(file), [f"{AT} must have q, theta or theta_deg beside t"])
+    with error_prefix(f"{file}, [{AT}]"):
+        return _reference(table["t"], given)
+
+
+_SAMPLED = {"q", "theta", "theta_deg", "phi", "phi_deg"}
+
+
+def _rows(table: dict[str, Any], key: str, num_sections: int, file: Path) -> list[list[float]]:
+    """Return the rows of a key; for one section they may be numbers."""
+    length = num_sections * (2 if key == "q" else 1)
+    rows = [row if isinstance(row, list) else [row] for row in table[key]]
+    for i, row in enumerate(rows):
+        if len(row) != length:
+            must = f"must have {count(length, 'number')} for this robot"
+            refuse(str(file), [f"{AT}.{key}[{i}] {must}, got {format_toml(table[key][i])}"])
+    return rows
+
+
+def _reference(t: list[float], given: Mapping[str, FloatArray]) -> Reference:
+    if "q" in given:
+        return Reference.from_samples(t, given["q"])
+    angles = {}
+    for key in ("theta", "phi"):
+        in_degrees = np.deg2rad(given.get(f"{key}_deg", np.zeros(1)))
+        angles[key] = given.get(key, in_degrees)
+    if angles["phi"].size == 1:
+        return Reference.from_angles(t, angles["theta"], 0.0)
+    return Reference.from_angles(t, angles["theta"], angles["phi"])
+
+
+def _read_csv(path: Path, num_sections: int) -> tuple[list[float], dict[str, FloatArray]]:
+    sections = range(1, num_sections + 1)
+    layouts = []
+    for theta, phi, unit in (("theta_deg", "phi_deg", "deg"), ("theta", "phi", "rad")):
+        columns = tuple(f"{key} {i}" for i in sections for key in (theta, phi))
+        layouts.append(Layout(columns, f"a number [{unit}]"))
+    columns = tuple(f"q {i} {axis}" for i in sections for axis in "xy")
+    layouts.append(Layout(columns, "a number [rad]"))
+    layout, t, rows = read_numbers(path, "trajectory file", layouts)
+    values = np.array(rows)
+    if layout is layouts[-1]:
+        return t, {"q": values}
+    suffix = "_deg" if layout is layouts[0] else ""
+    return t, {f"theta{suffix}": values[:, 0::2], f"phi{suffix}": values[:, 1::2]}

@@ -1,0 +1,1 @@
+"""Numbers that the summary and the picture of a scenario share."""

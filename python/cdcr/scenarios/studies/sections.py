@@ -1,0 +1,70 @@
+"""What the scenarios of several sections have in common."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cdcr.model.model import Model
+from cdcr.runs.trajectory import Trajectory
+from cdcr.scenarios.metrics import Metric
+from cdcr.scenarios.studies.energy import dissipated, energy_gap, fine_run
+
+if TYPE_CHECKING:
+    from cdcr.scenarios.scenario import Scenario
+
+Array = NDArray[np.float64]
+Vector = tuple[float, float, float]
+Rotation = tuple[Vector, Vector, Vector]
+
+# Base orientations, by rows. The straight robot points down, or along x with cable 1 on top.
+HANGING: Rotation = ((1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, -1.0))
+HORIZONTAL: Rotation = ((0.0, 0.0, 1.0), (0.0, -1.0, 0.0), (1.0, 0.0, 0.0))
+
+SETTLED = 0.02  # share of the first distance
+
+
+def holding(model: Model, q: Array) -> Array:
+    """Return the least-norm tensions (num_cables,) under which q (2n,) is at rest [N]."""
+    still = np.zeros_like(q)
+    return model.allocate(model.inverse_dynamics(q, still, still))
+
+
+def distance(run: Trajectory, q: Array) -> Array:
+    """Return how far the tip is (N,) from where it is at q (2n,) [m]."""
+    away: Array = np.linalg.norm(run.tip - run.model.tip(q)[1], axis=1)
+    return away
+
+
+def settling_time(t: Array, away: Array) -> float | None:
+    """Return when `away` (N,) is last above SETTLED of its start, None if it is so at the end."""
+    outside = np.flatnonzero(away > SETTLED * away[0])
+    last = int(outside[-1]) if outside.size else 0
+    return float(t[last]) if last + 1 < len(t) else None
+
+
+def release_metrics(scenario: Scenario, run: Trajectory, rest: Array) -> tuple[Metric, ...]:
+    """Return what is worth knowing of a robot that swings to rest at q = `rest` (2n,)."""
+    away = distance(run, rest)
+    x, _, z = run.model.tip(rest)[1]
+    fine = fine_run(scenario, run)
+    loss = float(dissipated(fine)[-1])
+    found = [
+        Metric("start_distance_mm", "tip from where it comes to rest, start", 1e3 * away[0], "mm"),
+        Metric("end_distance_mm", "the same, end", 1e3 * float(away[-1]), "mm"),
+        Metric("rest_x_m", "tip at rest: x", float(x), "m"),
+        Metric("rest_z_m", "tip at rest: z", float(z), "m"),
+        Metric("highest_m", "highest place of the tip", float(run.tip[:, 2].max()), "m"),
+        Metric("lowest_m", "lowest place of the tip", float(run.tip[:, 2].min()), "m"),
+    ]
+    settled = settling_time(run.t, away)
+    if settled is not None:
+        label = f"within {100 * SETTLED:g} % of the first distance from"
+        found.append(Metric("settling_s", label, settled, "s"))
+    return (
+        *found,
+        Metric("dissipated_mJ", "energy taken by damping", 1e3 * loss, "mJ"),
+        Metric("energy_gap", "relative gap of the energy balance", energy_gap(fine), ""),
+    )

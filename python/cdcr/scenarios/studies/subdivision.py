@@ -1,0 +1,76 @@
+"""One section cut into more and more parts: towards the beam it stands for."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cdcr._core import max_sections
+from cdcr.model.model import Model
+from cdcr.robots import amouri2020
+from cdcr.runs.simulate import simulate
+from cdcr.runs.trajectory import Trajectory
+
+FloatArray = NDArray[np.float64]
+
+COUNTS = tuple(range(1, 11))
+SHOWN = 3  # planar modes
+STEPS = (1, 2, 4, 8)  # parts whose step responses are shown
+TENSION = 5.0  # on cable 1 [N]
+DAMPING = 5e-4  # of the whole section, in the step responses [N m s/rad]
+END, SAMPLES = 2.0, 1001  # of the step responses [s]
+
+
+def model_of(parts: int, damping: float = 0.0) -> Model:
+    """Return the robot of Table 1, its section cut into parts."""
+    return Model(amouri2020(damping=damping).subdivide(parts))
+
+
+@lru_cache(maxsize=64)
+def frequencies(parts: int) -> FloatArray:
+    """Return the natural frequencies in one plane about straight, up to three [rad/s].
+
+    Each comes twice, in the two planes.
+    """
+    model = model_of(parts)
+    modes = model.modes(np.zeros(model.num_coordinates), np.zeros(model.num_cables))
+    return modes.frequency[0::2][:SHOWN]
+
+
+@lru_cache(maxsize=1)
+def beam() -> FloatArray:
+    """Return those of a beam that bends freely, with the same masses (3,) [rad/s].
+
+    The limit of many parts by Richardson's extrapolation from 16 and 32: errors fall with the
+    square of the number of parts.
+    """
+    half, full = frequencies(max_sections // 2), frequencies(max_sections)
+    return full + (full - half) / 3.0
+
+
+def excess(parts: int) -> FloatArray:
+    """Return by which share the frequencies of that many parts are too high, up to three [1]."""
+    found = frequencies(parts)
+    return found / beam()[: len(found)] - 1.0
+
+
+def order(mode: int) -> float:
+    """Return the power of 1/parts with which the excess falls, over the last doubling shown."""
+    few, many = COUNTS[-1] // 2, COUNTS[-1]
+    return float(np.log2(excess(few)[mode] / excess(many)[mode]))
+
+
+@lru_cache(maxsize=1)
+def responses() -> dict[int, Trajectory]:
+    """Return the damped robot under a step of tension, by number of parts."""
+    t = np.linspace(0.0, END, SAMPLES)
+    runs = {}
+    for parts in STEPS:
+        model = model_of(parts, DAMPING)
+        rest, tension = np.zeros(model.num_coordinates), (TENSION, 0.0, 0.0)
+        runs[parts] = simulate(
+            model, rest, rest, t=t, tension=tension, method="bdf", rtol=1e-8, atol=1e-10
+        )
+    return runs

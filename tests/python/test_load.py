@@ -1,0 +1,93 @@
+"""Runs read back from their files: everything a netCDF file holds, the numbers of a CSV file."""
+
+import re
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import cdcr
+
+ARRAYS = ("t", "q", "qd", "tension", "command")
+STATS = ("steps", "rejected", "evaluations", "jacobians", "newton_failures")
+CABLES = [cdcr.Cable(radius=0.02, angle=1.0, end_section=1, stiffness=5e3, damping=1.0)]
+
+
+@pytest.fixture(scope="module")
+def run() -> cdcr.Trajectory:
+    """Two sections, cables driven by tension and by length, slack events, stopped early."""
+    plain = cdcr.robots.amouri2020(damping=0.02).sections
+    model = cdcr.Model(cdcr.Robot(sections=plain * 2, cables=CABLES))
+    command = [1.0, *[0.0] * 5, model.rest_command()[6]]
+    t = np.linspace(0.0, 5.0, 51)
+    return cdcr.simulate(model, [-0.4, -0.4] * 2, np.zeros(4), t=t, command=command, max_steps=1500)
+
+
+def refuses(error: type[Exception], sentence: str) -> Any:
+    return pytest.raises(error, match=f"^{re.escape(sentence)}")
+
+
+def test_tensions_are_newtons_and_commands_what_was_asked(run: cdcr.Trajectory) -> None:
+    np.testing.assert_array_equal(run.command[:, 6], run.model.rest_command()[6])
+    np.testing.assert_array_equal(run.tension[:, :6], run.command[:, :6])
+    spring = [
+        run.model.cable_tensions(*state) for state in zip(run.q, run.qd, run.command, strict=True)
+    ]
+    np.testing.assert_array_equal(run.tension, spring)
+    assert run.tension[:, 6].max() > 5.0
+
+
+def test_a_netcdf_file_holds_everything(run: cdcr.Trajectory, tmp_path: Path) -> None:
+    again = cdcr.Trajectory.load(run.save(tmp_path / "run.nc"))
+    for name in ARRAYS:
+        np.testing.assert_array_equal(getattr(again, name), getattr(run, name))
+    assert (again.model.robot, again.model.formulation) == (run.model.robot, "exact")
+    assert (again.status, again.message) == (cdcr.Status.step_limit, run.message)
+    assert (again.method, again.slack_events) == ("bdf", run.slack_events)
+    assert len(run.slack_events) > 0
+    for name in STATS:
+        assert getattr(again.stats, name) == getattr(run.stats, name)
+
+
+def test_a_csv_file_holds_the_numbers_and_says_what_it_lacks(
+    run: cdcr.Trajectory, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "xarray", None)
+    path = run.save(tmp_path / "run.csv")
+    again = cdcr.Trajectory.load(path, model=run.model)
+    for name in ARRAYS:
+        np.testing.assert_array_equal(getattr(again, name), getattr(run, name))
+    assert again.message == "run.csv does not hold how the run ended, its method and its cost"
+    with refuses(ValueError, f"{path} holds numbers and no robot: give the model that ran"):
+        cdcr.Trajectory.load(path)
+    one = cdcr.Model(cdcr.Robot(sections=run.model.robot.sections, cables=CABLES * 2))
+    with refuses(ValueError, f"{path} has no column 'tension8 [N]', which a run of this model has"):
+        cdcr.Trajectory.load(path, model=one)
+
+
+def test_a_robot_without_cables_comes_back(tmp_path: Path) -> None:
+    section = cdcr.Section(
+        length=0.5, backbone_mass=0.1, backbone_diameter=5e-3, youngs_modulus=1e10
+    )
+    run = cdcr.simulate(cdcr.Model(cdcr.Robot(sections=[section])), [0.5, 0], [0, 0], t=[0.0, 1.0])
+    for suffix in (".nc", ".csv"):
+        path = run.save(tmp_path / f"run{suffix}")
+        again = cdcr.Trajectory.load(path, model=run.model)
+        np.testing.assert_array_equal(again.q, run.q)
+        assert again.tension.shape == (2, 0)
+
+
+def test_files_that_are_no_run_are_refused(run: cdcr.Trajectory, tmp_path: Path) -> None:
+    for name in ("other.nc", "other.csv"):
+        (tmp_path / name).write_text("t,a\n1,2,3\n")
+        with refuses(ValueError, f"{tmp_path / name} is no run that cdcr has written: "):
+            cdcr.Trajectory.load(tmp_path / name, model=run.model)
+    with refuses(FileNotFoundError, f"there is no run {tmp_path / 'none.nc'}"):
+        cdcr.Trajectory.load(tmp_path / "none.nc")
+    with refuses(ValueError, "the file name must end in .nc or .csv, got 'run.txt'"):
+        cdcr.Trajectory.load("run.txt")
+    run.to_xarray().drop_vars("qd").to_netcdf(tmp_path / "half.nc", engine="h5netcdf")
+    with refuses(ValueError, f"{tmp_path / 'half.nc'} is no run that cdcr has written: "):
+        cdcr.Trajectory.load(tmp_path / "half.nc")
