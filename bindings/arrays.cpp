@@ -164,6 +164,14 @@ void refuse_leading(const StateArgument& argument, const std::vector<Index>& bef
   refuse(text);
 }
 
+std::string short_text(const VectorXd& vector) {
+  constexpr Index most = 6;
+  std::ostringstream text;
+  for (Index i = 0; i < std::min(most, vector.size()); ++i)
+    text << (i > 0 ? ", " : "") << vector[i];
+  return "[" + text.str() + (vector.size() > most ? ", ...]" : "]");
+}
+
 py::array_t<double> to_array(const Eigen::Ref<const VectorXd>& vector) {
   return py::array_t<double>(vector.size(), vector.data());
 }

@@ -63,6 +63,9 @@ struct StateArgument {
 /// A sequence of cdcr.Wrench, or one, each constant and in its range.
 [[nodiscard]] Wrenches read_wrenches(const Model& model, const py::object& object);
 
+/// "[1, 0.5]" with the first few numbers, for a repr.
+[[nodiscard]] std::string short_text(const VectorXd& vector);
+
 [[nodiscard]] py::array_t<double> to_array(const Eigen::Ref<const VectorXd>& vector);
 [[nodiscard]] py::array_t<double> to_rows(const RowMatrixXd& matrix);
 

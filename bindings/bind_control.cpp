@@ -1,5 +1,7 @@
 #include <pybind11/stl.h>
 
+#include <sstream>
+
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "cdcr/pid.hpp"
@@ -41,6 +43,14 @@ void bind_control(py::module_& m) {
             self.set_reference(*VectorArgument(q, "reference", self.reference().size()));
           },
           "Bending vectors to reach and hold (d,) [rad]; straight until set.")
+      .def("__repr__",
+           [](const Pid& self) {
+             const PidOptions& options = self.options();
+             std::ostringstream text;
+             text << "<Pid: kp " << options.kp << ", ki " << options.ki << ", kd " << options.kd
+                  << ", period " << options.period << " s>";
+             return text.str();
+           })
       .def_property_readonly(
           "integral", [](const Pid& self) { return to_array(self.integral()); },
           "Accumulated error (d,) [rad s].")

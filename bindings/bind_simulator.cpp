@@ -1,3 +1,5 @@
+#include <sstream>
+
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "cdcr/simulator.hpp"
@@ -59,7 +61,13 @@ void bind_simulator(py::module_& m) {
           "qd", [](const Simulator& self) { return to_array(self.qd()); },
           "Their rates (d,) [rad/s].")
       .def_property_readonly("time", &Simulator::time, "Time reached [s].")
-      .def_property_readonly("period", &Simulator::period, "Control period [s].");
+      .def_property_readonly("period", &Simulator::period, "Control period [s].")
+      .def("__repr__", [](const Simulator& self) {
+        std::ostringstream text;
+        text << "<Simulator at t = " << self.time() << " s, period " << self.period()
+             << " s, q = " << short_text(self.q()) << ">";
+        return text.str();
+      });
 }
 
 }  // namespace cdcr::python

@@ -57,7 +57,13 @@ void bind_equilibrium(py::module_& m) {
       .def_readonly("load_steps", &Equilibrium::load_steps,
                     "Steps of the load from nothing to all; 0 where found without.")
       .def_readonly("searches", &Equilibrium::searches, "Places started from.")
-      .def_readonly("status", &Equilibrium::status, "``ok``, or why there is no answer.");
+      .def_readonly("status", &Equilibrium::status, "``ok``, or why there is no answer.")
+      .def("__repr__", [](const Equilibrium& self) {
+        std::ostringstream text;
+        text << "<Equilibrium at q = " << short_text(self.q) << (self.stable ? ", " : ", not ")
+             << "stable, residual " << self.residual << " N m, status " << name(self.status) << ">";
+        return text.str();
+      });
 }
 
 void bind_allocation(py::module_& m) {
@@ -76,7 +82,14 @@ void bind_allocation(py::module_& m) {
       .def_readonly("feasible", &Allocation::feasible, "Whether it is the force asked for.")
       .def_readonly("limiting", &Allocation::limiting,
                     "Indices of the cables whose limit is in the way.")
-      .def_readonly("limits", &Allocation::limits, "These limits in words.");
+      .def_readonly("limits", &Allocation::limits, "These limits in words.")
+      .def("__repr__", [](const Allocation& self) {
+        std::ostringstream text;
+        text << "<Allocation: tension " << short_text(self.tension) << " N, "
+             << (self.feasible ? "feasible" : "not feasible") << ", distance " << self.distance
+             << " N m>";
+        return text.str();
+      });
 }
 
 }  // namespace

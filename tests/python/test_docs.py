@@ -147,6 +147,12 @@ def test_help_says_what_a_name_takes_and_gives(name: str, thing: Any) -> None:
     assert not list(wrong(name, thing))
 
 
+def test_methods_of_a_model_name_their_equation() -> None:
+    for name, what in members(cdcr.Model):
+        if callable(what) and arguments(what):
+            assert re.search(r"\(\d+\)|the p of `tip`", inspect.getdoc(what) or ""), name
+
+
 def bare(x: float) -> None: ...
 
 

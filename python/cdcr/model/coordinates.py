@@ -14,7 +14,9 @@ FloatArray = NDArray[np.float64]
 def polar(
     q: ArrayLike, *, continuous: bool = False
 ) -> tuple[float, float] | tuple[FloatArray, FloatArray]:
-    """Bending angle and orientation angle of bending vectors q = theta (cos phi, sin phi).
+    """Bending angle and orientation angle of bending vectors, cpp/README.md eq. (1).
+
+    q = theta (cos phi, sin phi).
 
     Parameters
     ----------
@@ -51,7 +53,9 @@ def polar(
 
 
 def bending(theta: ArrayLike, phi: ArrayLike) -> FloatArray:
-    """Bending vectors q = theta (cos phi, sin phi), the inverse of `polar`.
+    """Bending vectors q = theta (cos phi, sin phi), cpp/README.md eq. (1).
+
+    The inverse of `polar`.
 
     Parameters
     ----------

@@ -103,7 +103,7 @@ class Model(_core.Model):
         *,
         throw: bool = True,
     ) -> FloatArray | _core.Equilibrium:
-        """Bending vectors at rest under constant commands and wrenches: dU/dq = Q.
+        """Bending vectors at rest under constant commands and wrenches, cpp/README.md eq. (18).
 
         Newton's method, downhill in energy where all loads have one; where that fails, the load
         grows from nothing to all, then other starts are tried. Nothing slides at rest, so this is
@@ -141,10 +141,10 @@ class Model(_core.Model):
     ) -> Modes:
         """Natural frequencies and mode shapes of small motions about a shape.
 
-        The undamped ones are those of K phi = w^2 M phi, where K is the static stiffness with the
-        springs of length-driven cables and the wrenches; the eigenvalues of `linearize` add
-        damping. Where wrenches make K unsymmetric, its symmetric part makes the shapes, and the
-        eigenvalues alone tell all.
+        The undamped ones are those of K phi = w^2 M phi, cpp/several-sections.md eq. (44), where K
+        is the static stiffness with the springs of length-driven cables and the wrenches; the
+        eigenvalues of `linearize` add damping, eq. (45). Where wrenches make K unsymmetric, its
+        symmetric part makes the shapes, and the eigenvalues alone tell all.
 
         Parameters
         ----------
@@ -199,6 +199,8 @@ class Model(_core.Model):
     ) -> FloatArray | _core.Allocation:
         """Least-norm cable tensions within limits that give a generalised force.
 
+        cpp/README.md eq. (20), cpp/several-sections.md eq. (46).
+
         Parameters
         ----------
         force : (2n,) array_like
@@ -244,7 +246,7 @@ class Model(_core.Model):
 
         Damped least squares from several starts, until one leads there; otherwise the nearest that
         was found, with its distance and why. One section without an orientation has a closed form,
-        which needs no start.
+        which needs no start. cpp/README.md eq. (7), cpp/several-sections.md eqs. (47), (48).
 
         Parameters
         ----------

@@ -40,6 +40,11 @@ class Factors(NamedTuple):
     H7: Any
     H8: Any
 
+    def __repr__(self) -> str:
+        if np.size(self.H1) > 1:
+            return f"<Factors at {np.size(self.H1)} angles>"
+        return f"Factors({', '.join(f'{k}={v!r}' for k, v in self._asdict().items())})"
+
 
 def factors(theta: ArrayLike, kind: str = "exact", num_disks: int = 10) -> Factors:
     """Return the paper's inertia factors at bending angles.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from contextlib import AbstractContextManager
 from typing import Any
 
@@ -72,6 +73,12 @@ class StyledFigure(Figure):
         """Save the picture; the arguments are those of Figure.savefig."""
         with style():
             super().savefig(*args, **kwargs)
+
+    def _repr_png_(self) -> bytes:
+        """Return the picture as a notebook shows it."""
+        png = io.BytesIO()
+        self.savefig(png, format="png")
+        return png.getvalue()
 
 
 def line_colors(count: int) -> list[Any]:

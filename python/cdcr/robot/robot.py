@@ -21,6 +21,8 @@ from cdcr.robot.section import Section
 Vector = tuple[float, float, float]
 Matrix = tuple[Vector, Vector, Vector]  # three rows
 
+SCREEN = 1600  # characters
+
 _ZERO: Vector = (0.0, 0.0, 0.0)
 
 
@@ -137,6 +139,21 @@ class Robot:
         check = Check()
         check.keep(self)
         check.done(self._to_core().violations())
+
+    def __repr__(self) -> str:
+        """Say what one would type, or what it is where that does not fit on a screen."""
+        text = ", ".join(f"{item.name}={getattr(self, item.name)!r}" for item in fields(self))
+        if len(text) <= SCREEN:
+            return f"Robot({text})"
+        return (
+            f"<Robot: {len(self.sections)} sections, {self.length:g} m, {self.mass:g} kg, "
+            f"{self.num_cables} cables>"
+        )
+
+    def _repr_html_(self) -> str:
+        from cdcr.robot.notebook import robot_html
+
+        return robot_html(self)
 
     @property
     def mass(self) -> float:

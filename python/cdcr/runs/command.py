@@ -41,6 +41,10 @@ class TensionTable:
                 f"interpolation must be 'linear' or 'previous', got {self.interpolation!r}"
             )
 
+    def __repr__(self) -> str:
+        rows = " x ".join(str(size) for size in np.shape(self.tension))
+        return f"<TensionTable: {rows} commands, {self.interpolation}>"
+
 
 CommandFunction: TypeAlias = Callable[..., ArrayLike]
 Command: TypeAlias = (

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import base64
+import html
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
@@ -119,6 +121,15 @@ class Trajectory:
         parts += [self.method] if self.method else []
         end = f": {self.message}" if self.message else ""
         return f"<Trajectory: {', '.join(parts)}, status {self.status.name}{end}>"
+
+    def _repr_html_(self) -> str:
+        words = f"<div>{html.escape(repr(self))}</div>"
+        try:
+            png = cast("Any", self.plot())._repr_png_()
+        except ImportError:  # without the extra plot
+            return words
+        data = base64.b64encode(png).decode("ascii")
+        return f'<img src="data:image/png;base64,{data}" width="880" alt="the run"/>{words}'
 
     @property
     def success(self) -> bool:

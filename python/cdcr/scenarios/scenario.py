@@ -126,6 +126,9 @@ class Scenario:
     summarize: Callable[[Scenario, Any], tuple[Metric, ...]] = run_metrics
     plot: Callable[[Scenario, Any], Figure] = _figure
 
+    def __repr__(self) -> str:
+        return f"<Scenario {self.name!r}: {self.title}>"
+
     @property
     def has_run(self) -> bool:
         """Whether anything runs in it; else it is a picture of the model alone."""
