@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 #include <vector>
 
@@ -178,6 +179,12 @@ py::array_t<double> to_array(const Eigen::Ref<const VectorXd>& vector) {
 
 py::array_t<double> to_rows(const RowMatrixXd& matrix) {
   return py::array_t<double>({matrix.rows(), matrix.cols()}, matrix.data());
+}
+
+Data& scratch(const Model& model) {
+  thread_local std::optional<Data> data;
+  if (!data || !data->belongs_to(model)) data.emplace(model);
+  return *data;
 }
 
 }  // namespace cdcr::python

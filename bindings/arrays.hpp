@@ -63,6 +63,10 @@ struct StateArgument {
 /// A sequence of cdcr.Wrench, or one, each constant and in its range.
 [[nodiscard]] Wrenches read_wrenches(const Model& model, const py::object& object);
 
+/// This thread's Data of a model, kept from call to call: a second function of the same state does
+/// not compute it again. To be asked for where no Python runs until its use is over.
+[[nodiscard]] Data& scratch(const Model& model);
+
 /// "[1, 0.5]" with the first few numbers, for a repr.
 [[nodiscard]] std::string short_text(const VectorXd& vector);
 

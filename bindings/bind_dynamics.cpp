@@ -20,10 +20,9 @@ py::tuple linearize_states(const Model& self, const py::object& q, const py::obj
   py::array_t<double> all_A = states.output({num_states, num_states});
   py::array_t<double> all_B = states.output({num_states, num_cables});
   double *a = all_A.mutable_data(), *b = all_B.mutable_data();
-  Data data(self);
   MatrixXd A(num_states, num_states), B(num_states, num_cables);
   states.each([&](Index i, const auto& x, const auto& xd, const auto& command) {
-    linearize(self, data, x, xd, command, loads, A, B);
+    linearize(self, scratch(self), x, xd, command, loads, A, B);
     Eigen::Map<RowMatrixXd>(a + i * A.size(), num_states, num_states) = A;
     Eigen::Map<RowMatrixXd>(b + i * B.size(), num_states, num_cables) = B;
   });
@@ -37,10 +36,9 @@ void bind_dynamics(PyModel& model) {
       .def(
           "mass_matrix",
           [](const Model& self, const py::object& q) {
-            Data data(self);
             const Index d = self.num_coordinates();
             return States{read_bendings(self, q)}.matrices(
-                d, d, [&](auto& x, auto& M) { mass_matrix(self, data, x, M); });
+                d, d, [&](auto& x, auto& M) { mass_matrix(self, scratch(self), x, M); });
           },
           "q"_a,
           Doc("Mass matrix M(q): cpp/README.md eq. (11), cpp/several-sections.md eq. (34).",
@@ -48,10 +46,9 @@ void bind_dynamics(PyModel& model) {
       .def(
           "bias",
           [](const Model& self, const py::object& q, const py::object& qd) {
-            Data data(self);
             return States{read_bendings(self, q), read_rates(self, qd, "qd")}.vectors(
                 self.num_coordinates(),
-                [&](auto& x, auto& xd, auto& out) { bias(self, data, x, xd, out); });
+                [&](auto& x, auto& xd, auto& out) { bias(self, scratch(self), x, xd, out); });
           },
           "q"_a, "qd"_a,
           Doc("Coriolis, damping, elastic and gravity terms h(q, qd): cpp/README.md eq. (16),\n"
@@ -63,12 +60,11 @@ void bind_dynamics(PyModel& model) {
           [](const Model& self, const py::object& q, const py::object& qd,
              const py::object& tension, const py::object& wrenches) {
             require_inertia(self);
-            Data data(self);
             const Wrenches loads = read_wrenches(self, wrenches);
             return States{read_bendings(self, q), read_rates(self, qd, "qd"),
                           read_tensions(self, tension)}
                 .vectors(self.num_coordinates(), [&](auto& x, auto& xd, auto& command, auto& out) {
-                  forward_dynamics(self, data, x, xd, command, loads, out);
+                  forward_dynamics(self, scratch(self), x, xd, command, loads, out);
                 });
           },
           "q"_a, "qd"_a, "tension"_a, "wrenches"_a = py::tuple(),
@@ -79,11 +75,10 @@ void bind_dynamics(PyModel& model) {
       .def(
           "inverse_dynamics",
           [](const Model& self, const py::object& q, const py::object& qd, const py::object& qdd) {
-            Data data(self);
             return States{read_bendings(self, q), read_rates(self, qd, "qd"),
                           read_rates(self, qdd, "qdd")}
                 .vectors(self.num_coordinates(), [&](auto& x, auto& xd, auto& xdd, auto& out) {
-                  inverse_dynamics(self, data, x, xd, xdd, out);
+                  inverse_dynamics(self, scratch(self), x, xd, xdd, out);
                 });
           },
           "q"_a, "qd"_a, "qdd"_a,

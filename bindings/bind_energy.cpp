@@ -13,9 +13,8 @@ void bind_energy(PyModel& model) {
       .def(
           "kinetic_energy",
           [](const Model& self, const py::object& q, const py::object& qd) {
-            Data data(self);
             return States{read_bendings(self, q), read_rates(self, qd, "qd")}.values(
-                [&](auto& x, auto& xd) { return kinetic_energy(self, data, x, xd); });
+                [&](auto& x, auto& xd) { return kinetic_energy(self, scratch(self), x, xd); });
           },
           "q"_a, "qd"_a,
           Doc("Kinetic energy T = qd.M(q) qd/2, cpp/README.md eq. (8).", {docs::q, docs::qd},
@@ -23,9 +22,8 @@ void bind_energy(PyModel& model) {
       .def(
           "potential_energy",
           [](const Model& self, const py::object& q) {
-            Data data(self);
             return States{read_bendings(self, q)}.values(
-                [&](auto& x) { return potential_energy(self, data, x); });
+                [&](auto& x) { return potential_energy(self, scratch(self), x); });
           },
           "q"_a,
           Doc("Elastic energy plus weight, the latter zero at the base: cpp/README.md eq. (15).",
@@ -33,10 +31,9 @@ void bind_energy(PyModel& model) {
       .def(
           "potential_gradient",
           [](const Model& self, const py::object& q) {
-            Data data(self);
             return States{read_bendings(self, q)}.vectors(
                 self.num_coordinates(),
-                [&](auto& x, auto& out) { potential_gradient(self, data, x, out); });
+                [&](auto& x, auto& out) { potential_gradient(self, scratch(self), x, out); });
           },
           "q"_a,
           Doc("Generalised force dU/dq that holds the robot still, cpp/README.md eq. (18).",
@@ -44,10 +41,9 @@ void bind_energy(PyModel& model) {
       .def(
           "potential_hessian",
           [](const Model& self, const py::object& q) {
-            Data data(self);
             const Index d = self.num_coordinates();
             return States{read_bendings(self, q)}.matrices(
-                d, d, [&](auto& x, auto& out) { potential_hessian(self, data, x, out); });
+                d, d, [&](auto& x, auto& out) { potential_hessian(self, scratch(self), x, out); });
           },
           "q"_a,
           Doc("Stiffness d2U/dq2 of the robot without its cables, cpp/several-sections.md\n"

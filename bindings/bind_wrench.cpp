@@ -1,7 +1,6 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
-#include <limits>
 #include <memory>
 
 #include "arrays.hpp"
@@ -109,7 +108,7 @@ void bind_wrench(py::module_& m) {
           "at",
           [](const Loads& self, double t) {
             Wrenches now = self.wrenches();
-            self.evaluate(t, t, std::numeric_limits<double>::infinity(), now);
+            self.evaluate(t, t, now);
             return now;
           },
           "t"_a,

@@ -106,10 +106,10 @@ TEST_CASE("tables of tension") {
   const MatrixXd ones = MatrixXd::Ones(2, 3);
   CHECK_THROWS_SENTENCE(
       TensionInput::table(VectorXd::Zero(3), ones, Interpolation::linear),
-      "a tension table needs one row of tensions for each time, got 3 times and 2 rows");
+      "a tension table needs one row of values for each time, got 3 times and 2 rows");
   CHECK_THROWS_SENTENCE(
       TensionInput::table(VectorXd(0), MatrixXd(0, 3), Interpolation::linear),
-      "a tension table needs one row of tensions for each time, got 0 times and 0 rows");
+      "a tension table needs one row of values for each time, got 0 times and 0 rows");
   CHECK_THROWS_SENTENCE(
       TensionInput::table(Eigen::Vector2d(1.0, 1.0), ones, Interpolation::previous),
       "the times of a tension table must be finite and strictly increasing, got 1 s at index 1 "

@@ -85,10 +85,10 @@ TEST_CASE("a tighter tolerance is a smaller error") {
 TEST_CASE("stops exactly where asked, however short the way") {
   const Model model(amouri2020());
   const TensionInput input = pull(5.0);
-  Plant plant(model, input);
+  RobotOde ode(model, input);
   for (const Method method : cvode_methods) {
     CAPTURE(label(method));
-    const auto integrator = make_cvode_integrator(plant, method, {});
+    const auto integrator = make_cvode_integrator(ode, method, {});
     double t = 0.1;
     VectorXd y = state(0.1, 0.2);
     for (const double length : {0.1, 1.0 / 3.0, 1e-6, 1e-9, 1e-12, 1e-15, 2e-3, 1e-16 + 0.7}) {
@@ -131,10 +131,10 @@ TEST_CASE("the output grid changes neither steps nor solution, bit for bit") {
 TEST_CASE("interpolates within the last step only, and its ends are the states") {
   const Model model(amouri2020());
   const TensionInput input = pull(5.0);
-  Plant plant(model, input);
+  RobotOde ode(model, input);
   for (const Method method : cvode_methods) {
     CAPTURE(label(method));
-    const auto integrator = make_cvode_integrator(plant, method, {});
+    const auto integrator = make_cvode_integrator(ode, method, {});
     VectorXd y = VectorXd::Zero(4);
     REQUIRE(integrator->restart(0.0, state(0.5, 0.0), 1.0) == Status::ok);
     integrator->interpolate(0.0, y);
@@ -155,11 +155,11 @@ TEST_CASE("interpolates within the last step only, and its ends are the states")
 TEST_CASE("the stop time changes nothing long before it, not even the first step") {
   const Model model(amouri2020());
   const TensionInput input = pull(5.0);
-  Plant plant(model, input);
+  RobotOde ode(model, input);
   for (const Method method : cvode_methods) {
     CAPTURE(label(method));
-    const auto near = make_cvode_integrator(plant, method, {});
-    const auto far = make_cvode_integrator(plant, method, {});
+    const auto near = make_cvode_integrator(ode, method, {});
+    const auto far = make_cvode_integrator(ode, method, {});
     REQUIRE(near->restart(0.0, state(0.0, 0.0), 0.5) == Status::ok);
     REQUIRE(far->restart(0.0, state(0.0, 0.0), 1000.0) == Status::ok);
     while (near->time() < 0.4) {

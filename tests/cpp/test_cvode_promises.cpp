@@ -57,11 +57,11 @@ TEST_CASE("an exception of the tension function comes through and a restart reco
     if (armed && t > 0.05) throw std::domain_error("no tension here");
     return 5.0 + std::sin(3.0 * t);
   });
-  Plant plant(model, input);
+  RobotOde ode(model, input);
   for (const Method method : cvode_methods) {
     CAPTURE(label(method));
     armed = true;
-    const auto integrator = make_cvode_integrator(plant, method, {});
+    const auto integrator = make_cvode_integrator(ode, method, {});
     REQUIRE(integrator->restart(0.0, state(0.3, 0.1), 1.0) == Status::ok);
     CHECK_THROWS_WITH_AS(run(*integrator, 1.0), "no tension here", std::domain_error);
     CHECK(integrator->time() > 0.01);
@@ -78,7 +78,7 @@ TEST_CASE("an exception of the tension function comes through and a restart reco
     armed = false;
     REQUIRE(integrator->restart(0.0, state(0.3, 0.1), 1.0) == Status::ok);
     REQUIRE(run(*integrator, 1.0) == Status::ok);
-    const auto fresh = make_cvode_integrator(plant, method, {});
+    const auto fresh = make_cvode_integrator(ode, method, {});
     REQUIRE(fresh->restart(0.0, state(0.3, 0.1), 1.0) == Status::ok);
     REQUIRE(run(*fresh, 1.0) == Status::ok);
     CHECK(integrator->state() == fresh->state());
@@ -112,15 +112,15 @@ TEST_CASE("each failure has its status, keeps the last good state, and prints no
       CAPTURE(label(method));
       CAPTURE(std::string(name(failure.status)));
       calls = 0;
-      Plant plant(model, failure.input);
-      const auto integrator = make_cvode_integrator(plant, method, tolerances(1e-8, 1e-10));
+      RobotOde ode(model, failure.input);
+      const auto integrator = make_cvode_integrator(ode, method, tolerances(1e-8, 1e-10));
       REQUIRE(integrator->restart(0.0, state(0.1, 0.0), 5.0) == Status::ok);
       CapturedErrors errors;
       CHECK(run(*integrator, 5.0) == failure.status);
       CHECK(errors.size() == 0);
       CHECK(integrator->time() <= failure.latest);
       CHECK(integrator->time() > 0.0);
-      CHECK(plant.check(integrator->state().data()) == Status::ok);
+      CHECK(ode.check(integrator->state().data()) == Status::ok);
 
       const double time = integrator->time();
       const VectorXd last = integrator->state();
@@ -130,8 +130,8 @@ TEST_CASE("each failure has its status, keeps the last good state, and prints no
     }
 
     const TensionInput none = pull(0.0), overflowing = pull(1e308);
-    Plant plant(model, none), strong(model, overflowing);
-    const auto integrator = make_cvode_integrator(plant, method, {});
+    RobotOde ode(model, none), strong(model, overflowing);
+    const auto integrator = make_cvode_integrator(ode, method, {});
     CHECK(integrator->step() == Status::not_started);
     CHECK(integrator->restart(0.0, state(10.0, 0.0), 1.0) == Status::bending_limit);
     CHECK(integrator->step() == Status::bending_limit);
@@ -143,11 +143,11 @@ TEST_CASE("each failure has its status, keeps the last good state, and prints no
 
     // Slopes that are finite, though their squares are not.
     const TensionInput violent = pull(1e300);
-    Plant wild(model, violent);
+    RobotOde wild(model, violent);
     const auto helpless = make_cvode_integrator(wild, method, {});
     REQUIRE(helpless->restart(0.0, state(0.1, 0.0), 1.0) == Status::ok);
     CHECK(run(*helpless, 1.0) != Status::ok);
-    CHECK(plant.check(helpless->state().data()) == Status::ok);
+    CHECK(ode.check(helpless->state().data()) == Status::ok);
 
     Options few;
     few.max_steps = 20;
@@ -165,10 +165,10 @@ TEST_CASE("counts what it does, over restarts too") {
     ++calls;
     return std::fmod(t, 0.2) < 0.1 ? 0.0 : 5.0;
   });
-  Plant plant(model, input);
+  RobotOde ode(model, input);
   for (const Method method : cvode_methods) {
     CAPTURE(label(method));
-    const auto integrator = make_cvode_integrator(plant, method, {});
+    const auto integrator = make_cvode_integrator(ode, method, {});
     CHECK(integrator->stats().steps == 0);
     calls = 0;
     long steps = 0, rejected = 0;
@@ -197,11 +197,11 @@ TEST_CASE("counts what it does, over restarts too") {
 TEST_CASE("max_step limits the steps") {
   const Model model(amouri2020());
   const TensionInput input = pull(0.0);
-  Plant plant(model, input);
+  RobotOde ode(model, input);
   Options options = tolerances(1e-4, 1e-6);
   options.max_step = 1e-3;
   for (const Method method : cvode_methods) {
-    const auto integrator = make_cvode_integrator(plant, method, options);
+    const auto integrator = make_cvode_integrator(ode, method, options);
     REQUIRE(integrator->restart(0.0, state(0.1, 0.0), 0.1) == Status::ok);
     while (integrator->time() < 0.1) {
       const double before = integrator->time();
@@ -214,11 +214,11 @@ TEST_CASE("max_step limits the steps") {
 TEST_CASE("allocates nothing after the first step") {
   const Model model(heavy_robot());
   const TensionInput input = pull(5.0);
-  Plant plant(model, input);
+  RobotOde ode(model, input);
   const VectorXd start = state(0.3, 0.1);
   for (const Method method : cvode_methods) {
     CAPTURE(label(method));
-    const auto integrator = make_cvode_integrator(plant, method, {});
+    const auto integrator = make_cvode_integrator(ode, method, {});
     VectorXd y = start;
     REQUIRE(integrator->restart(0.0, start, 1.0) == Status::ok);
     REQUIRE(integrator->step() == Status::ok);
@@ -236,7 +236,7 @@ TEST_CASE("allocates nothing after the first step") {
     CHECK(worst == Status::ok);
   }
   if (allocations_counted) {
-    const auto set_up = [&] { return make_cvode_integrator(plant, Method::bdf, {}); };
+    const auto set_up = [&] { return make_cvode_integrator(ode, Method::bdf, {}); };
     CHECK(allocations_of(set_up) > 10);
   }
 }
@@ -244,17 +244,17 @@ TEST_CASE("allocates nothing after the first step") {
 TEST_CASE("makes every method, and refuses bad options and restarts") {
   const Model model(amouri2020());
   const TensionInput input = pull(5.0);
-  Plant plant(model, input);
+  RobotOde ode(model, input);
   for (const Method method : {Method::rk4, Method::dopri5, Method::bdf, Method::adams}) {
-    const auto integrator = make_cvode_integrator(plant, method, {});
+    const auto integrator = make_cvode_integrator(ode, method, {});
     REQUIRE(integrator->restart(0.0, state(0.2, 0.0), 0.1) == Status::ok);
     CHECK(run(*integrator, 0.1) == Status::ok);
     CHECK(integrator->time() == 0.1);
-    CHECK_THROWS_AS(make_cvode_integrator(plant, method, tolerances(0.0, 1e-12)),
+    CHECK_THROWS_AS(make_cvode_integrator(ode, method, tolerances(0.0, 1e-12)),
                     std::invalid_argument);
   }
   for (const Method method : cvode_methods) {
-    const auto integrator = make_cvode_integrator(plant, method, {});
+    const auto integrator = make_cvode_integrator(ode, method, {});
     CHECK_THROWS_WITH_AS(
         integrator->restart(1.0, VectorXd::Zero(3), 0.5),
         "restart takes 4 states and t_stop > t, got 3 states, t = 1 s and t_stop = 0.5 s",

@@ -139,7 +139,7 @@ TEST_CASE("wrenches over time are evaluated without allocating") {
   }
   Wrenches now = loads.wrenches();
   for (const double t : {-1.0, 0.0, 0.7, 1.0, 1.5, 3.0}) {
-    CHECK(allocations_of([&] { loads.evaluate(t, t, t + 0.1, now); }) == 0);
+    CHECK(allocations_of([&] { loads.evaluate(t, t, now); }) == 0);
   }
 }
 

@@ -104,7 +104,7 @@ ROWS = np.ones((2, 3))
         ),
         (
             cdcr.TensionTable([], np.zeros((0, 3))),
-            "a tension table needs one row of tensions for each time, got 0 times and 0 rows",
+            "a tension table needs one row of values for each time, got 0 times and 0 rows",
         ),
         (
             ([0.0, 0.0], ROWS),

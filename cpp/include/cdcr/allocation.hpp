@@ -59,12 +59,12 @@ class Allocator {
 
   void find_triples(const Model& model);
   bool solve_triple(const Triple& triple, double force_x, double force_y) noexcept;
-  void place_at_start() noexcept;
+  void initialise_active_set() noexcept;
   bool solve_in_closed_form() noexcept;
   void search() noexcept;
   void solve_free() noexcept;
-  bool fix_first_beyond() noexcept;
-  bool release_most_wanted() noexcept;
+  bool step_to_first_bound() noexcept;
+  bool release_by_multiplier() noexcept;
   void polish() noexcept;
   void left_for_free() noexcept;
 

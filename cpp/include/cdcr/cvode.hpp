@@ -17,7 +17,7 @@ namespace cdcr {
 /// std::invalid_argument for a y of the wrong size or t_stop <= t, interpolate for a time outside
 /// the last step. What the input's function throws leaves restart and step as it is; the state is
 /// then the last good one. After an exception or a failure, restart before the next step.
-[[nodiscard]] std::unique_ptr<Integrator> make_cvode_integrator(Plant& plant, Method method,
+[[nodiscard]] std::unique_ptr<Integrator> make_cvode_integrator(RobotOde& ode, Method method,
                                                                 const Options& options);
 
 }  // namespace cdcr

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "cdcr/plant.hpp"
+#include "cdcr/robot_ode.hpp"
 #include "cdcr/status.hpp"
 #include "cdcr/types.hpp"
 
@@ -60,11 +60,11 @@ class Integrator {
   [[nodiscard]] virtual std::vector<SlackEvent> slack_events() const { return {}; }
 };
 
-/// Makes the integrator for a method; the plant must outlive it.
-using IntegratorFactory = std::unique_ptr<Integrator> (*)(Plant&, Method, const Options&);
+/// Makes the integrator for a method; the equation must outlive it.
+using IntegratorFactory = std::unique_ptr<Integrator> (*)(RobotOde&, Method, const Options&);
 
 /// rk4 and dopri5. Throws std::invalid_argument for other methods and for bad options.
-[[nodiscard]] std::unique_ptr<Integrator> make_integrator(Plant& plant, Method method,
+[[nodiscard]] std::unique_ptr<Integrator> make_integrator(RobotOde& ode, Method method,
                                                           const Options& options);
 
 /// Throws std::invalid_argument naming the option that is out of range.

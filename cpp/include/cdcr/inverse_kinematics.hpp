@@ -72,9 +72,9 @@ class InverseSolver {
   [[nodiscard]] Reach why() const noexcept;
 
   void search(const ConstVectorRef& q0) noexcept;
-  void place_seed(int seed) noexcept;
+  void place_start(int seed) noexcept;
   double random() noexcept;
-  void descend() noexcept;
+  void levenberg_marquardt() noexcept;
   bool step() noexcept;
   void hold_at_limits() noexcept;
   void keep_within_limits(VectorXd& q) const noexcept;

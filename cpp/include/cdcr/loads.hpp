@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "cdcr/signal.hpp"
 #include "cdcr/wrench.hpp"
 
 namespace cdcr {
@@ -37,14 +38,14 @@ class Loads {
   /// Times at which a profile is not smooth, increasing [s].
   [[nodiscard]] const std::vector<double>& break_points() const noexcept { return break_points_; }
 
-  /// Writes the wrenches at t, as seen from within the stretch from `start` to `end`, so that at a
-  /// break point both sides exist. `now` has as many wrenches as this. May throw what a function
+  /// Writes the wrenches at t, as seen from within the stretch that begins at `start`, so that at
+  /// a break point both sides exist. `now` has as many wrenches as this. May throw what a function
   /// throws, or std::invalid_argument when it gives no finite factor.
-  void evaluate(double t, double start, double end, Wrenches& now) const;
+  void evaluate(double t, double start, Wrenches& now) const;
 
  private:
   Wrenches wrenches_;
-  std::vector<Profile> profiles_;
+  std::vector<Signal> factors_;
   std::vector<double> break_points_;
   bool hold_ = true;
 };

@@ -92,11 +92,17 @@ class Data {
 
   VectorXd force;  ///< generalised force (num_coordinates) [N m]
 
+  /// Whether it was made for this model or a copy of it.
+  [[nodiscard]] bool belongs_to(const Model& model) const noexcept {
+    return parts_ == model.parts();
+  }
+
   /// What is kept; private to the library. None where the closed form applies.
   class Kept;
   [[nodiscard]] Kept* kept() noexcept { return kept_.get(); }
 
  private:
+  std::shared_ptr<const Model::Parts> parts_;
   std::unique_ptr<Kept> kept_;
 };
 

@@ -118,7 +118,7 @@ bool Allocator::solve_in_closed_form() noexcept {
   return n > 0;
 }
 
-void Allocator::place_at_start() noexcept {
+void Allocator::initialise_active_set() noexcept {
   for (Index j = 0; j < F_.size(); ++j) {
     if (place_[j] == Place::unused) continue;
     F_[j] = std::fmin(std::fmax(0.0, low_), high_);
@@ -146,7 +146,7 @@ void Allocator::solve_free() noexcept {
 }
 
 /// Moves towards the minimum over the free cables; true when one reached a limit on the way.
-bool Allocator::fix_first_beyond() noexcept {
+bool Allocator::step_to_first_bound() noexcept {
   solve_free();
   double share = 1.0;
   Index first = -1;
@@ -173,7 +173,7 @@ bool Allocator::fix_first_beyond() noexcept {
 }
 
 /// Releases the fixed cable that most wants to move inwards; false when none does.
-bool Allocator::release_most_wanted() noexcept {
+bool Allocator::release_by_multiplier() noexcept {
   Index best = -1;
   double most = 1e-9 * (1.0 + lambda_.norm());
   for (Index j = 0; j < F_.size(); ++j) {
@@ -211,12 +211,12 @@ void Allocator::polish() noexcept {
 }
 
 void Allocator::search() noexcept {
-  place_at_start();
+  initialise_active_set();
   // Each cable is released and caught a few times at most; the limit only guards rounding.
   const Index max_changes = 50 * (F_.size() + 1);
   for (Index change = 0; change < max_changes; ++change) {
-    if (fix_first_beyond()) continue;
-    if (!release_most_wanted()) break;
+    if (step_to_first_bound()) continue;
+    if (!release_by_multiplier()) break;
   }
   polish();
 }

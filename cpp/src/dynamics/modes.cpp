@@ -9,7 +9,7 @@
 
 #include "cdcr/dynamics.hpp"
 #include "cdcr/linearization.hpp"
-#include "cdcr/plant.hpp"
+#include "cdcr/robot_ode.hpp"
 #include "cdcr/statics.hpp"
 #include "dynamics/bending.hpp"
 #include "loads/command.hpp"

@@ -50,7 +50,7 @@ Eigen::Map<VectorXd> view(const Owner<N_Vector>& v) {
 /// BDF or Adams steps by CVODE. Its memory holds the address of this object, which stays put.
 class Cvode final : public Integrator {
  public:
-  Cvode(Plant& plant, Method method, const Options& options);
+  Cvode(RobotOde& ode, Method method, const Options& options);
   Cvode(const Cvode&) = delete;
   Cvode& operator=(const Cvode&) = delete;
   ~Cvode() override = default;
@@ -81,7 +81,7 @@ class Cvode final : public Integrator {
   double first_step();
   Status advance();
 
-  Plant& plant_;
+  RobotOde& ode_;
   Options options_;
   Owner<SUNContext> context_;
   Owner<N_Vector> trial_, between_;  // the end of a step, a point within it
@@ -103,20 +103,20 @@ class Cvode final : public Integrator {
 // Newton's method serves adams too. Against fixed-point iteration it takes a fifth more time on
 // the undamped robot at rtol 1e-8 and as much at 1e-11; but at a damping of 0.1 N m s/rad
 // fixed-point iteration needs three times as many steps, and at 10 sixty times as many.
-Cvode::Cvode(Plant& plant, Method method, const Options& options)
-    : plant_(plant),
+Cvode::Cvode(RobotOde& ode, Method method, const Options& options)
+    : ode_(ode),
       options_(options),
       context_(make_context()),
-      trial_(make_vector(plant.num_states(), context_.get())),
-      between_(make_vector(plant.num_states(), context_.get())),
-      matrix_(own(SUNDenseMatrix(plant.num_states(), plant.num_states(), context_.get()))),
+      trial_(make_vector(ode.num_states(), context_.get())),
+      between_(make_vector(ode.num_states(), context_.get())),
+      matrix_(own(SUNDenseMatrix(ode.num_states(), ode.num_states(), context_.get()))),
       linear_solver_(own(SUNLinSol_Dense(trial_.get(), matrix_.get(), context_.get()))),
       cvode_(own(CVodeCreate(method == Method::bdf ? CV_BDF : CV_ADAMS, context_.get()))),
-      state_(VectorXd::Zero(plant.num_states())),
+      state_(VectorXd::Zero(ode.num_states())),
       slope_(state_),
       moved_(state_),
       slope_there_(state_),
-      pulls_(VectorXd::Zero(static_cast<Index>(plant.length_driven().size()))),
+      pulls_(VectorXd::Zero(static_cast<Index>(ode.length_driven().size()))),
       signs_(pulls_) {
   void* const cvode = cvode_.get();
   const auto silent = [](int, const char*, const char*, char*, void*) {};
@@ -128,7 +128,7 @@ Cvode::Cvode(Plant& plant, Method method, const Options& options)
   require(CVodeSetJacFn(cvode, jacobian), "CVodeSetJacFn");
   require(CVodeSetMaxStep(cvode, options.max_step), "CVodeSetMaxStep");
   require(CVodeSetMaxHnilWarns(cvode, -1), "CVodeSetMaxHnilWarns");
-  const auto num_events = static_cast<int>(plant.length_driven().size());
+  const auto num_events = static_cast<int>(ode.length_driven().size());
   if (num_events == 0) return;
   require(CVodeRootInit(cvode, num_events, pulls), "CVodeRootInit");
   require(CVodeSetNoInactiveRootWarn(cvode), "CVodeSetNoInactiveRootWarn");
@@ -160,7 +160,7 @@ int Cvode::jacobian(double t, N_Vector y, N_Vector /*dydt*/, SUNMatrix J, void* 
   Cvode& me = *static_cast<Cvode*>(self);
   return me.guarded([&] {
     ++me.stats_.jacobians;
-    me.plant_.jacobian(t, NV_DATA_S(y), SM_DATA_D(J));
+    me.ode_.jacobian(t, NV_DATA_S(y), SM_DATA_D(J));
     return Eigen::Map<const VectorXd>(SM_DATA_D(J), SM_LDATA_D(J)).allFinite();
   });
 }
@@ -168,7 +168,7 @@ int Cvode::jacobian(double t, N_Vector y, N_Vector /*dydt*/, SUNMatrix J, void* 
 int Cvode::pulls(double t, N_Vector y, double* pull, void* self) noexcept {
   Cvode& me = *static_cast<Cvode*>(self);
   return me.guarded([&] {
-    me.plant_.pulls(t, NV_DATA_S(y), pull);
+    me.ode_.pulls(t, NV_DATA_S(y), pull);
     return true;
   });
 }
@@ -207,10 +207,10 @@ void Cvode::reinitialise() {
 
 /// y' at (t, y), which the tension function gets to see only where the model holds.
 Status Cvode::evaluate(double t, const double* y, VectorRef slope) {
-  const Status status = plant_.check(y);
+  const Status status = ode_.check(y);
   if (status != Status::ok) return status;
   ++stats_.evaluations;
-  plant_.derivative(t, y, slope.data());
+  ode_.derivative(t, y, slope.data());
   return slope.allFinite() ? Status::ok : Status::non_finite_state;
 }
 
@@ -279,7 +279,7 @@ Status Cvode::advance() {
       return Status::tolerance_not_met;
   }
   if (!(t > time_)) return too_small();
-  const Status status = plant_.check(NV_DATA_S(trial_.get()));
+  const Status status = ode_.check(NV_DATA_S(trial_.get()));
   if (status != Status::ok) return status;
   state_ = view(trial_);
   time_ = t;
@@ -289,7 +289,7 @@ Status Cvode::advance() {
 }
 
 void Cvode::note_slack() {
-  const auto& cables = plant_.length_driven();
+  const auto& cables = ode_.length_driven();
   std::vector<int> found(cables.size());
   require(CVodeGetRootInfo(cvode_.get(), found.data()), "CVodeGetRootInfo");
   for (std::size_t i = 0; i < cables.size(); ++i) {
@@ -301,8 +301,8 @@ void Cvode::note_slack() {
 
 /// Cables that turn slack or taut because their command jumps; a pull of zero has not turned yet.
 void Cvode::note_jump() {
-  const auto& cables = plant_.length_driven();
-  plant_.pulls(time_, state_.data(), pulls_.data());
+  const auto& cables = ode_.length_driven();
+  ode_.pulls(time_, state_.data(), pulls_.data());
   for (std::size_t i = 0; i < cables.size(); ++i) {
     const double pull = pulls_[static_cast<Index>(i)];
     double& sign = signs_[static_cast<Index>(i)];
@@ -334,13 +334,13 @@ Stats Cvode::stats() const noexcept {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_cvode_integrator(Plant& plant, Method method,
+std::unique_ptr<Integrator> make_cvode_integrator(RobotOde& ode, Method method,
                                                   const Options& options) {
   if (method != Method::bdf && method != Method::adams) {
-    return make_integrator(plant, method, options);
+    return make_integrator(ode, method, options);
   }
   validate(options);
-  return std::make_unique<Cvode>(plant, method, options);
+  return std::make_unique<Cvode>(ode, method, options);
 }
 
 }  // namespace cdcr

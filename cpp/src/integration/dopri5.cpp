@@ -26,15 +26,15 @@ double weighted_norm(const VectorXd& v, const VectorXd& y, double rtol, double a
 
 }  // namespace
 
-Dopri5::Dopri5(Plant& plant, const Options& options) : plant_(plant), options_(options) {
+Dopri5::Dopri5(RobotOde& ode, const Options& options) : ode_(ode), options_(options) {
   for (VectorXd* v : {&y_, &trial_, &y_before_, &k1_, &k2_, &k3_, &k4_, &k5_, &k6_, &k7_,
                       &k1_before_, &bend_, &turn_, &fifth_}) {
-    v->setZero(plant.num_states());
+    v->setZero(ode.num_states());
   }
 }
 
 void Dopri5::derivative(double t, const VectorXd& y, VectorXd& dydt) {
-  plant_.derivative(t, y.data(), dydt.data());
+  ode_.derivative(t, y.data(), dydt.data());
   ++stats_.evaluations;
 }
 
@@ -44,7 +44,7 @@ Status Dopri5::restart(double t, const VectorXd& y, double t_stop) {
   y_ = y_before_ = y;
   h_before_ = 0.0;
   last_error_ = 1e-4;
-  const Status status = plant_.check(y_.data());
+  const Status status = ode_.check(y_.data());
   if (status != Status::ok) return status;
   derivative(t_, y_, k1_);
   if (!k1_.allFinite()) return Status::non_finite_state;
@@ -112,11 +112,11 @@ double Dopri5::error_norm(double h) const {
   return std::sqrt(sum / static_cast<double>(y_.size()));
 }
 
-Status Dopri5::why_stuck() const {
+Status Dopri5::failure_status() const {
   if (trial_.allFinite() && k7_.allFinite()) return Status::step_too_small;
   const VectorXd beyond = 1.001 * y_;
-  return plant_.check(beyond.data()) == Status::bending_limit ? Status::bending_limit
-                                                              : Status::non_finite_state;
+  return ode_.check(beyond.data()) == Status::bending_limit ? Status::bending_limit
+                                                            : Status::non_finite_state;
 }
 
 Status Dopri5::step() {
@@ -127,7 +127,7 @@ Status Dopri5::step() {
     const double left = stop_ - t_;
     const bool last = 1.01 * h >= left;  // rather a slightly longer step than a crumb after it
     if (last) h = left;
-    if (!last && h < smallest) return why_stuck();
+    if (!last && h < smallest) return failure_status();
 
     make_stages(h);
     const double error = error_norm(h);
@@ -135,10 +135,10 @@ Status Dopri5::step() {
       ++stats_.rejected;
       h_ = h * (std::isfinite(error) ? std::max(largest_cut, safety * std::pow(error, -0.2))
                                      : largest_cut);
-      if (h_ < smallest) return why_stuck();
+      if (h_ < smallest) return failure_status();
       continue;
     }
-    const Status status = plant_.check(trial_.data());
+    const Status status = ode_.check(trial_.data());
     if (status != Status::ok) return status;
 
     const double wanted =

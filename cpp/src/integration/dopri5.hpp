@@ -8,7 +8,7 @@ namespace cdcr::detail {
 /// Wanner, "Solving Ordinary Differential Equations I", section II.4 to II.6.
 class Dopri5 final : public Integrator {
  public:
-  Dopri5(Plant& plant, const Options& options);
+  Dopri5(RobotOde& ode, const Options& options);
 
   Status restart(double t, const VectorXd& y, double t_stop) override;
   Status step() override;
@@ -22,9 +22,9 @@ class Dopri5 final : public Integrator {
   void make_stages(double h);
   [[nodiscard]] double error_norm(double h) const;
   [[nodiscard]] double first_step();
-  [[nodiscard]] Status why_stuck() const;
+  [[nodiscard]] Status failure_status() const;
 
-  Plant& plant_;
+  RobotOde& ode_;
   Options options_;
   double t_ = 0.0, stop_ = 0.0, h_ = 0.0;   // h_: the next step wanted
   double t_before_ = 0.0, h_before_ = 0.0;  // the last step made

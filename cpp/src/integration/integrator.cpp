@@ -25,13 +25,13 @@ void validate(const Options& o) {
   require(o.max_steps >= 1, "max_steps", static_cast<double>(o.max_steps), "at least 1");
 }
 
-std::unique_ptr<Integrator> make_integrator(Plant& plant, Method method, const Options& options) {
+std::unique_ptr<Integrator> make_integrator(RobotOde& ode, Method method, const Options& options) {
   validate(options);
   switch (method) {
     case Method::rk4:
-      return std::make_unique<detail::Rk4>(plant, options);
+      return std::make_unique<detail::Rk4>(ode, options);
     case Method::dopri5:
-      return std::make_unique<detail::Dopri5>(plant, options);
+      return std::make_unique<detail::Dopri5>(ode, options);
     case Method::bdf:
     case Method::adams:
       break;

@@ -5,11 +5,11 @@
 
 namespace cdcr::detail {
 
-Rk4::Rk4(Plant& plant, const Options& options)
-    : plant_(plant),
+Rk4::Rk4(RobotOde& ode, const Options& options)
+    : ode_(ode),
       step_size_(options.step),
-      stages_(plant.num_states()),
-      y_(VectorXd::Zero(plant.num_states())),
+      stages_(ode.num_states()),
+      y_(VectorXd::Zero(ode.num_states())),
       y_before_(y_),
       slope_before_(y_) {}
 
@@ -21,24 +21,24 @@ Status Rk4::restart(double t, const VectorXd& y, double t_stop) {
   const double steps = std::ceil((t_stop - t) / step_size_ - 1e-9);
   last_ = static_cast<long>(std::clamp(steps, 1.0, 9e18));
   y_ = y_before_ = y;
-  plant_.derivative(t_, y_.data(), stages_.k1.data());
+  ode_.derivative(t_, y_.data(), stages_.k1.data());
   ++stats_.evaluations;
-  return plant_.check(y_.data());
+  return ode_.check(y_.data());
 }
 
 Status Rk4::step() {
   const auto f = [this](double t, const double* y, double* dydt) {
-    plant_.derivative(t, y, dydt);
+    ode_.derivative(t, y, dydt);
     ++stats_.evaluations;
   };
   const double t_next =
       count_ + 1 >= last_ ? stop_ : start_ + static_cast<double>(count_ + 1) * step_size_;
   y_before_.swap(y_);
   stages_.step(f, t_, t_next - t_, y_before_, y_);
-  Status status = plant_.check(y_.data());
+  Status status = ode_.check(y_.data());
   if (status != Status::ok) {
-    const auto check = [this](const double* y) { return plant_.check(y); };
-    status = stages_.why(status, check, f, t_, t_next - t_, y_before_, y_);
+    const auto check = [this](const double* y) { return ode_.check(y); };
+    status = stages_.failure_status(status, check, f, t_, t_next - t_, y_before_, y_);
     y_.swap(y_before_);
     return status;
   }

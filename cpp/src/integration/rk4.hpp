@@ -23,8 +23,8 @@ struct Rk4Stages {
   /// Why a step failed: bent beyond the limit at a stage, the state ends up not a number. Makes
   /// the failed step again, so that the good ones need not look.
   template <class Check, class F>
-  Status why(Status status, Check&& check, F&& f, double t, double h, const VectorXd& y,
-             VectorXd& next) {
+  Status failure_status(Status status, Check&& check, F&& f, double t, double h, const VectorXd& y,
+                        VectorXd& next) {
     if (status != Status::non_finite_state) return status;
     const auto looking = [&](double at, const double* stage, double* dydt) {
       if (check(stage) == Status::bending_limit) status = Status::bending_limit;
@@ -41,7 +41,7 @@ struct Rk4Stages {
 /// through states and slopes, which is of the same order.
 class Rk4 final : public Integrator {
  public:
-  Rk4(Plant& plant, const Options& options);
+  Rk4(RobotOde& ode, const Options& options);
 
   Status restart(double t, const VectorXd& y, double t_stop) override;
   Status step() override;
@@ -51,7 +51,7 @@ class Rk4 final : public Integrator {
   [[nodiscard]] Stats stats() const noexcept override { return stats_; }
 
  private:
-  Plant& plant_;
+  RobotOde& ode_;
   double step_size_;
   double start_ = 0.0, stop_ = 0.0, t_ = 0.0, t_before_ = 0.0;
   long count_ = 0, last_ = 0;  // steps made and steps to make since restart

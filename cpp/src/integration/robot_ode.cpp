@@ -1,16 +1,17 @@
+#include "cdcr/robot_ode.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "cdcr/dynamics.hpp"
 #include "cdcr/linearization.hpp"
-#include "cdcr/plant.hpp"
 #include "dynamics/bending.hpp"
 
 namespace cdcr {
 
-Plant::Plant(const Model& model, const TensionInput* input, Controller* controller,
-             const Loads& loads, Index num_cables)
+RobotOde::RobotOde(const Model& model, const TensionInput* input, Controller* controller,
+                   const Loads& loads, Index num_cables)
     : model_(&model),
       input_(input),
       controller_(controller),
@@ -28,15 +29,15 @@ Plant::Plant(const Model& model, const TensionInput* input, Controller* controll
   }
 }
 
-Plant::Plant(const Model& model, const TensionInput& input, const Loads& loads)
-    : Plant(model, &input, nullptr, loads, input.num_cables()) {}
+RobotOde::RobotOde(const Model& model, const TensionInput& input, const Loads& loads)
+    : RobotOde(model, &input, nullptr, loads, input.num_cables()) {}
 
-Plant::Plant(const Model& model, Controller& controller, const Loads& loads)
-    : Plant(model, nullptr, &controller, loads, controller.num_cables()) {
+RobotOde::RobotOde(const Model& model, Controller& controller, const Loads& loads)
+    : RobotOde(model, nullptr, &controller, loads, controller.num_cables()) {
   segment_ = -1;
 }
 
-Status Plant::start_segment(double t, const VectorXd& y) {
+Status RobotOde::start_segment(double t, const VectorXd& y) {
   const Index m = model_->num_coordinates();
   Status status = Status::ok;
   if (controller_ == nullptr) {
@@ -45,7 +46,7 @@ Status Plant::start_segment(double t, const VectorXd& y) {
     command_end_ = segment_ < static_cast<Index>(breaks.size())
                        ? breaks[segment_]
                        : std::numeric_limits<double>::infinity();
-    command_holds_ = input_->holds(segment_);
+    command_holds_ = input_->is_constant(segment_);
     if (command_holds_) update_command(t, y.head(m), y.tail(m));
   } else if (segment_ < 0 || t >= command_end_) {
     // A stretch that begins within a period goes on under the tensions held.
@@ -66,7 +67,7 @@ Status Plant::start_segment(double t, const VectorXd& y) {
   return status;
 }
 
-void Plant::update_command(double t, const ConstVectorRef& q, const ConstVectorRef& qd) {
+void RobotOde::update_command(double t, const ConstVectorRef& q, const ConstVectorRef& qd) {
   input_->evaluate(t, segment_, q, qd, command_);
   if (!input_->is_function()) return;
   detail::require(
@@ -75,11 +76,11 @@ void Plant::update_command(double t, const ConstVectorRef& q, const ConstVectorR
       command_.transpose(), "] at t = ", t, " s");
 }
 
-void Plant::update_wrenches(double t) {
-  loads_->evaluate(t, segment_start_, segment_end_, wrenches_);
+void RobotOde::update_wrenches(double t) {
+  loads_->evaluate(t, segment_start_, wrenches_);
 }
 
-void Plant::derivative(double t, const double* y, double* dydt) {
+void RobotOde::derivative(double t, const double* y, double* dydt) {
   const Index m = model_->num_coordinates();
   const Eigen::Map<const VectorXd> q(y, m), qd(y + m, m);
   Eigen::Map<VectorXd> qdd(dydt + m, m);
@@ -99,7 +100,7 @@ void Plant::derivative(double t, const double* y, double* dydt) {
   forward_dynamics_force(*model_, data_, q, qd, force_, qdd);
 }
 
-void Plant::jacobian(double t, const double* y, double* J) {
+void RobotOde::jacobian(double t, const double* y, double* J) {
   const Index m = model_->num_coordinates();
   const Eigen::Map<const VectorXd> q(y, m), qd(y + m, m);
   if (!command_holds_) update_command(t, q, qd);
@@ -108,14 +109,14 @@ void Plant::jacobian(double t, const double* y, double* J) {
   state_jacobian(*model_, data_, q, qd, command_, wrenches_, A);
 }
 
-void Plant::cables(double t, const VectorXd& y, VectorRef command, VectorRef tension) {
+void RobotOde::cables(double t, const VectorXd& y, VectorRef command, VectorRef tension) {
   const Index m = model_->num_coordinates();
   if (!command_holds_) update_command(t, y.head(m), y.tail(m));
   command = command_;
   cable_tensions(*model_, y.head(m), y.tail(m), command_, tension);
 }
 
-void Plant::pulls(double t, const double* y, double* pull) {
+void RobotOde::pulls(double t, const double* y, double* pull) {
   const Index m = model_->num_coordinates();
   const Eigen::Map<const VectorXd> q(y, m), qd(y + m, m);
   if (!command_holds_) update_command(t, q, qd);
@@ -124,7 +125,7 @@ void Plant::pulls(double t, const double* y, double* pull) {
   }
 }
 
-Status Plant::check(const double* y) const noexcept {
+Status RobotOde::check(const double* y) const noexcept {
   return check_state(*model_, Eigen::Map<const VectorXd>(y, num_states()));
 }
 

@@ -10,16 +10,16 @@ constexpr long steps_between_reports = 256;
 /// Fills the rows of a trajectory as the run passes their times.
 class Recorder {
  public:
-  Recorder(Plant& plant, const VectorXd& times, Trajectory& out)
-      : plant_(plant), out_(out), y_(plant.num_states()) {
-    const Index m = plant.model().num_coordinates();
+  Recorder(RobotOde& ode, const VectorXd& times, Trajectory& out)
+      : ode_(ode), out_(out), y_(ode.num_states()) {
+    const Index m = ode.model().num_coordinates();
     out_.t = times;
     out_.q.resize(times.size(), m);
     out_.qd.resize(times.size(), m);
-    out_.tension.resize(times.size(), plant.model().num_cables());
-    out_.command.resize(times.size(), plant.model().num_cables());
-    tension_.resize(plant.model().num_cables());
-    command_.resize(plant.model().num_cables());
+    out_.tension.resize(times.size(), ode.model().num_cables());
+    out_.command.resize(times.size(), ode.model().num_cables());
+    tension_.resize(ode.model().num_cables());
+    command_.resize(ode.model().num_cables());
   }
 
   [[nodiscard]] bool done() const { return next_ == out_.t.size(); }
@@ -30,7 +30,7 @@ class Recorder {
     const Index m = out_.q.cols();
     out_.q.row(next_) = y.head(m).transpose();
     out_.qd.row(next_) = y.tail(m).transpose();
-    plant_.cables(out_.t[next_], y, command_, tension_);
+    ode_.cables(out_.t[next_], y, command_, tension_);
     out_.tension.row(next_) = tension_.transpose();
     out_.command.row(next_) = command_.transpose();
     ++next_;
@@ -60,7 +60,7 @@ class Recorder {
   }
 
  private:
-  Plant& plant_;
+  RobotOde& ode_;
   Trajectory& out_;
   VectorXd y_, tension_, command_;
   Index next_ = 0;
@@ -83,21 +83,21 @@ Status run_segment(Integrator& integrator, Recorder& recorder, double stop, cons
 }
 
 /// The run itself, shared by inputs and controllers.
-Trajectory run(Plant& plant, const VectorXd& q0, const VectorXd& qd0, const VectorXd& times,
+Trajectory run(RobotOde& ode, const VectorXd& q0, const VectorXd& qd0, const VectorXd& times,
                Integrator& integrator, const Options& options, const Progress& progress) {
-  VectorXd y(plant.num_states());
+  VectorXd y(ode.num_states());
   y << q0, qd0;
-  detail::require_bending("q0", plant.model(), q0);
+  detail::require_bending("q0", ode.model(), q0);
   Trajectory out;
-  Recorder recorder(plant, times, out);
+  Recorder recorder(ode, times, out);
   const double end = times[times.size() - 1];
   double t = times[0];
   while (true) {
-    out.status = plant.start_segment(t, y);
+    out.status = ode.start_segment(t, y);
     if (out.status != Status::ok) break;
     if (!recorder.done() && recorder.next_time() == t) recorder.record(y);
     if (t >= end) break;
-    const double stop = std::min(end, plant.segment_end());
+    const double stop = std::min(end, ode.segment_end());
     out.status = integrator.restart(t, y, stop);
     if (out.status == Status::ok) {
       out.status = run_segment(integrator, recorder, stop, options, progress);
@@ -131,8 +131,8 @@ Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
                     const Options& options, IntegratorFactory factory, const Progress& progress,
                     const Loads& loads) {
   check_arguments(model, q0, qd0, times);
-  Plant plant(model, input, loads);
-  return run(plant, q0, qd0, times, *factory(plant, method, options), options, progress);
+  RobotOde ode(model, input, loads);
+  return run(ode, q0, qd0, times, *factory(ode, method, options), options, progress);
 }
 
 Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
@@ -140,9 +140,9 @@ Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
                     const Options& options, IntegratorFactory factory, const Progress& progress,
                     const Loads& loads) {
   check_arguments(model, q0, qd0, times);
-  Plant plant(model, controller, loads);
+  RobotOde ode(model, controller, loads);
   controller.reset();
-  return run(plant, q0, qd0, times, *factory(plant, method, options), options, progress);
+  return run(ode, q0, qd0, times, *factory(ode, method, options), options, progress);
 }
 
 }  // namespace cdcr

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "cdcr/plant.hpp"
+#include "cdcr/robot_ode.hpp"
 #include "dynamics/bending.hpp"
 #include "integration/rk4.hpp"
 
@@ -74,7 +74,7 @@ Status Simulator::step(const ConstVectorRef& tension, const Wrenches& wrenches) 
       const auto check = [this, m](const double* y) {
         return check_state(model_, Eigen::Map<const VectorXd>(y, 2 * m));
       };
-      return stages_->why(status, check, f, 0.0, h, y_, trial_);
+      return stages_->failure_status(status, check, f, 0.0, h, y_, trial_);
     }
     y_.swap(trial_);
   }

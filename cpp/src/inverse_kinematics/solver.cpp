@@ -163,7 +163,7 @@ bool InverseSolver::step() noexcept {
 }
 
 /// From q_ down to where the tip is reached or no step leads further down.
-void InverseSolver::descend() noexcept {
+void InverseSolver::levenberg_marquardt() noexcept {
   keep_within_limits(q_);
   x_ = reached(q_);
   cost_ = 0.5 * (x_ - target_).squaredNorm();
@@ -197,7 +197,7 @@ double InverseSolver::random() noexcept {
 }
 
 /// Starts of the search, the same for the same target: an arc towards it, an S, then random ones.
-void InverseSolver::place_seed(int seed) noexcept {
+void InverseSolver::place_start(int seed) noexcept {
   const Index n = model_->num_sections();
   // Eq. (7) for an arc of the whole robot, bent at least a little: straight, it would not see a
   // target on its axis.
@@ -226,9 +226,9 @@ void InverseSolver::search(const ConstVectorRef& q0) noexcept {
     if (answer_.seeds < given) {
       q_ = q0;
     } else {
-      place_seed(answer_.seeds - given);
+      place_start(answer_.seeds - given);
     }
-    descend();
+    levenberg_marquardt();
     ++answer_.seeds;
     if (!(cost_ < best_cost_)) continue;
     best_ = q_;

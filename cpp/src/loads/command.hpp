@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/arguments.hpp"
-#include "cdcr/plant.hpp"
+#include "cdcr/robot_ode.hpp"
 
 namespace cdcr::detail {
 

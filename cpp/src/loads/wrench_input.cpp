@@ -8,58 +8,63 @@
 namespace cdcr {
 namespace {
 
-void check(const Profile& profile) {
-  const auto& times = profile.times;
-  detail::require(profile.function || profile.factors.size() == times.size(),
-                  "a wrench's profile needs one factor for each time, got ", times.size(),
-                  " times and ", profile.factors.size(), " factors");
-  detail::require_increasing("the times of a wrench's profile", times.data(),
-                             static_cast<Index>(times.size()));
-  for (std::size_t i = 0; i < profile.factors.size(); ++i) {
-    detail::require(std::isfinite(profile.factors[i]),
-                    "the factors of a wrench's profile must be finite, got ", profile.factors[i],
-                    " at index ", i);
-  }
-}
+constexpr const char* item = "a wrench's profile";
 
-double factor(const Profile& profile, double t, double start, double end) {
+/// The factor as a signal of one value.
+Signal signal_of(Profile profile) {
   if (profile.function) {
-    const double value = profile.function(t < end ? t : std::nextafter(end, -HUGE_VAL));
-    detail::require(std::isfinite(value), "the profile of a wrench must give finite factors, got ",
-                    value, " at t = ", t, " s");
-    return value;
+    const auto call = [f = std::move(profile.function)](double t, const ConstVectorRef& /*q*/,
+                                                        const ConstVectorRef& /*qd*/,
+                                                        VectorRef value) {
+      value[0] = f(t);
+      detail::require(std::isfinite(value[0]),
+                      "the profile of a wrench must give finite factors, got ", value[0],
+                      " at t = ", t, " s");
+    };
+    return Signal::function(item, call, 1, std::move(profile.times));
   }
-  const auto& times = profile.times;
-  if (times.empty()) return 1.0;
-  // Held tables see the start of the stretch: no break point lies within one.
-  const double at = profile.linear ? t : start;
-  const auto next = std::upper_bound(times.begin(), times.end(), at);
-  if (next == times.begin()) return profile.factors.front();
-  const auto i = static_cast<std::size_t>(next - times.begin()) - 1;
-  if (!profile.linear || next == times.end()) return profile.factors[i];
-  const double share = (t - times[i]) / (times[i + 1] - times[i]);
-  return profile.factors[i] + share * (profile.factors[i + 1] - profile.factors[i]);
+  if (profile.times.empty() && profile.factors.empty()) {
+    return Signal::constant(VectorXd::Ones(1));
+  }
+  const auto column = [](const std::vector<double>& v) {
+    return VectorXd(Eigen::Map<const VectorXd>(v.data(), static_cast<Index>(v.size())));
+  };
+  for (std::size_t i = 0; i < profile.factors.size(); ++i) {
+    detail::require(std::isfinite(profile.factors[i]), "the factors of ", item,
+                    " must be finite, got ", profile.factors[i], " at index ", i);
+  }
+  return Signal::table(
+      item, column(profile.times), column(profile.factors),
+      profile.linear ? Signal::Interpolation::linear : Signal::Interpolation::previous);
 }
 
 }  // namespace
 
-Loads::Loads(Wrenches wrenches) : wrenches_(std::move(wrenches)), profiles_(wrenches_.size()) {}
+Loads::Loads(Wrenches wrenches)
+    : wrenches_(std::move(wrenches)),
+      factors_(wrenches_.size(), Signal::constant(VectorXd::Ones(1))) {}
 
 void Loads::add(const Wrench& wrench, Profile profile) {
-  check(profile);
-  if (profile.function || (profile.linear && profile.times.size() > 1)) hold_ = false;
-  break_points_.insert(break_points_.end(), profile.times.begin(), profile.times.end());
+  Signal factor = signal_of(std::move(profile));
+  const std::vector<double>& times = factor.break_points();
+  for (Index k = 0; k <= static_cast<Index>(times.size()); ++k) {
+    hold_ = hold_ && factor.is_constant(k);
+  }
+  break_points_.insert(break_points_.end(), times.begin(), times.end());
   std::sort(break_points_.begin(), break_points_.end());
   break_points_.erase(std::unique(break_points_.begin(), break_points_.end()), break_points_.end());
   wrenches_.push_back(wrench);
-  profiles_.push_back(std::move(profile));
+  factors_.push_back(std::move(factor));
 }
 
-void Loads::evaluate(double t, double start, double end, Wrenches& now) const {
+void Loads::evaluate(double t, double start, Wrenches& now) const {
+  const VectorXd no_state;
+  Eigen::Matrix<double, 1, 1> factor;
   for (std::size_t i = 0; i < wrenches_.size(); ++i) {
-    const double size = factor(profiles_[i], t, start, end);
-    now[i].force = size * wrenches_[i].force;
-    now[i].moment = size * wrenches_[i].moment;
+    // No break point lies within a stretch, so its start tells the segment.
+    factors_[i].evaluate(t, factors_[i].segment(start), no_state, no_state, factor);
+    now[i].force = factor[0] * wrenches_[i].force;
+    now[i].moment = factor[0] * wrenches_[i].moment;
   }
 }
 

@@ -14,7 +14,7 @@
 namespace cdcr {
 namespace {
 
-using detail::Balance;
+using detail::StaticProblem;
 
 constexpr int max_iterations = 200;
 // A stiffness this small beside the largest is zero but for rounding.
@@ -33,11 +33,11 @@ bool within_limit(const Model& model, const VectorXd& q) {
 }
 
 /// Newton's method from one start.
-class Search {
+class NewtonSolver {
  public:
-  explicit Search(Balance& balance)
-      : balance_(balance),
-        K_(balance.model().num_coordinates(), balance.model().num_coordinates()),
+  explicit NewtonSolver(StaticProblem& problem)
+      : problem_(problem),
+        K_(problem.model().num_coordinates(), problem.model().num_coordinates()),
         r_(K_.rows()),
         trial_(K_.rows()),
         trial_r_(K_.rows()),
@@ -45,19 +45,20 @@ class Search {
 
   /// Moves q to a point of rest; true when it got there.
   bool run(VectorXd& q) {
-    balance_.residual(q, r_);
+    problem_.residual(q, r_);
     double merit = merit_of(q, r_);
-    for (int i = 0; i < max_iterations && size(r_) > balance_.noise(q); ++i, ++iterations_) {
-      balance_.stiffness(q, K_);
-      VectorXd step = balance_.has_energy() ? downhill_step() : newton_step();
-      const double longest = detail::largest_bending(balance_.model(), step);
+    for (int i = 0; i < max_iterations && size(r_) > problem_.rounding_bound(q);
+         ++i, ++iterations_) {
+      problem_.stiffness(q, K_);
+      VectorXd step = problem_.has_energy() ? modified_newton_step() : newton_step();
+      const double longest = detail::largest_bending(problem_.model(), step);
       if (!(longest < HUGE_VAL)) break;
       if (longest > longest_step) step *= longest_step / longest;
       if (!move(q, step, merit)) break;
     }
     // A search stalled by rounding has converged as far as the arithmetic allows; loads that
     // overflow when squared have no scale to tell.
-    const double noise = balance_.noise(q);
+    const double noise = problem_.rounding_bound(q);
     return std::isfinite(noise) && size(r_) <= stalled * noise;
   }
 
@@ -70,11 +71,11 @@ class Search {
 
   /// What each step has to lower: the energy, or else the unbalanced moment.
   double merit_of(const VectorXd& q, const VectorXd& r) {
-    return balance_.has_energy() ? balance_.energy(q) : 0.5 * r.squaredNorm();
+    return problem_.has_energy() ? problem_.energy(q) : 0.5 * r.squaredNorm();
   }
 
   /// Newton step with the eigenvalues of K made positive, so that it always points downhill.
-  VectorXd downhill_step() {
+  VectorXd modified_newton_step() {
     llt_.compute(K_);
     if (llt_.info() == Eigen::Success) {
       const auto pivots = llt_.matrixLLT().diagonal();
@@ -98,14 +99,14 @@ class Search {
   /// Goes along the step as far as the merit falls, by Armijo's rule; near the end differences
   /// drown in rounding, so there a smaller unbalanced moment counts as progress too.
   bool move(VectorXd& q, const VectorXd& step, double& merit) {
-    const bool near = size(r_) <= stalled * balance_.noise(q);
-    const double slope = balance_.has_energy() ? r_.dot(step) : r_.dot(K_ * step);
+    const bool near = size(r_) <= stalled * problem_.rounding_bound(q);
+    const double slope = problem_.has_energy() ? r_.dot(step) : r_.dot(K_ * step);
     const int last_halving = near ? 0 : 32;
     double factor = 1.0;
     for (int halving = 0; halving <= last_halving; ++halving, factor *= 0.5) {
       trial_ = q + factor * step;
-      if (!within_limit(balance_.model(), trial_)) continue;
-      balance_.residual(trial_, trial_r_);
+      if (!within_limit(problem_.model(), trial_)) continue;
+      problem_.residual(trial_, trial_r_);
       const double trial_merit = merit_of(trial_, trial_r_);
       const bool falls = !near && trial_merit <= merit + 1e-4 * factor * slope;
       const bool closer = halving == 0 && trial_r_.norm() < 0.9 * r_.norm() &&
@@ -119,7 +120,7 @@ class Search {
     return false;
   }
 
-  Balance& balance_;
+  StaticProblem& problem_;
   MatrixXd K_;
   VectorXd r_, trial_, trial_r_;
   Eigen::LLT<MatrixXd> llt_;
@@ -127,17 +128,17 @@ class Search {
 };
 
 /// Lets the load grow from nothing to all, each time from the rest before; true when all is on.
-bool load_gradually(Balance& balance, Search& search, VectorXd& q, int& load_steps) {
+bool continuation(StaticProblem& problem, NewtonSolver& search, VectorXd& q, int& load_steps) {
   q.setZero();
   double load = 0.0, step = first_load_step;
   bool arrived = false;
   while (!arrived && load_steps < max_load_steps && step > 1e-6) {
     ++load_steps;
     const double next = std::fmin(1.0, load + step);
-    balance.set_load(next);
+    problem.set_load_factor(next);
     VectorXd moved = q;
     const bool rests = search.run(moved);
-    const bool near = detail::largest_bending(balance.model(), moved - q) <= longest_step ||
+    const bool near = detail::largest_bending(problem.model(), moved - q) <= longest_step ||
                       step <= snap_load_step;
     if (!rests || !near) {
       step *= 0.5;
@@ -148,11 +149,11 @@ bool load_gradually(Balance& balance, Search& search, VectorXd& q, int& load_ste
     step *= 2.0;
     arrived = load == 1.0;
   }
-  balance.set_load(1.0);
+  problem.set_load_factor(1.0);
   return arrived;
 }
 
-VectorXd without_weight(const Model& model, const VectorXd& command) {
+VectorXd linear_guess(const Model& model, const VectorXd& command) {
   VectorXd q = VectorXd::Zero(model.num_coordinates());
   for (Index j = 0; j < model.num_cables(); ++j) {
     if (model.cables()[static_cast<std::size_t>(j)].length_driven()) continue;
@@ -162,7 +163,7 @@ VectorXd without_weight(const Model& model, const VectorXd& command) {
 }
 
 /// From other places, the same in every call.
-bool search_elsewhere(Search& search, VectorXd& q, int& searches) {
+bool multistart(NewtonSolver& search, VectorXd& q, int& searches) {
   // Its numbers are the same everywhere.
   std::mt19937 engine(1);  // NOLINT(bugprone-random-generator-seed): so must the answer be
   while (searches < max_searches) {
@@ -177,10 +178,10 @@ bool search_elsewhere(Search& search, VectorXd& q, int& searches) {
 }
 
 /// Direct, then by growing load, then from elsewhere. The first failure is what a failure shows.
-void find(Balance& balance, Equilibrium& result) {
-  Search search(balance);
+void find(StaticProblem& problem, Equilibrium& result) {
+  NewtonSolver search(problem);
   VectorXd& q = result.q;
-  const bool started_beyond = !within_limit(balance.model(), q);
+  const bool started_beyond = !within_limit(problem.model(), q);
   if (started_beyond) q.setZero();
   result.searches = 1;
   bool found = search.run(q);
@@ -188,23 +189,23 @@ void find(Balance& balance, Equilibrium& result) {
   VectorXd other = q;
   if (!found) {
     ++result.searches;
-    found = load_gradually(balance, search, other, result.load_steps);
+    found = continuation(problem, search, other, result.load_steps);
   }
-  if (!found) found = search_elsewhere(search, other, result.searches);
+  if (!found) found = multistart(search, other, result.searches);
   result.iterations = search.iterations();
   if (found) {
     q = other;
     result.residual = search.residual();
     result.status = Status::ok;
-  } else if (started_beyond || detail::largest_bending(balance.model(), q) > 0.999 * max_bending) {
+  } else if (started_beyond || detail::largest_bending(problem.model(), q) > 0.999 * max_bending) {
     result.status = Status::bending_limit;
   }
 }
 
-void judge_stability(Balance& balance, Equilibrium& result) {
+void classify_stability(StaticProblem& problem, Equilibrium& result) {
   MatrixXd K(result.q.size(), result.q.size());
-  balance.stiffness(result.q, K);
-  if (balance.has_energy()) {
+  problem.stiffness(result.q, K);
+  if (problem.has_energy()) {
     result.eigenvalues =
         Eigen::SelfAdjointEigenSolver<MatrixXd>(K, Eigen::EigenvaluesOnly).eigenvalues();
   } else {
@@ -221,11 +222,11 @@ Equilibrium equilibrium(const Model& model, const VectorXd& command, const Vecto
   detail::require_command(model, command);
   if (q0.size() != 0) detail::require_finite("q0", q0, model.num_coordinates());
   validate(model, wrenches);
-  Balance balance(model, command, wrenches);
+  StaticProblem problem(model, command, wrenches);
   Equilibrium result;
-  result.q = q0.size() == 0 ? without_weight(model, command) : q0;
-  find(balance, result);
-  judge_stability(balance, result);
+  result.q = q0.size() == 0 ? linear_guess(model, command) : q0;
+  find(problem, result);
+  classify_stability(problem, result);
   const VectorXd rest = VectorXd::Zero(result.q.size());
   result.tension.resize(model.num_cables());
   cable_tensions(model, result.q, rest, command, result.tension);

@@ -39,7 +39,8 @@ double wrench_moment(const Robot& robot, const Wrenches& wrenches) {
 
 }  // namespace
 
-Balance::Balance(const Model& model, const ConstVectorRef& command, const Wrenches& wrenches)
+StaticProblem::StaticProblem(const Model& model, const ConstVectorRef& command,
+                             const Wrenches& wrenches)
     : model_(model),
       command_(command),
       wrenches_(wrenches),
@@ -60,7 +61,7 @@ Balance::Balance(const Model& model, const ConstVectorRef& command, const Wrench
            wrench_moment(model.robot(), wrenches);
 }
 
-void Balance::residual(const ConstVectorRef& q, VectorRef r) noexcept {
+void StaticProblem::residual(const ConstVectorRef& q, VectorRef r) noexcept {
   potential_gradient(model_, data_, q, r);
   r -= constant_force_;
   for (Index j = 0; has_springs_ && j < model_.num_cables(); ++j) {
@@ -74,32 +75,33 @@ void Balance::residual(const ConstVectorRef& q, VectorRef r) noexcept {
     add_wrench_force(model_, q, wrenches_, data_.force);
     r -= data_.force;
   }
-  if (load_ == 1.0) return;
+  if (load_factor_ == 1.0) return;
   for (Index i = 0; i < q.size(); ++i) {
     const double elastic = model_.coordinate_stiffness()[i] * q[i];
-    r[i] = elastic + load_ * (r[i] - elastic);
+    r[i] = elastic + load_factor_ * (r[i] - elastic);
   }
 }
 
-void Balance::stiffness(const ConstVectorRef& q, MatrixRef K) noexcept {
+void StaticProblem::stiffness(const ConstVectorRef& q, MatrixRef K) noexcept {
   static_stiffness(model_, q, command_, wrenches_, K);
-  if (load_ == 1.0) return;
-  K *= load_;
-  for (Index i = 0; i < q.size(); ++i) K(i, i) += (1.0 - load_) * model_.coordinate_stiffness()[i];
+  if (load_factor_ == 1.0) return;
+  K *= load_factor_;
+  for (Index i = 0; i < q.size(); ++i)
+    K(i, i) += (1.0 - load_factor_) * model_.coordinate_stiffness()[i];
 }
 
-double Balance::energy(const ConstVectorRef& q) noexcept {
+double StaticProblem::energy(const ConstVectorRef& q) noexcept {
   double U = potential_energy(model_, data_, q) - constant_force_.dot(q);
   if (has_springs_) U += cable_energy(model_, q, command_);
   for (const Wrench& w : wrenches_) U -= w.force.dot(pose(model_, q, w.section, w.fraction).p);
-  if (load_ == 1.0) return U;
+  if (load_factor_ == 1.0) return U;
   double elastic = 0.0;
   for (Index i = 0; i < q.size(); ++i)
     elastic += 0.5 * model_.coordinate_stiffness()[i] * q[i] * q[i];
-  return elastic + load_ * (U - elastic);
+  return elastic + load_factor_ * (U - elastic);
 }
 
-double Balance::noise(const ConstVectorRef& q) const noexcept {
+double StaticProblem::rounding_bound(const ConstVectorRef& q) const noexcept {
   const double elastic = model_.stiffness().maxCoeff() * q.lpNorm<Eigen::Infinity>();
   return 1e-15 * (elastic + size_);
 }

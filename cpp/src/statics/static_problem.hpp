@@ -10,9 +10,9 @@ namespace cdcr::detail {
 /// factor below one scales all but the bending stiffness.
 ///
 /// Refers to its arguments, which must outlive it. The functions allocate nothing.
-class Balance {
+class StaticProblem {
  public:
-  Balance(const Model& model, const ConstVectorRef& command, const Wrenches& wrenches);
+  StaticProblem(const Model& model, const ConstVectorRef& command, const Wrenches& wrenches);
 
   /// r(q) (2n) [N m].
   void residual(const ConstVectorRef& q, VectorRef r) noexcept;
@@ -21,19 +21,19 @@ class Balance {
   /// Energy whose gradient r is, where it has one [J].
   [[nodiscard]] double energy(const ConstVectorRef& q) noexcept;
   /// Rounding error that r cannot get below [N m].
-  [[nodiscard]] double noise(const ConstVectorRef& q) const noexcept;
+  [[nodiscard]] double rounding_bound(const ConstVectorRef& q) const noexcept;
 
   [[nodiscard]] bool has_energy() const noexcept { return has_energy_; }
   [[nodiscard]] const Model& model() const noexcept { return model_; }
-  [[nodiscard]] double load() const noexcept { return load_; }
-  void set_load(double load) noexcept { load_ = load; }
+  [[nodiscard]] double load_factor() const noexcept { return load_factor_; }
+  void set_load_factor(double load) noexcept { load_factor_ = load; }
 
  private:
   const Model& model_;
   ConstVectorRef command_;
   const Wrenches& wrenches_;
   Data data_;
-  double load_ = 1.0;
+  double load_factor_ = 1.0;
   VectorXd constant_force_;  // of the cables driven by tension
   bool has_energy_, has_springs_ = false;
   double size_ = 0.0;  // of the moments in balance

@@ -13,14 +13,14 @@ namespace cdcr {
 /// The robot under its cables and wrenches as one ordinary differential equation: y = (q, qd),
 /// y' = f(t, y).
 ///
-/// Refers to the model, the input and the loads, which must outlive it. One plant for each thread.
-class Plant {
+/// Refers to the model, the input and the loads, which must outlive it. One for each thread.
+class RobotOde {
  public:
   /// Throws std::invalid_argument when the robot has no inertia, the input's cables differ or a
   /// wrench is out of range.
-  Plant(const Model& model, const TensionInput& input, const Loads& loads = no_loads());
+  RobotOde(const Model& model, const TensionInput& input, const Loads& loads = no_loads());
   /// Under a controller, sampled at its own period with zero-order hold.
-  Plant(const Model& model, Controller& controller, const Loads& loads = no_loads());
+  RobotOde(const Model& model, Controller& controller, const Loads& loads = no_loads());
 
   [[nodiscard]] const Model& model() const noexcept { return *model_; }
   [[nodiscard]] Index num_states() const noexcept { return 2 * model_->num_coordinates(); }
@@ -49,8 +49,8 @@ class Plant {
   [[nodiscard]] Status check(const double* y) const noexcept;
 
  private:
-  Plant(const Model& model, const TensionInput* input, Controller* controller, const Loads& loads,
-        Index num_cables);
+  RobotOde(const Model& model, const TensionInput* input, Controller* controller,
+           const Loads& loads, Index num_cables);
   /// Bring command_ and wrenches_ up to date.
   void update_command(double t, const ConstVectorRef& q, const ConstVectorRef& qd);
   void update_wrenches(double t);
@@ -74,5 +74,7 @@ class Plant {
 
 /// ok, or invalid_tension for a wrong size, a negative or a non-finite command. Real-time safe.
 [[nodiscard]] Status check_tension(const Model& model, const ConstVectorRef& tension) noexcept;
+
+using Plant = RobotOde;  ///< its earlier name
 
 }  // namespace cdcr
