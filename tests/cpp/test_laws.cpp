@@ -1,150 +1,146 @@
-// Identities that hold for any robot in any state, whatever the numbers.
+// Laws of motion that hold for any robot in any state, for every kind of section: by the public
+// functions, and by the recursions over arcs and over the kinds of support/kinds.hpp.
 #include <doctest/doctest.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <cmath>
 
-#include "cdcr/dynamics.hpp"
-#include "dynamics/parts.hpp"
-#include "support/cases.hpp"
+#include "support/differences.hpp"
 #include "support/residual.hpp"
+#include "support/subjects.hpp"
 #include "support/tolerances.hpp"
 
 namespace cdcr::test {
 namespace {
 
-MatrixXd mass_matrix_at(const Model& model, Data& data, const VectorXd& q) {
-  MatrixXd M(q.size(), q.size());
-  mass_matrix(model, data, q, M);
-  return M;
+const std::vector<int> all_numbers = {1, 2, 3, 8, 20, 32};
+const std::vector<int> few_numbers = {1, 2, 3, 8};
+
+VectorXd moved(const VectorXd& q, Index k, double step) {
+  VectorXd at = q;
+  at[k] += step;
+  return at;
 }
 
-VectorXd bias_at(const Model& model, Data& data, const State& state) {
-  VectorXd h(state.q.size());
-  bias(model, data, state.q, state.qd, h);
-  return h;
-}
-
-VectorXd inverse_at(const Model& model, Data& data, const State& state, const VectorXd& qdd) {
-  VectorXd force(state.q.size());
-  inverse_dynamics(model, data, state.q, state.qd, qdd, force);
-  return force;
-}
-
-VectorXd forward_at(const Model& model, Data& data, const State& state, const VectorXd& force) {
-  VectorXd qdd(state.q.size());
-  forward_dynamics_force(model, data, state.q, state.qd, force, qdd);
-  return qdd;
-}
-
-VectorXd eigenvalues(const MatrixXd& M) {
-  return Eigen::SelfAdjointEigenSolver<MatrixXd>(M).eigenvalues();
+/// Size of what inertia can do to each coordinate: sqrt(M_kk) times the root of twice the energy
+/// times the turning rate.
+VectorXd inertial_scale(const MatrixXd& M, const VectorXd& qd) {
+  return std::sqrt(qd.dot(M * qd)) * qd.cwiseAbs().sum() * M.diagonal().cwiseSqrt();
 }
 
 TEST_SUITE_BEGIN("laws");
 
-TEST_CASE("the mass matrix is symmetric and positive definite") {
-  for_each_case(2.0 * pi, [](const Model& model, Data& data, const State& state) {
-    const MatrixXd M = mass_matrix_at(model, data, state.q);
+TEST_CASE_TEMPLATE("the mass matrix is symmetric, positive definite, and half the energy's Hessian",
+                   Subject, Library, Arcs, Planars, Pairs) {
+  for_each_subject<Subject>(all_numbers, [](Subject& robot, const Model&, const LawState& s) {
+    const MatrixXd M = robot.mass_matrix(s.q);
     CHECK(M == M.transpose());
-    CHECK(eigenvalues(M).minCoeff() > 0.0);
+    const VectorXd root = M.diagonal().cwiseSqrt();
+    const MatrixXd scaled = root.cwiseInverse().asDiagonal() * M * root.cwiseInverse().asDiagonal();
+    CHECK(Eigen::SelfAdjointEigenSolver<MatrixXd>(scaled).eigenvalues().minCoeff() > 0.0);
+    const double scale = root.dot(s.qd.cwiseAbs());
+    CHECK(residual(robot.kinetic(s.q, s.qd), 0.5 * s.qd.dot(M * s.qd), scale * scale) <=
+          tolerance::recursion);
   });
 }
 
-TEST_CASE("forward dynamics undoes inverse dynamics") {
+TEST_CASE_TEMPLATE("inverse dynamics is M qdd + h, column by column", Subject, Library, Arcs,
+                   Planars, Pairs) {
+  for_each_subject<Subject>(all_numbers, [](Subject& robot, const Model&, const LawState& s) {
+    const MatrixXd M = robot.mass_matrix(s.q);
+    const VectorXd h = robot.bias(s.q, s.qd);
+    CHECK(residual(robot.inverse(s.q, s.qd, VectorXd::Zero(s.q.size())), h) <=
+          tolerance::recursion);
+    for (Index k = 0; k < s.q.size(); ++k) {
+      // So large that h is beside it.
+      const double qdd = 1e3 * (1.0 + h.norm() / M.col(k).norm());
+      const VectorXd force = robot.inverse(s.q, s.qd, qdd * VectorXd::Unit(s.q.size(), k));
+      CHECK(residual((force - h) / qdd, M.col(k), largest(M)) <= tolerance::recursion);
+    }
+  });
+}
+
+TEST_CASE_TEMPLATE("forward dynamics undoes inverse dynamics, and the other way round", Subject,
+                   Library, Arcs, Planars, Pairs) {
   Random random;
-  for_each_case(2.0 * pi, [&](const Model& model, Data& data, const State& state) {
-    const VectorXd qdd = random.vector(2, 100.0);
-    const VectorXd force = inverse_at(model, data, state, qdd);
-    const VectorXd eigen = eigenvalues(mass_matrix_at(model, data, state.q));
-    // M^-1 magnifies what rounding does to M qdd + h.
-    const double scale =
-        (eigen.maxCoeff() * qdd.norm() + bias_at(model, data, state).norm()) / eigen.minCoeff();
-    CHECK(residual(forward_at(model, data, state, force), qdd, scale) <= tolerance::rounding);
+  for_each_subject<Subject>(all_numbers, [&](Subject& robot, const Model& model,
+                                             const LawState& s) {
+    const MatrixXd M = robot.mass_matrix(s.q);
+    const VectorXd h = robot.bias(s.q, s.qd);
+    const MatrixXd inverse = M.inverse();
+    const VectorXd qdd = random.vector(s.q.size(), 100.0);
+    const VectorXd felt = M.cwiseAbs() * qdd.cwiseAbs() + h.cwiseAbs();
+    const VectorXd found = robot.forward(s.q, s.qd, robot.inverse(s.q, s.qd, qdd));
+    CHECK(residual(found, qdd, largest(inverse.cwiseAbs() * felt)) <= tolerance::recursion);
+
+    const VectorXd force = Subject::select(model.actuation_matrix() * s.whole.tension);
+    const VectorXd qdd_of_force = robot.forward(s.q, s.qd, force);
+    const VectorXd moving = M.cwiseAbs() * inverse.cwiseAbs() * (force.cwiseAbs() + h.cwiseAbs());
+    CHECK(residual(robot.inverse(s.q, s.qd, qdd_of_force), force, largest(moving)) <=
+          tolerance::recursion);
   });
 }
 
-TEST_CASE("inverse dynamics undoes forward dynamics") {
-  for_each_case(2.0 * pi, [](const Model& model, Data& data, const State& state) {
-    const VectorXd force = model.actuation_matrix() * state.tension;
-    const VectorXd qdd = forward_at(model, data, state, force);
-    const VectorXd eigen = eigenvalues(mass_matrix_at(model, data, state.q));
-    const double condition = eigen.maxCoeff() / eigen.minCoeff();
-    const double scale = condition * (force.norm() + bias_at(model, data, state).norm());
-    CHECK(residual(inverse_at(model, data, state, qdd), force, scale) <= tolerance::rounding);
-  });
-}
-
-TEST_CASE("forward dynamics under tensions is that under the force B F") {
-  for_each_case(2.0 * pi, [](const Model& model, Data& data, const State& state) {
-    VectorXd qdd(2);
-    forward_dynamics(model, data, state.q, state.qd, state.tension, qdd);
-    const VectorXd force = model.actuation_matrix() * state.tension;
-    CHECK(residual(qdd, forward_at(model, data, state, force)) <= tolerance::cancelled);
-  });
-}
-
-TEST_CASE("inverse dynamics is M qdd + h, column by column") {
-  for_each_case(2.0 * pi, [](const Model& model, Data& data, const State& state) {
-    const MatrixXd M = mass_matrix_at(model, data, state.q);
-    const VectorXd h = bias_at(model, data, state);
-    CHECK(inverse_at(model, data, state, VectorXd::Zero(2)) == h);
-    const double scale = largest(M) + largest(h);
-    for (Index k = 0; k < 2; ++k) {
-      const VectorXd column = inverse_at(model, data, state, VectorXd::Unit(2, k)) - h;
-      CHECK(residual(column, M.col(k), scale) <= tolerance::rounding);
+TEST_CASE_TEMPLATE("bias at rest is the gradient of the potential energy", Subject, Library, Arcs,
+                   Planars, Pairs) {
+  for_each_subject<Subject>(all_numbers, [](Subject& robot, const Model& model, const LawState& s) {
+    const VectorXd rest = VectorXd::Zero(s.q.size());
+    CHECK(residual(robot.bias(s.q, rest), robot.gradient(s.q)) <= tolerance::recursion);
+    const double stiffest = model.stiffness().maxCoeff();
+    for (Index k = 0; k < s.q.size(); ++k) {
+      const double slope =
+          difference([&](double step) { return robot.potential(moved(s.q, k, step)); }, 0.02);
+      const double energy = std::abs(robot.potential(s.q)) + s.weight + stiffest;
+      CHECK(residual(slope, robot.gradient(s.q)[k], energy) <= tolerance::recursion_differences);
     }
   });
 }
 
-TEST_CASE("kinetic energy is qd^T M qd / 2") {
-  for_each_case(2.0 * pi, [](const Model& model, Data& data, const State& state) {
-    const MatrixXd M = mass_matrix_at(model, data, state.q);
-    const double expected = 0.5 * state.qd.dot(M * state.qd);
-    const double scale = M.norm() * state.qd.squaredNorm();
-    CHECK(residual(kinetic_energy(model, data, state.q, state.qd), expected, scale) <=
-          tolerance::rounding);
-  });
-}
-
-TEST_CASE("bias at rest is the gradient of the potential energy") {
-  for_each_case(2.0 * pi, [](const Model& model, Data& data, State state) {
-    state.qd.setZero();
-    VectorXd gradient(2);
-    potential_gradient(model, data, state.q, gradient);
-    CHECK(residual(bias_at(model, data, state), gradient) <= tolerance::rounding);
-  });
-}
-
-TEST_CASE("the inverse of a I + b q q^T is (I - b/(a + b sigma) q q^T)/a") {
-  for_each_case(2.0 * pi, [](const Model& model, Data& data, State state) {
-    const double sigma = state.q.squaredNorm();
-    const auto v = detail::ShapeTable::read(detail::single_of(model).table.inertia, sigma);
-    const double a = v[0], b = v[1];
-    MatrixXd expected = MatrixXd::Identity(2, 2);
-    expected -= b / (a + b * sigma) * state.q * state.q.transpose();
-    expected /= a;
-
-    // At q, at rest and in balance, the acceleration is M^-1 times whatever is added.
-    state.qd.setZero();
-    const VectorXd balance = bias_at(model, data, state);
-    MatrixXd inverse(2, 2);
-    for (Index k = 0; k < 2; ++k) {
-      inverse.col(k) = forward_at(model, data, state, balance + VectorXd::Unit(2, k));
+TEST_CASE_TEMPLATE("bias is Lagrange's", Subject, Library, Arcs, Planars, Pairs) {
+  for_each_subject<Subject>(few_numbers, [](Subject& robot, const Model& model, const LawState& s) {
+    const MatrixXd M = robot.mass_matrix(s.q);
+    // d/dt (M qd) at qdd = 0, - dT/dq + dU/dq + c qd
+    const double step = 0.02 / largest(s.qd);
+    VectorXd h = difference(
+        [&](double t) { return VectorXd(robot.mass_matrix(s.q + t * s.qd) * s.qd); }, step);
+    for (Index k = 0; k < s.q.size(); ++k) {
+      h[k] -= difference([&](double by) { return robot.kinetic(moved(s.q, k, by), s.qd); }, 0.02);
     }
-    const double scale = largest(expected) * (1.0 + largest(balance));
-    CHECK(residual(inverse, expected, scale) <= tolerance::rounding);
+    h += robot.gradient(s.q);
+    VectorXd damped(s.whole.qd.size());
+    for (Index i = 0; i < model.num_sections(); ++i) {
+      damped.segment(2 * i, 2) = model.damping()[i] * s.whole.qd.segment(2 * i, 2);
+    }
+    h += Subject::select(damped);
+    const VectorXd found = robot.bias(s.q, s.qd);
+    const double scale = largest(inertial_scale(M, s.qd)) + largest(found) + s.weight;
+    CHECK(residual(found, h, scale) <= tolerance::lagrange);
   });
 }
 
-TEST_CASE("damping takes c |qd|^2 from the robot") {
-  for_each_case(2.0 * pi, [](const Model& model, Data& data, const State& state) {
-    Robot undamped = model.robot();
-    undamped.sections[0].damping = 0.0;
-    const VectorXd h = bias_at(model, data, state);
-    const VectorXd drag = h - bias_at(Model(undamped), data, state);
-    const double expected = model.damping()[0] * state.qd.squaredNorm();
-    CHECK(residual(drag.dot(state.qd), expected, h.norm() * state.qd.norm()) <=
-          tolerance::rounding);
+TEST_CASE_TEMPLATE("every kind moves as the robot of arcs that it stands for", Subject, Arcs,
+                   Planars, Pairs) {
+  for_each_subject<Subject>(all_numbers, [](Subject& robot, const Model& model, const LawState& s) {
+    Library arcs(model);
+    const MatrixXd M = robot.mass_matrix(s.q), whole = arcs.mass_matrix(s.whole.q);
+    MatrixXd rows(s.q.size(), whole.cols()), expected(s.q.size(), s.q.size());
+    for (Index k = 0; k < whole.cols(); ++k) rows.col(k) = Subject::select(whole.col(k));
+    for (Index k = 0; k < s.q.size(); ++k) {
+      expected.row(k) = Subject::select(rows.row(k).transpose()).transpose();
+    }
+    CHECK(residual(M, expected) <= tolerance::recursion);
+    const VectorXd h = Subject::select(arcs.bias(s.whole.q, s.whole.qd));
+    const double scale = largest(inertial_scale(M, s.qd)) + largest(h) + s.weight;
+    CHECK(residual(robot.bias(s.q, s.qd), h, scale) <= tolerance::recursion);
+    const double U = arcs.potential(s.whole.q);
+    CHECK(residual(robot.potential(s.q), U, std::abs(U) + s.weight) <= tolerance::recursion);
+    const double T = arcs.kinetic(s.whole.q, s.whole.qd);
+    const double size = M.diagonal().cwiseSqrt().dot(s.qd.cwiseAbs());
+    CHECK(residual(robot.kinetic(s.q, s.qd), T, size * size) <= tolerance::recursion);
+    const VectorXd gradient = Subject::select(arcs.gradient(s.whole.q));
+    CHECK(residual(robot.gradient(s.q), gradient, largest(gradient) + s.weight) <=
+          tolerance::recursion);
   });
 }
 

@@ -2,69 +2,77 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Eigenvalues>
-#include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "cdcr/dynamics.hpp"
 #include "cdcr/linearization.hpp"
-#include "support/cases.hpp"
+#include "support/chain_cases.hpp"
+#include "support/differences.hpp"
 #include "support/residual.hpp"
 #include "support/tolerances.hpp"
 
 namespace cdcr::test {
 namespace {
 
-VectorXd acceleration(const Model& model, Data& data, const State& state) {
-  VectorXd qdd(2);
-  forward_dynamics(model, data, state.q, state.qd, state.tension, qdd);
-  return qdd;
-}
-
-/// Central difference of sixth order in double precision.
-VectorXd difference(const std::function<VectorXd(double)>& f, double h) {
-  VectorXd sum = 45.0 * (f(h) - f(-h));
-  sum -= 9.0 * (f(2.0 * h) - f(-2.0 * h));
-  sum += f(3.0 * h) - f(-3.0 * h);
-  return sum / (60.0 * h);
-}
-
-/// Linear acceleration against its differences; column k of A or B.
-using Shift = std::function<void(State&, double)>;
-void check_column(const Model& model, Data& data, const State& state, const VectorXd& column,
-                  double step, double scale, const Shift& shift) {
-  const auto shifted = [&](double by) {
-    State moved = state;
-    shift(moved, by);
-    return acceleration(model, data, moved);
-  };
-  CHECK(residual(column.tail(2), difference(shifted, step), scale) <= tolerance::differences);
+VectorXd gradient_at(const Model& model, Data& data, const VectorXd& q) {
+  VectorXd gradient(q.size());
+  potential_gradient(model, data, q, gradient);
+  return gradient;
 }
 
 TEST_SUITE_BEGIN("linearization");
 
-TEST_CASE("A and B are the derivatives of forward dynamics") {
-  // Near 2 pi a payload alone has almost no inertia across the bend, so its derivatives explode.
-  for_each_case(1.7 * pi, [](const Model& model, Data& data, const State& state) {
-    const Index num_cables = model.num_cables();
-    MatrixXd A(4, 4), B(4, num_cables);
-    linearize(model, data, state.q, state.qd, state.tension, A, B);
-    const MatrixXd accelerations = A.bottomRows(2);
-    // A step of 0.01 rad; rounding enters as the largest acceleration over the step.
-    const double scale = largest(accelerations) + largest(acceleration(model, data, state));
-    for (Index k = 0; k < 2; ++k) {
-      check_column(model, data, state, A.col(k), 0.01, scale,
-                   [k](State& moved, double by) { moved.q[k] += by; });
-      check_column(model, data, state, A.col(2 + k), 0.1, scale,
-                   [k](State& moved, double by) { moved.qd[k] += by; });
+TEST_CASE("the Hessian of the potential energy is the derivative of its gradient") {
+  for_each_chain({1, 2, 3, 8, 20}, [](const Model& model, Data& data, const ChainState& state) {
+    const Index size = model.num_coordinates();
+    MatrixXd H(size, size);
+    potential_hessian(model, data, state.q, H);
+    CHECK(residual(H, H.transpose()) <= tolerance::recursion);
+    const ChainSum sum(model.robot());
+    const double weight = static_cast<double>(sum.weight_scale()[0]);
+    for (Index k = 0; k < size; ++k) {
+      const auto moved = [&](double step) {
+        return VectorXd(state.q + step * VectorXd::Unit(size, k));
+      };
+      const VectorXd column =
+          difference([&](double step) { return gradient_at(model, data, moved(step)); }, 0.02);
+      CHECK(residual(column, H.col(k), largest(H) + weight) <= tolerance::recursion_differences);
     }
-    for (Index j = 0; j < num_cables; ++j) {
-      check_column(model, data, state, B.col(j), 1.0, scale + largest(B),
-                   [j](State& moved, double by) { moved.tension[j] += by; });
+  });
+}
+
+TEST_CASE("A and B of the linearisation are the derivatives of forward dynamics") {
+  Random random;
+  for_each_chain({1, 2, 3, 5}, [&](const Model& model, Data& data, const ChainState& state) {
+    if (state.name == "bent up to a full turn") return;  // nearly singular: derivatives explode
+    const Index size = model.num_coordinates(), num_cables = model.num_cables();
+    MatrixXd A(2 * size, 2 * size), B(2 * size, num_cables);
+    const Wrenches wrenches = random_wrenches(model, 2, random);
+    linearize(model, data, state.q, state.qd, state.tension, wrenches, A, B);
+    CHECK(A.topLeftCorner(size, size) == MatrixXd::Zero(size, size));
+    CHECK(A.topRightCorner(size, size) == MatrixXd::Identity(size, size));
+    CHECK(B.topRows(size) == MatrixXd::Zero(size, num_cables));
+
+    const auto acceleration = [&](const ChainState& at) {
+      VectorXd qdd(size);
+      forward_dynamics(model, data, at.q, at.qd, at.tension, wrenches, qdd);
+      return qdd;
+    };
+    const double scale = largest(A.bottomRows(size)) + largest(acceleration(state));
+    const auto check = [&](const VectorXd& column, double width, auto part, Index k) {
+      const auto shifted = [&](double step) {
+        ChainState moved = state;
+        (moved.*part)[k] += step;
+        return acceleration(moved);
+      };
+      CHECK(residual(column.tail(size), difference(shifted, width), scale) <=
+            tolerance::linearized);
+    };
+    for (Index k = 0; k < size; ++k) {
+      check(A.col(k), 0.003, &ChainState::q, k);
+      check(A.col(size + k), 0.1, &ChainState::qd, k);
     }
-    CHECK(A.topLeftCorner(2, 2) == MatrixXd::Zero(2, 2));
-    CHECK(A.topRightCorner(2, 2) == MatrixXd::Identity(2, 2));
-    CHECK(B.topRows(2) == MatrixXd::Zero(2, num_cables));
+    for (Index j = 0; j < num_cables; ++j) check(B.col(j), 1.0, &ChainState::tension, j);
   });
 }
 

@@ -35,12 +35,12 @@ class Allocator {
  public:
   explicit Allocator(const Model& model, const TensionLimits& limits = {});
 
-  /// Solves for force (2n) [N m]; true when the force is met.
+  /// Solves for force (d) [N m]; true when the force is met.
   bool solve(const ConstVectorRef& force) noexcept;
 
   /// Tensions found (num_cables) [N]; zero for cables that may not be used.
   [[nodiscard]] const VectorXd& tension() const noexcept { return tension_; }
-  /// The generalised force they give (2n) [N m].
+  /// The generalised force they give (d) [N m].
   [[nodiscard]] const VectorXd& force() const noexcept { return force_; }
   /// Whether a cable stands at one of its limits.
   [[nodiscard]] bool at_limit(Index cable) const noexcept;
@@ -52,13 +52,14 @@ class Allocator {
   /// The three cables that end at a section: b null = 0 with null > 0, and b's pseudo-inverse, of
   /// their directions b (2, 3).
   struct Triple {
+    Index first;  // coordinate of the section
     Index cables[3];
     Vector3d null;
     MatrixXd pseudo_inverse;
   };
 
   void find_triples(const Model& model);
-  bool solve_triple(const Triple& triple, double force_x, double force_y) noexcept;
+  bool solve_triple(const Triple& triple, const Eigen::Vector2d& force) noexcept;
   void initialise_active_set() noexcept;
   bool solve_in_closed_form() noexcept;
   void search() noexcept;
@@ -81,7 +82,7 @@ class Allocator {
 /// Tensions found for a generalised force, and how well they do.
 struct Allocation {
   VectorXd tension;                 ///< (num_cables) [N], within the limits
-  VectorXd force;                   ///< B F, the generalised force they give (2n) [N m]
+  VectorXd force;                   ///< B F, the generalised force they give (d) [N m]
   double distance = 0.0;            ///< |B F - Q|, rounding error when feasible [N m]
   bool feasible = false;            ///< the force is met
   std::vector<Index> limiting;      ///< cables whose limit keeps it from Q, when infeasible

@@ -11,7 +11,7 @@
 
 namespace cdcr {
 
-/// Generalised force Q = B F (2n) [N m] of the tensions, were there no friction.
+/// Generalised force Q = B F (d) [N m] of the tensions, were there no friction.
 void actuation_force(const Model& model, const ConstVectorRef& tension, VectorRef force) noexcept;
 
 /// Tensions at the base (num_cables) [N]: the command itself, or the pull of the cable's spring,
@@ -19,7 +19,7 @@ void actuation_force(const Model& model, const ConstVectorRef& tension, VectorRe
 void cable_tensions(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
                     const ConstVectorRef& command, VectorRef tension) noexcept;
 
-/// Generalised force (2n) [N m] of the cables, friction in their holes included.
+/// Generalised force (d) [N m] of the cables, friction in their holes included.
 void cable_force(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
                  const ConstVectorRef& command, VectorRef force) noexcept;
 

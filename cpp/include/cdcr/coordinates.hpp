@@ -16,7 +16,7 @@ struct Polar {
 /// Bending vector theta (cos phi, sin phi) (2) [rad]; theta may be negative.
 [[nodiscard]] Eigen::Vector2d bending(double theta, double phi) noexcept;
 
-/// Polar form along a run: rows of q (N, 2n) to theta and phi (N, n), phi continuous in time.
+/// Polar form along a run: rows of q (N, d) to theta and phi (N, n), phi continuous in time.
 ///
 /// Full turns are undone, and where the section swings through straight theta changes its sign
 /// rather than phi jumping by pi; so theta may be negative, and bending(theta, phi) is still q.

@@ -8,7 +8,8 @@
 // Equations of motion  M(q) qdd + h(q, qd) = Q: cpp/README.md eqs. (8) to (16) for one section,
 // cpp/several-sections.md eqs. (23) to (34) for several, O(n), the mass matrix O(n^2).
 //
-// q, qd, qdd: bending vectors and their rates, base to tip (2n) [rad], [rad/s], [rad/s^2].
+// q, qd, qdd: bending vectors and their rates, base to tip, (d) with d = num_coordinates
+// [rad], [rad/s], [rad/s^2].
 // tension: one command for each cable (num_cables): its tension [N], or its length [m] where it is
 // driven by length (cdcr/cables.hpp). Outputs are written to caller-owned storage.
 // Every function here is real-time safe: no allocation, no exception, no I/O. Sizes are the
@@ -16,10 +17,10 @@
 
 namespace cdcr {
 
-/// Mass matrix M(q) (2n, 2n) [kg m^2].
+/// Mass matrix M(q) (d, d) [kg m^2].
 void mass_matrix(const Model& model, Data& data, const ConstVectorRef& q, MatrixRef M) noexcept;
 
-/// Bias h(q, qd) (2n) [N m]: Coriolis, damping, elastic and gravity terms.
+/// Bias h(q, qd) (d) [N m]: Coriolis, damping, elastic and gravity terms.
 void bias(const Model& model, Data& data, const ConstVectorRef& q, const ConstVectorRef& qd,
           VectorRef h) noexcept;
 
@@ -31,12 +32,12 @@ void forward_dynamics(const Model& model, Data& data, const ConstVectorRef& q,
                       const ConstVectorRef& qd, const ConstVectorRef& tension,
                       const Wrenches& wrenches, VectorRef qdd) noexcept;
 
-/// Accelerations under a generalised force (2n) [N m].
+/// Accelerations under a generalised force (d) [N m].
 void forward_dynamics_force(const Model& model, Data& data, const ConstVectorRef& q,
                             const ConstVectorRef& qd, const ConstVectorRef& force,
                             VectorRef qdd) noexcept;
 
-/// Generalised force (2n) [N m] that produces the given accelerations.
+/// Generalised force (d) [N m] that produces the given accelerations.
 void inverse_dynamics(const Model& model, Data& data, const ConstVectorRef& q,
                       const ConstVectorRef& qd, const ConstVectorRef& qdd,
                       VectorRef force) noexcept;
@@ -49,11 +50,11 @@ void inverse_dynamics(const Model& model, Data& data, const ConstVectorRef& q,
 [[nodiscard]] double potential_energy(const Model& model, Data& data,
                                       const ConstVectorRef& q) noexcept;
 
-/// Gradient dU/dq (2n) [N m]: the generalised force that holds the robot still at q.
+/// Gradient dU/dq (d) [N m]: the generalised force that holds the robot still at q.
 void potential_gradient(const Model& model, Data& data, const ConstVectorRef& q,
                         VectorRef gradient) noexcept;
 
-/// Hessian d2U/dq2 (2n, 2n) [N m/rad]: the stiffness about q.
+/// Hessian d2U/dq2 (d, d) [N m/rad]: the stiffness about q.
 void potential_hessian(const Model& model, Data& data, const ConstVectorRef& q,
                        MatrixRef hessian) noexcept;
 

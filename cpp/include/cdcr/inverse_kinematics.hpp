@@ -33,7 +33,7 @@ enum class Reach {
 
 /// Bending vectors that bring the tip to where it should be, or as near as was found.
 struct InverseKinematics {
-  VectorXd q;                                ///< (2n) [rad], each section within max_theta
+  VectorXd q;                                ///< (d) [rad], each section within max_theta
   Vector3d position = Vector3d::Zero();      ///< tip position reached [m]
   Matrix3d rotation = Matrix3d::Identity();  ///< tip orientation reached
   double distance = 0.0;                     ///< of that position from the one asked for [m]
@@ -56,7 +56,7 @@ class InverseSolver {
   explicit InverseSolver(const Model& model, const InverseKinematicsOptions& options = {});
 
   /// Bending vectors for a tip position p [m] and, if wanted, a rotation R, both in the base frame.
-  /// Starts from q0 (2n) first when that is not empty. The answer has no message; it is valid
+  /// Starts from q0 (d) first when that is not empty. The answer has no message; it is valid
   /// until the next call. Real-time safe.
   const InverseKinematics& solve(const Vector3d& p, const std::optional<Matrix3d>& R = {},
                                  const ConstVectorRef& q0 = VectorXd()) noexcept;

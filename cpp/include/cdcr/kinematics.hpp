@@ -22,7 +22,7 @@ struct Pose {
 /// Frame at the end of the last section. Real-time safe.
 [[nodiscard]] Pose tip(const Model& model, const ConstVectorRef& q) noexcept;
 
-/// Jacobian (6, 2n) of that frame: linear velocity rows, then angular velocity rows, both in the
+/// Jacobian (6, d) of that frame: linear velocity rows, then angular velocity rows, both in the
 /// base frame, eq. (5). Real-time safe.
 void jacobian(const Model& model, const ConstVectorRef& q, Index section, double fraction,
               MatrixRef J) noexcept;

@@ -8,7 +8,7 @@ namespace cdcr {
 
 /// State (q, qd) and command to state rate, about one point: d(state)/dt = A state + B command.
 ///
-/// A (4n, 4n) and B (4n, num_cables) are the exact derivatives of forward_dynamics
+/// A (2d, 2d) and B (2d, num_cables) are the exact derivatives of forward_dynamics
 /// (cpp/README.md eq. (19)), at any state, at rest or moving, through cables and wrenches too. At
 /// the kinks of a cable (just slack; rubbing at a straight section) one side is taken. Real-time
 /// safe.

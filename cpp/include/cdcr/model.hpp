@@ -20,6 +20,7 @@ class Model {
   [[nodiscard]] const Robot& robot() const noexcept { return robot_; }
   [[nodiscard]] Formulation formulation() const noexcept { return formulation_; }
   [[nodiscard]] Index num_sections() const noexcept { return stiffness_.size(); }
+  /// The size d of q: two for each section of constant curvature.
   [[nodiscard]] Index num_coordinates() const noexcept { return actuation_.rows(); }
   /// Where the coordinates of a section begin in q; for num_sections, where they end.
   [[nodiscard]] Index first_coordinate(Index section) const noexcept { return first_[section]; }
@@ -27,7 +28,7 @@ class Model {
 
   /// Every cable, in the order of tensions (num_cables).
   [[nodiscard]] const std::vector<Cable>& cables() const noexcept { return cables_; }
-  /// B of Q = B F (2n, num_cables) [m]: tensions to generalised force. Constant.
+  /// B of Q = B F (d, num_cables) [m]: tensions to generalised force. Constant.
   [[nodiscard]] const MatrixXd& actuation_matrix() const noexcept { return actuation_; }
   /// Rows of B that are not zero by construction, one number for each cable.
   [[nodiscard]] const std::vector<Index>& cable_rows() const noexcept { return cable_rows_; }

@@ -7,12 +7,12 @@ namespace cdcr {
 
 /// Small vibrations about a shape, cpp/several-sections.md eqs. (44), (45).
 struct Modes {
-  VectorXd q;                    ///< the shape (2n) [rad]
-  VectorXd squared_frequency;    ///< w^2, increasing (2n) [rad^2/s^2]; negative: falls away
-  VectorXd frequency;            ///< w of the undamped robot (2n) [rad/s]; 0 where w^2 <= 0
-  MatrixXd shape;                ///< a column for each, phi^T M phi = 1 (2n, 2n) [rad/(m sqrt(kg))]
-  VectorXd damping_ratio;        ///< phi^T C phi/(2 w), 1 is critical (2n); 0 where w^2 <= 0
-  Eigen::VectorXcd eigenvalues;  ///< of the damped robot, by magnitude (4n) [1/s]
+  VectorXd q;                    ///< the shape (d) [rad]
+  VectorXd squared_frequency;    ///< w^2, increasing (d) [rad^2/s^2]; negative: falls away
+  VectorXd frequency;            ///< w of the undamped robot (d) [rad/s]; 0 where w^2 <= 0
+  MatrixXd shape;                ///< a column for each, phi^T M phi = 1 (d, d) [rad/(m sqrt(kg))]
+  VectorXd damping_ratio;        ///< phi^T C phi/(2 w), 1 is critical (d); 0 where w^2 <= 0
+  Eigen::VectorXcd eigenvalues;  ///< of the damped robot, by magnitude (2d) [1/s]
   bool stable = false;           ///< no w^2 <= 0, and no eigenvalue's real part positive
 };
 

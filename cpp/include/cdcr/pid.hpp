@@ -23,10 +23,10 @@ class Pid final : public Controller {
   /// The reference is the straight robot until set. Throws std::invalid_argument.
   Pid(const Model& model, PidOptions options);
 
-  /// Bending vectors to reach and hold (2n) [rad]. Throws std::invalid_argument.
+  /// Bending vectors to reach and hold (d) [rad]. Throws std::invalid_argument.
   void set_reference(const VectorXd& q);
   [[nodiscard]] const VectorXd& reference() const noexcept { return reference_; }
-  /// Accumulated error (2n) [rad s].
+  /// Accumulated error (d) [rad s].
   [[nodiscard]] const VectorXd& integral() const noexcept { return integral_; }
   [[nodiscard]] const PidOptions& options() const noexcept { return options_; }
 

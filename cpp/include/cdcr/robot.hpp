@@ -10,6 +10,8 @@ namespace cdcr {
 
 /// Largest number of sections of a robot.
 inline constexpr Index max_sections = 32;
+/// Of all sections together, two each.
+inline constexpr Index max_coordinates = 2 * max_sections;
 
 /// A thin rigid disk, centred on the backbone and square to it.
 struct Disk {

@@ -10,8 +10,8 @@ namespace cdcr {
 /// A run, sampled: one row for each output time reached.
 struct Trajectory {
   VectorXd t;           ///< (N) [s]
-  RowMatrixXd q;        ///< (N, 2n) [rad]
-  RowMatrixXd qd;       ///< (N, 2n) [rad/s]
+  RowMatrixXd q;        ///< (N, d) [rad]
+  RowMatrixXd qd;       ///< (N, d) [rad/s]
   RowMatrixXd tension;  ///< at the base (N, num_cables) [N]; at a jump, the value after it
   RowMatrixXd command;  ///< what was asked of the cables (N, num_cables), [N] or [m]
   std::vector<SlackEvent> slack_events;  ///< located by bdf and adams, in the order of time

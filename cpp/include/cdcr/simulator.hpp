@@ -19,7 +19,7 @@ class Simulator {
   Simulator(Simulator&&) noexcept;
   Simulator& operator=(Simulator&&) noexcept;
 
-  /// Sets the state (2n each) and the time [s].
+  /// Sets the state (d each) and the time [s].
   void reset(const VectorXd& q, const VectorXd& qd, double time = 0.0);
 
   /// Advances one period under constant commands (num_cables), tensions [N] or lengths [m], each
@@ -28,8 +28,8 @@ class Simulator {
   [[nodiscard]] Status step(const ConstVectorRef& tension, const Wrenches& wrenches) noexcept;
 
   [[nodiscard]] const Model& model() const noexcept { return model_; }
-  [[nodiscard]] const VectorXd& q() const noexcept { return q_; }    ///< (2n) [rad]
-  [[nodiscard]] const VectorXd& qd() const noexcept { return qd_; }  ///< (2n) [rad/s]
+  [[nodiscard]] const VectorXd& q() const noexcept { return q_; }    ///< (d) [rad]
+  [[nodiscard]] const VectorXd& qd() const noexcept { return qd_; }  ///< (d) [rad/s]
   [[nodiscard]] double time() const noexcept { return time_; }       ///< [s]
   [[nodiscard]] double period() const noexcept { return period_; }   ///< [s]
 

@@ -8,9 +8,9 @@ namespace cdcr {
 
 /// A point of rest and whether the robot stays there.
 struct Equilibrium {
-  VectorXd q;             ///< (2n) [rad]
+  VectorXd q;             ///< (d) [rad]
   VectorXd tension;       ///< what the cables pull with there (num_cables) [N]
-  VectorXd eigenvalues;   ///< of the stiffness at q, their real parts, increasing (2n) [N m/rad]
+  VectorXd eigenvalues;   ///< of the stiffness at q, their real parts, increasing (d) [N m/rad]
   bool stable = false;    ///< all of these positive; neutral counts as not stable
   double residual = 0.0;  ///< largest component of dU/dq - Q [N m]
   int iterations = 0;     ///< Newton steps, in all searches made
@@ -27,7 +27,7 @@ struct Equilibrium {
 /// Newton's method, made to go downhill in energy, so from almost any start it ends in a minimum;
 /// where a load has no energy (a wrench that follows the backbone, a moment), downhill in the
 /// unbalanced moment. A start that is itself a point of rest is returned even when it is unstable,
-/// as the upright robot with a heavy payload is. Starts from q0 (2n), or from K^-1 B F when q0 is
+/// as the upright robot with a heavy payload is. Starts from q0 (d), or from K^-1 B F when q0 is
 /// empty; if that fails, the load grows from nothing step by step, then other starts are tried.
 /// A robot that buckles is an answer; none within max_bending is a status.
 ///
@@ -38,7 +38,7 @@ struct Equilibrium {
                                       const VectorXd& q0 = {},
                                       const Wrenches& wrenches = no_wrenches());
 
-/// Stiffness d(dU/dq - Q)/dq (2n, 2n) [N m/rad] of the robot at rest in q, springs of
+/// Stiffness d(dU/dq - Q)/dq (d, d) [N m/rad] of the robot at rest in q, springs of
 /// length-driven cables and wrenches included. Real-time safe.
 void static_stiffness(const Model& model, const ConstVectorRef& q, const ConstVectorRef& command,
                       const Wrenches& wrenches, MatrixRef K) noexcept;

@@ -28,7 +28,7 @@ using Wrenches = std::vector<Wrench>;
 /// what is allowed.
 void validate(const Model& model, const Wrenches& wrenches);
 
-/// Adds the generalised force (2n) [N m] of the wrenches, eq. (35), to `force`. Real-time
+/// Adds the generalised force (d) [N m] of the wrenches, eq. (35), to `force`. Real-time
 /// safe for wrenches that validate() accepts.
 void add_wrench_force(const Model& model, const ConstVectorRef& q, const Wrenches& wrenches,
                       VectorRef force) noexcept;

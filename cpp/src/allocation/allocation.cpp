@@ -58,6 +58,7 @@ Allocator::Allocator(const Model& model, const TensionLimits& limits)
 void Allocator::find_triples(const Model& model) {
   for (Index k = 0; k < model.num_sections(); ++k) {
     Triple triple{};
+    triple.first = model.first_coordinate(k);
     int count = 0;
     for (Index j = 0; j < model.num_cables(); ++j) {
       if (model.cables()[static_cast<std::size_t>(j)].end_section != k) continue;
@@ -66,7 +67,7 @@ void Allocator::find_triples(const Model& model) {
     }
     MatrixXd b(2, 3);
     for (int i = 0; count == 3 && i < 3; ++i)
-      b.col(i) = B_.col(triple.cables[i]).segment<2>(model.first_coordinate(k));
+      b.col(i) = B_.col(triple.cables[i]).segment<2>(triple.first);
     // The cross product of the rows of b spans its null space.
     const Vector3d top = b.row(0).transpose(), bottom = b.row(1).transpose();
     triple.null = top.cross(bottom);
@@ -87,9 +88,9 @@ bool Allocator::at_limit(Index cable) const noexcept {
 
 /// The pseudo-inverse's part plus a multiple of the null vector; the multiple nearest to zero is
 /// least-norm.
-bool Allocator::solve_triple(const Triple& triple, double force_x, double force_y) noexcept {
+bool Allocator::solve_triple(const Triple& triple, const Eigen::Vector2d& force) noexcept {
   Vector3d base;
-  base.noalias() = triple.pseudo_inverse * Eigen::Vector2d(force_x, force_y);
+  base.noalias() = triple.pseudo_inverse * force;
   double least = -HUGE_VAL, most = HUGE_VAL;
   for (int i = 0; i < 3; ++i) {
     least = std::fmax(least, (low_ - base[i]) / triple.null[i]);
@@ -108,14 +109,13 @@ bool Allocator::solve_triple(const Triple& triple, double force_x, double force_
 /// Cables pull on all sections alike, so those that end at a section owe what the next does not
 /// get.
 bool Allocator::solve_in_closed_form() noexcept {
-  const auto n = static_cast<Index>(triples_.size());
-  for (Index k = 0; k < n; ++k) {
-    const bool last = k + 1 == n;
-    const double next_x = last ? 0.0 : Q_[2 * k + 2], next_y = last ? 0.0 : Q_[2 * k + 3];
-    const Triple& triple = triples_[static_cast<std::size_t>(k)];
-    if (!solve_triple(triple, Q_[2 * k] - next_x, Q_[2 * k + 1] - next_y)) return false;
+  for (std::size_t k = 0; k < triples_.size(); ++k) {
+    const Triple& triple = triples_[k];
+    Eigen::Vector2d owed = Q_.segment<2>(triple.first);
+    if (k + 1 < triples_.size()) owed -= Q_.segment<2>(triples_[k + 1].first);
+    if (!solve_triple(triple, owed)) return false;
   }
-  return n > 0;
+  return !triples_.empty();
 }
 
 void Allocator::initialise_active_set() noexcept {

@@ -21,10 +21,10 @@ void read(const PolynomialTable<N>& table, const Dual& sigma, Eigen::Array<Dual,
   for (int k = 0; k < N; ++k) f[k] = Dual(values[k], slopes[k] * sigma.derivatives());
 }
 
-/// J = dy/dx (num_outputs, num_inputs) of f(const Dual* x, Dual* y); at most 2 max_sections each.
+/// J = dy/dx (num_outputs, num_inputs) of f(const Dual* x, Dual* y); at most max_coordinates each.
 template <class F>
 void differentiate(int num_inputs, int num_outputs, const double* x, MatrixRef J, F&& f) {
-  Dual in[2 * max_sections], out[2 * max_sections];
+  Dual in[max_coordinates], out[max_coordinates];
   for (int i = 0; i < num_inputs; ++i) in[i] = Dual(x[i]);
   for (int first = 0; first < num_inputs; first += dual_width) {
     const int count = std::min(dual_width, num_inputs - first);

@@ -6,6 +6,13 @@
 
 namespace cdcr::detail {
 
+/// The part of q, or of a vector like it, that belongs to one section.
+template <class Vector>
+[[nodiscard]] auto of_section(const Model& model, Vector& q, Index section) noexcept {
+  const Index first = model.first_coordinate(section);
+  return q.segment(first, model.first_coordinate(section + 1) - first);
+}
+
 /// Angle by which a section bends [rad]. Real-time safe.
 [[nodiscard]] inline double bending_angle(const Model& model, const ConstVectorRef& q,
                                           Index section) noexcept {

@@ -46,7 +46,7 @@ class Data::Kept {
   }
 
   detail::MotionState state_;
-  double q_[2 * max_sections], qd_[2 * max_sections];
+  double q_[max_coordinates], qd_[max_coordinates];
   const detail::Chain* own_;  // Data keeps it alive
   bool has_position_ = false, has_velocity_ = false;
 };

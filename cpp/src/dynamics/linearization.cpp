@@ -25,7 +25,7 @@ void differentiate_motion(const Model& model, const ConstVectorRef& q, const Con
                           MatrixRef* B) noexcept {
   const auto m = static_cast<int>(model.num_coordinates());
   const auto cables = static_cast<int>(model.num_cables());
-  Dual x[4 * max_sections], qdd[2 * max_sections], force[2 * max_sections];
+  Dual x[2 * max_coordinates], qdd[max_coordinates], force[max_coordinates];
   Dual commands[max_commands];
   detail::ArcChainState<Dual> state;
   const detail::Chain& chain = detail::chain_of(model);

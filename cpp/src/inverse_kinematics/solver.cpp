@@ -5,9 +5,12 @@
 
 #include "base/constants.hpp"
 #include "cdcr/inverse_kinematics.hpp"
+#include "dynamics/bending.hpp"
 
 namespace cdcr {
 namespace {
+
+using Bend = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_coordinates, 1>;
 
 constexpr double full_circle = 2.0 * detail::pi;
 // The Jacobian is of the size of one, and so is what damping is added to.
@@ -89,14 +92,15 @@ void InverseSolver::keep_within_limits(VectorXd& q) const noexcept {
   // A hair less than the limit, so that rounding cannot put the length above it.
   constexpr double inside = 1.0 - 4.0 * std::numeric_limits<double>::epsilon();
   for (Index i = 0; i < max_theta_.size(); ++i) {
-    const double theta = q.segment<2>(2 * i).norm();
-    if (theta > inside * max_theta_[i]) q.segment<2>(2 * i) *= inside * max_theta_[i] / theta;
+    auto bend = detail::of_section(*model_, q, i);
+    const double theta = bend.norm();
+    if (theta > inside * max_theta_[i]) bend *= inside * max_theta_[i] / theta;
   }
 }
 
 bool InverseSolver::stands_at_limit(const VectorXd& q, Index section) const noexcept {
   constexpr double near = 1.0 - 1e-12;
-  return q.segment<2>(2 * section).norm() >= near * max_theta_[section];
+  return detail::bending_angle(*model_, q, section) >= near * max_theta_[section];
 }
 
 /// Takes the outward direction n from a section that stands at its limit and would go on, in the
@@ -107,22 +111,22 @@ void InverseSolver::hold_at_limits() noexcept {
   held_g_ = g_;
   for (Index i = 0; i < max_theta_.size(); ++i) {
     if (!stands_at_limit(q_, i)) continue;
-    const Eigen::Vector2d n = q_.segment<2>(2 * i).normalized();
-    const double pull = -n.dot(g_.segment<2>(2 * i));
+    Bend n = detail::of_section(*model_, q_, i);
+    n.normalize();
+    const double pull = -n.dot(detail::of_section(*model_, g_, i));
     if (!(pull > 0.0)) continue;
-    const Eigen::Vector2d along(-n[1], n[0]);
-    held_g_.segment<2>(2 * i) += pull * n;
+    detail::of_section(*model_, held_g_, i) += pull * n;
+    const Index first = model_->first_coordinate(i), size = n.size();
+    auto rows = held_H_.middleRows(first, size);
+    for (Index k = 0; k < q_.size(); ++k) rows.col(k) -= n.dot(rows.col(k)) * n;
+    auto columns = held_H_.middleCols(first, size);
     for (Index k = 0; k < q_.size(); ++k) {
-      const double row = n.dot(held_H_.col(k).segment<2>(2 * i));
-      held_H_.col(k).segment<2>(2 * i) -= row * n;
+      columns.row(k) -= columns.row(k).dot(n.transpose()) * n.transpose();
     }
-    for (Index k = 0; k < q_.size(); ++k) {
-      const double column = held_H_(k, 2 * i) * n[0] + held_H_(k, 2 * i + 1) * n[1];
-      held_H_(k, 2 * i) -= column * n[0];
-      held_H_(k, 2 * i + 1) -= column * n[1];
-    }
-    held_H_.block<2, 2>(2 * i, 2 * i) +=
-        n * n.transpose() + pull / max_theta_[i] * along * along.transpose();
+    const double curvature = pull / max_theta_[i];
+    auto own = held_H_.block(first, first, size, size);
+    for (Index k = 0; k < size; ++k) own.col(k) += (1.0 - curvature) * n[k] * n;
+    own.diagonal().array() += curvature;
   }
 }
 
@@ -204,7 +208,7 @@ void InverseSolver::place_start(int seed) noexcept {
   constexpr double least_bend = 0.2;
   const double arc = std::fmax(2.0 * std::atan2(rho_, z_), least_bend) / static_cast<double>(n);
   for (Index i = 0; i < n; ++i) {
-    Eigen::Ref<Eigen::Vector2d> bend = q_.segment<2>(2 * i);
+    auto bend = detail::of_section(*model_, q_, i);
     if (seed == 0) {
       bend = arc * towards_;
     } else if (seed == 1) {

@@ -27,7 +27,7 @@ double cable_pull(const Model& model, Index cable, const ConstVectorRef& q,
 
 void tensions_along(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
                     const ConstVectorRef& command, MatrixRef tension) noexcept {
-  double unused[2 * max_sections] = {};
+  double unused[max_coordinates] = {};
   tension.setZero();
   for (Index j = 0; j < model.num_cables(); ++j) {
     tension(0, j) = detail::base_tension(model, j, q.data(), qd.data(), command[j]);
@@ -39,7 +39,7 @@ void tensions_along(const Model& model, const ConstVectorRef& q, const ConstVect
 double friction_power(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
                       const ConstVectorRef& command) noexcept {
   if (!model.has_friction()) return 0.0;
-  double lost = 0.0, force[2 * max_sections] = {};
+  double lost = 0.0, force[max_coordinates] = {};
   for (Index j = 0; j < model.num_cables(); ++j) {
     const double tension = detail::base_tension(model, j, q.data(), qd.data(), command[j]);
     lost += tension * model.actuation_matrix().col(j).dot(qd);

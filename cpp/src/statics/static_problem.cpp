@@ -130,7 +130,7 @@ void static_stiffness(const Model& model, const ConstVectorRef& q, const ConstVe
       state.update_position(chain, x);
       detail::potential_gradient(chain, state, x, y);
       if (wrenches.empty()) return;
-      Dual pull[2 * max_sections];
+      Dual pull[max_coordinates];
       for (int i = 0; i < size; ++i) pull[i] = Dual(0.0);
       detail::add_wrench_force<Dual>(chain, x, wrenches, pull);
       for (int i = 0; i < size; ++i) y[i] -= pull[i];

@@ -14,9 +14,9 @@ class StaticProblem {
  public:
   StaticProblem(const Model& model, const ConstVectorRef& command, const Wrenches& wrenches);
 
-  /// r(q) (2n) [N m].
+  /// r(q) (d) [N m].
   void residual(const ConstVectorRef& q, VectorRef r) noexcept;
-  /// dr/dq (2n, 2n) [N m/rad].
+  /// dr/dq (d, d) [N m/rad].
   void stiffness(const ConstVectorRef& q, MatrixRef K) noexcept;
   /// Energy whose gradient r is, where it has one [J].
   [[nodiscard]] double energy(const ConstVectorRef& q) noexcept;

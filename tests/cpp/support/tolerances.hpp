@@ -19,6 +19,18 @@ constexpr double printed = 2e-12;
 /// Derivatives by differences of sixth order in double precision.
 constexpr double differences = 1e-9;
 
+/// Recursions over many sections: a rounding or two for each, relative to the terms that are added;
+/// forward dynamics after inverse dynamics over the condition of the mass matrix.
+constexpr double recursion = 1e-13;
+/// The same where gravity is turned: weights cancel, and rotations are orthonormal to rounding.
+constexpr double turned = 1e-12;
+/// Derivatives of energies and forces by differences of eighth order, in steps of 0.02 rad.
+constexpr double recursion_differences = 1e-11;
+/// Lagrange's equations by the same differences, of products of energies and rates.
+constexpr double lagrange = 1e-11;
+/// The same of accelerations, which change faster: steps of 0.003 rad.
+constexpr double linearized = 1e-9;
+
 /// Slope of the distance at the nearest point: a minimum is found to the root of rounding.
 constexpr double stationary = 1e-7;
 /// Unbalanced moment at an equilibrium over the moments in balance.

@@ -1,0 +1,206 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "cases.hpp"
+#include "cdcr/dynamics.hpp"
+#include "chain/energy.hpp"
+#include "chain/forward.hpp"
+#include "chain/gradient.hpp"
+#include "chain/inverse.hpp"
+#include "chain/mass_matrix.hpp"
+#include "chain_cases.hpp"
+#include "kinds.hpp"
+
+// What the battery of laws is tried on: the functions of motion of a robot, by the public functions
+// or by the recursions over sections of one kind.
+//
+// Every subject is made of a robot of arcs. adapted() is the robot that it can stand for, select()
+// its coordinates among those of that robot, and where the robot's other coordinates are zero both
+// move alike.
+
+namespace cdcr::test {
+
+/// The public functions: one section without a payload in closed form.
+class Library {
+ public:
+  static constexpr int m = 2;
+  static Robot adapted(Robot robot) { return robot; }
+  static VectorXd select(const VectorXd& whole) { return whole; }
+
+  explicit Library(const Model& model) : model_(model), data_(model) {}
+
+  [[nodiscard]] Index size() const { return model_.num_coordinates(); }
+  MatrixXd mass_matrix(const VectorXd& q) {
+    MatrixXd M(size(), size());
+    cdcr::mass_matrix(model_, data_, q, M);
+    return M;
+  }
+  VectorXd bias(const VectorXd& q, const VectorXd& qd) {
+    VectorXd h(size());
+    cdcr::bias(model_, data_, q, qd, h);
+    return h;
+  }
+  VectorXd inverse(const VectorXd& q, const VectorXd& qd, const VectorXd& qdd) {
+    VectorXd force(size());
+    inverse_dynamics(model_, data_, q, qd, qdd, force);
+    return force;
+  }
+  VectorXd forward(const VectorXd& q, const VectorXd& qd, const VectorXd& force) {
+    VectorXd qdd(size());
+    forward_dynamics_force(model_, data_, q, qd, force, qdd);
+    return qdd;
+  }
+  double kinetic(const VectorXd& q, const VectorXd& qd) {
+    return kinetic_energy(model_, data_, q, qd);
+  }
+  double potential(const VectorXd& q) { return potential_energy(model_, data_, q); }
+  VectorXd gradient(const VectorXd& q) {
+    VectorXd gradient(size());
+    potential_gradient(model_, data_, q, gradient);
+    return gradient;
+  }
+
+ private:
+  Model model_;
+  Data data_;
+};
+
+/// The recursions over sections of one kind.
+template <class Section>
+class Recursion {
+ public:
+  static constexpr int m = Section::m;
+
+  explicit Recursion(detail::Chain chain)
+      : chain_(std::move(chain)), state_(std::make_unique<detail::ChainState<Section>>()) {
+    for (Index i = 0; i <= chain_.num_sections(); ++i) {
+      chain_.first[static_cast<std::size_t>(i)] = i * m;
+    }
+  }
+
+  [[nodiscard]] Index size() const { return chain_.num_coordinates(); }
+  MatrixXd mass_matrix(const VectorXd& q) {
+    state_->update_position(chain_, q.data());
+    MatrixXd M(size(), size());
+    detail::composite_mass<Section>(chain_, *state_, M);
+    return M;
+  }
+  VectorXd bias(const VectorXd& q, const VectorXd& qd) {
+    VectorXd h(size());
+    state_->update(chain_, q.data(), qd.data());
+    detail::inverse_dynamics<Section, double>(chain_, *state_, nullptr, h.data());
+    return h;
+  }
+  VectorXd inverse(const VectorXd& q, const VectorXd& qd, const VectorXd& qdd) {
+    VectorXd force(size());
+    state_->update(chain_, q.data(), qd.data());
+    detail::inverse_dynamics(chain_, *state_, qdd.data(), force.data());
+    return force;
+  }
+  VectorXd forward(const VectorXd& q, const VectorXd& qd, const VectorXd& force) {
+    VectorXd qdd(size());
+    state_->update_position(chain_, q.data());
+    state_->update_velocity(chain_, qd.data());
+    detail::forward_dynamics(chain_, *state_, force.data(), qdd.data());
+    return qdd;
+  }
+  double kinetic(const VectorXd& q, const VectorXd& qd) {
+    state_->update(chain_, q.data(), qd.data());
+    return detail::kinetic_energy_of(chain_, *state_, qd.data());
+  }
+  double potential(const VectorXd& q) {
+    state_->update_position(chain_, q.data());
+    return detail::potential_energy_of(chain_, *state_, q.data());
+  }
+  VectorXd gradient(const VectorXd& q) {
+    VectorXd gradient(size());
+    state_->update_position(chain_, q.data());
+    detail::potential_gradient<Section>(chain_, *state_, q.data(), gradient.data());
+    return gradient;
+  }
+
+ protected:
+  detail::Chain chain_;
+
+ private:
+  std::unique_ptr<detail::ChainState<Section>> state_;
+};
+
+struct Arcs : Recursion<detail::ConstantCurvature<double>> {
+  static Robot adapted(Robot robot) { return robot; }
+  static VectorXd select(const VectorXd& whole) { return whole; }
+  explicit Arcs(const Model& model) : Recursion(detail::Chain(model.robot())) {}
+};
+
+struct Planars : Recursion<Planar<double>> {
+  static Robot adapted(Robot robot) { return robot; }
+  static VectorXd select(const VectorXd& whole) {
+    VectorXd part(whole.size() / 2);
+    for (Index i = 0; i < part.size(); ++i) part[i] = whole[2 * i];
+    return part;
+  }
+  explicit Planars(const Model& model) : Recursion(detail::Chain(model.robot())) {}
+};
+
+/// Of every two sections the second is as the first.
+struct Pairs : Recursion<Pair<double>> {
+  static Robot adapted(Robot robot) {
+    if (robot.sections.size() % 2 == 1) robot.sections.push_back(robot.sections.back());
+    for (std::size_t i = 1; i < robot.sections.size(); i += 2) {
+      robot.sections[i] = robot.sections[i - 1];
+    }
+    return robot;
+  }
+  static VectorXd select(const VectorXd& whole) { return whole; }
+  explicit Pairs(const Model& model) : Recursion(paired(model.robot())) {}
+
+ private:
+  static detail::Chain paired(const Robot& robot) {
+    detail::Chain chain(robot);
+    const auto arcs = chain.sections;
+    chain.sections.clear();
+    for (std::size_t i = 0; i < arcs.size(); i += 2) {
+      chain.sections.push_back(arcs[i]);
+      chain.sections.back().mass *= 2.0;
+    }
+    chain.first.resize(chain.sections.size() + 1);
+    return chain;
+  }
+};
+
+/// A state of a subject, and the same of the robot of arcs that it is made of.
+struct LawState {
+  ChainState whole;
+  VectorXd q, qd;
+  double weight;  // size of the terms of weight in U and dU/dq [N m]
+};
+
+/// body(subject, model, state) for the sample robots, where sections of this kind can carry them,
+/// and random chains of these numbers of sections, in sample states.
+template <class Subject, class Body>
+void for_each_subject(const std::vector<int>& numbers, Body body) {
+  Random random;
+  std::vector<NamedRobot> robots;
+  // A point on the tip alone has not enough inertia for more than two coordinates.
+  if (Subject::m <= 2) robots = sample_robots(random);
+  for (const int n : numbers) {
+    robots.push_back({std::to_string(n) + " sections", random_chain(random, n)});
+  }
+  for (const NamedRobot& sample : robots) {
+    const Model model(Subject::adapted(sample.robot));
+    Subject subject(model);
+    const double weight = static_cast<double>(ChainSum(model.robot()).weight_scale()[0]);
+    for (ChainState whole : chain_states(model, random)) {
+      INFO(random, ", robot: ", sample.name, ", state: ", whole.name);
+      if (Subject::m == 1) {  // the planar robot's state, seen as one of arcs
+        for (Index i = 1; i < whole.q.size(); i += 2) whole.q[i] = whole.qd[i] = 0.0;
+      }
+      body(subject, model,
+           LawState{whole, Subject::select(whole.q), Subject::select(whole.qd), weight});
+    }
+  }
+}
+
+}  // namespace cdcr::test
