@@ -75,8 +75,12 @@ def _doubled(table: Mapping[str, Any], at: str, name: str) -> list[str]:
 
 
 def _fields_of(kind: type[Section | Cable], table: Mapping[str, Any]) -> dict[str, Any]:
-    """Return all fields of a description, angles in radians."""
-    values = _defaults(kind) | dict(table)
+    return _defaults(kind) | in_radians(table)
+
+
+def in_radians(table: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the keys of a section's or a cable's table, angles in radians."""
+    values = dict(table)
     if "cable_angles_deg" in values:
         values["cable_angles"] = [math.radians(a) for a in values.pop("cable_angles_deg")]
     if "angle_deg" in values:

@@ -27,21 +27,24 @@ _TYPES: dict[str, Any] = {
 
 
 @cache
-def table_of(kind: type[Any]) -> type[pydantic.BaseModel]:
+def table_of(kind: type[Any], *, partial: bool = False) -> type[pydantic.BaseModel]:
     """Return what the table of a Robot, a Section or a Cable may hold.
 
-    A key may be left out where the field has a default, which then holds. Angles may be in degrees,
-    under keys that say so.
+    A key may be left out where the field has a default, which then holds; every key of a `partial`
+    table, which changes what there is, and has no tables of sections and cables in it. Angles may
+    be in degrees, under keys that say so.
     """
-    keys = {key: value for item in fields(kind) for key, value in _keys(item)}
+    keys = {key: value for item in fields(kind) for key, value in _keys(item, partial)}
     config = pydantic.ConfigDict(extra="forbid", strict=True)
     return pydantic.create_model(f"{kind.__name__}Table", __config__=config, **keys)
 
 
-def _keys(item: Field[Any]) -> Iterator[tuple[str, Any]]:
+def _keys(item: Field[Any], partial: bool) -> Iterator[tuple[str, Any]]:
     kind, unit = item.metadata["kind"], item.metadata["unit"]
-    given = ... if item.default is MISSING and unit != "rad" else None
+    given = ... if item.default is MISSING and unit != "rad" and not partial else None
     if isinstance(kind, type):
+        if partial:
+            return
         table = f"one [[{item.name}]] table for each {item.name.removesuffix('s')}"
         yield item.name, (list[dict[str, Any]], pydantic.Field(given, description=table))
         return

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, create_model
 
+from cdcr.robot.robot import Robot
+from cdcr.robot.schema import table_of
+from cdcr.robot.section import Section
 from cdcr.scenarios.scenario import MAX_SAMPLES
 
 _Finite = Annotated[float, Field(allow_inf_nan=False)]
@@ -32,20 +35,38 @@ class ScenarioTable(BaseModel):
     description: str = _optional("a string")
     source: str = _optional("a string")
     robot: str | dict[str, Any] = Field(
-        description="the name of a robot, the name of a robot file (.toml) or a table with sections"
+        description="the name of a robot, the name of a robot file (.toml), a table with sections "
+        "or a table with the name of a robot and what is different"
     )
     formulation: str = _optional("a string")
-    initial: dict[str, Any] = _optional("a table with q or theta and phi, and qd")
+    initial: dict[str, Any] = _optional("a table with q or theta and phi, qd, equilibrium")
     tension: list[_Tension] | list[dict[str, Any]] | dict[str, Any] = _optional(
         "an array with a number >= 0 [N] for each cable, or tables [[tension]] with cable and "
-        "shape, or a table with t and rows, or a table with file"
+        "shape, or a table with t and rows, hold, shapes or file"
     )
     wrenches: list[dict[str, Any]] = _optional("tables [[wrenches]] with section, force, moment")
     trajectory: dict[str, Any] = _optional("a table with shape, or with t or file")
     controller: dict[str, Any] = _optional("a table with type")
+    integrator: dict[str, Any] = _optional("a table with method, rtol, atol, step, max_step")
     output: dict[str, Any] = _optional("a table with num_samples or files")
     t_end: float = Field(gt=0.0, allow_inf_nan=False, description="a number > 0 [s]")
-    num_samples: int = _optional(f"a whole number 2 to {MAX_SAMPLES}", ge=2, le=MAX_SAMPLES)
+
+
+# A known robot, and what is different about it: [robot] with a name, and [robot.each_section].
+RobotChanges: type[BaseModel] = create_model(
+    "RobotChanges",
+    __base__=table_of(Robot, partial=True),
+    name=(str, Field(description="the name of a robot")),
+    each_section=(dict[str, Any], _optional("a table with fields of a section")),
+)
+SECTION_CHANGES = table_of(Section, partial=True)
+
+
+class IntegratorTable(BaseModel):
+    """The [integrator] table: how the run is integrated."""
+
+    model_config = _STRICT
+
     method: Literal["bdf", "adams", "dopri5", "rk4"] = _optional(
         '"bdf", "adams", "dopri5" or "rk4"'
     )
@@ -72,6 +93,8 @@ class InitialTable(ReferenceTable):
     """The [initial] table: where the robot starts, straight and at rest unless told otherwise."""
 
     qd: list[_Finite] = _optional("an array with two numbers [rad/s] for each section")
+    equilibrium: bool = _optional("true or false")
+    payload: float = _optional("a number >= 0 [kg]", ge=0.0, allow_inf_nan=False)
 
 
 class OutputTable(BaseModel):
@@ -119,12 +142,51 @@ class TensionRows(_TensionOverTime):
     )
 
 
+class TensionHold(_TensionOverTime):
+    """The [tension] table with shapes of the robot that the tensions hold."""
+
+    t: list[_Finite] = _optional("an array of increasing times [s]", min_length=1)
+    hold: dict[str, Any] = Field(description="a table with q, or theta and phi")
+
+
+class TensionSampled(BaseModel):
+    """The [tension] table with tables [[tension.shapes]] that are sampled."""
+
+    model_config = _STRICT
+
+    step: float = Field(gt=0.0, allow_inf_nan=False, description="a number > 0 [s]")
+    shapes: list[dict[str, Any]] = Field(
+        min_length=1, description="tables [[tension.shapes]] with cable and shape"
+    )
+
+
 class TensionFile(_TensionOverTime):
     """The [tension] table that names a CSV file."""
 
     file: str = Field(
         description="the name of a CSV file with the columns t, cable 1, cable 2, ..."
     )
+
+
+_Row = list[_Finite] | list[list[_Finite]]
+
+
+def _held(unit: str, each: str = "a number") -> Any:
+    where = "for each section; where there are times, a row of them for each"
+    return _optional(f"an array with {each} [{unit}] {where}")
+
+
+class HoldTable(BaseModel):
+    """The [tension.hold] table: shapes of the robot, and what hangs at its tip in them."""
+
+    model_config = _STRICT
+
+    q: _Row = _held("rad", "two numbers")
+    theta: _Row = _held("rad")
+    theta_deg: _Row = _held("deg")
+    phi: _Row = _held("rad")
+    phi_deg: _Row = _held("deg")
+    payload: float = _optional("a number >= 0 [kg]", ge=0.0, allow_inf_nan=False)
 
 
 class WrenchTable(BaseModel):

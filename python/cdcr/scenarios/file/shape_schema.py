@@ -89,6 +89,7 @@ class _Tracking(BaseModel):
     max_tension: float = _optional("a number > 0 [N], or inf for no limit", gt=0.0)
     infeasible: Literal["raise", "nearest"] = _optional('"raise" or "nearest"')
     feed_back: bool = _optional("true or false")
+    shorter: float = _optional("a number [m]", allow_inf_nan=False)
     step: float = _optional("a number > 0 [s]", gt=0.0, allow_inf_nan=False)
 
 
@@ -126,12 +127,13 @@ class SwingTable(_Direction):
 
 
 class MoveTable(_Direction):
-    """From straight to theta and phi, from rest to rest, and holding them after."""
+    """From straight to theta and phi, from rest to rest, holding them after or until `back`."""
 
     theta: _Values = _of_sections("rad")
     theta_deg: _Values = _of_sections("deg")
     start: float = _number("a number [s]", default=0.0)
     duration: float = _number("a number > 0 [s]", gt=0.0)
+    back: float = _optional("a number [s], not before the end of the move", allow_inf_nan=False)
 
 
 TRAJECTORY_SHAPES: dict[str, type[BaseModel]] = {
