@@ -15,25 +15,25 @@ from cdcr.scenarios.studies.free_oscillation import (
     LOOSE,
     PAPER_TIME,
     SETTLED,
-    START,
     amplitude,
     variants,
 )
 
 if TYPE_CHECKING:
     from cdcr.runs.trajectory import Trajectory
+    from cdcr.scenarios.scenario import Scenario
 
 
-def oscillation_figure(title: str, run: Trajectory) -> StyledFigure:
+def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
     """Draw the bending angle of the run, of the damped robot, and amplitudes."""
-    others = variants(float(run.t[-1]))
+    others = variants(scenario, float(run.t[-1]))
     with style():
-        figure = new_figure(title, (10.4, 7.6))
+        figure = new_figure(scenario.title, (10.4, 7.6))
         free, damped, loose = figure.subplots(3, 1, height_ratios=[1.0, 1.0, 1.15])
         _draw_theta(free, run)
         note(free, "the paper's equations: no damping, the amplitude stays")
         _draw_theta(damped, others["damped"])
-        _draw_band(damped, float(run.t[-1]))
+        _draw_band(damped, others["damped"])
         note(damped, rf"with a damping of {1e4 * DAMPING:.2f}$\cdot 10^{{-4}}$ N m s/rad")
         _draw_amplitudes(loose, run, others)
         note(loose, "no damping, loose integrators: none drawn here explains the settling")
@@ -51,11 +51,11 @@ def _draw_theta(axes: Axes, run: Trajectory) -> None:
     axes.set_yticks([-45, 0, 45])
 
 
-def _draw_band(axes: Axes, end: float) -> None:
-    band = np.rad2deg(SETTLED * START)
+def _draw_band(axes: Axes, run: Trajectory) -> None:
+    band = np.rad2deg(SETTLED * amplitude(run)[0])
     for side in (-band, band):
         axes.axhline(side, color=BLACK, linewidth=0.8, linestyle="--")
-    if end > PAPER_TIME:
+    if run.t[-1] > PAPER_TIME:
         axes.axvline(PAPER_TIME, color=ALARM, linewidth=1.2, linestyle=":")
         axes.text(PAPER_TIME + 0.4, 30.0, f"the paper: {PAPER_TIME} s", color=ALARM, fontsize=9.5)
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from matplotlib.axes import Axes
 
@@ -18,14 +20,17 @@ from cdcr.scenarios.studies.gravity_ratio import (
     theta_deg,
 )
 
+if TYPE_CHECKING:
+    from cdcr.scenarios.scenario import Scenario
+
 HUES = dict(zip(WAYS, (BLACK, COLORS[0], COLORS[1]), strict=True))
 TENSIONS = np.linspace(0.0, 10.0, 41)  # [N]
 
 
-def gravity_figure(title: str) -> StyledFigure:
+def plot(scenario: Scenario, run: None) -> StyledFigure:
     """Draw the three ways to stand in the field of gravity."""
     with style():
-        figure = new_figure(title, (12.4, 5.2))
+        figure = new_figure(scenario.title, (12.4, 5.2))
         ratio, angle, shape = figure.subplots(1, 3, width_ratios=[1.2, 1.2, 0.45])
         _draw_ratio(ratio)
         _draw_angles(angle)

@@ -13,21 +13,22 @@ from cdcr.plotting.robot3d import RobotArtists, show_robot
 from cdcr.plotting.style import BLACK, GREY, LIGHT_GREY, StyledFigure, line_colors, style
 from cdcr.scenarios.figures.drawing import note
 from cdcr.scenarios.figures.workspace import new_figure
-from cdcr.scenarios.studies.length_drive import BACK, GO, STIFFER, errors, stiffer, wanted
+from cdcr.scenarios.studies.length_drive import BACK, GO, errors, stiffer, wanted
 
 if TYPE_CHECKING:
     from cdcr.runs.trajectory import Trajectory
+    from cdcr.scenarios.scenario import Scenario
 
 SIZE = (12.4, 8.2)  # of the picture [in]
 ROOM = np.array([6.1, 7.2])  # of the robot in space, left [in]
 MIN_ERROR = 1e-2  # lower end of the error's axis [deg]
 
 
-def length_drive_figure(title: str, run: Trajectory) -> StyledFigure:
+def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
     """Draw the robot where it starts and where it is held, and four panels over time."""
     with style():
-        figure = new_figure(title, SIZE)
-        _draw_robot(figure, run)
+        figure = new_figure(scenario.title, SIZE)
+        _draw_robot(figure, scenario, run)
         grid = figure.add_gridspec(
             3,
             1,
@@ -39,8 +40,8 @@ def length_drive_figure(title: str, run: Trajectory) -> StyledFigure:
             height_ratios=[1.2, 1.0, 1.6],
         )
         theta, error, tension = (figure.add_subplot(grid[row]) for row in range(3))
-        _draw_theta(theta, run)
-        _draw_errors(error, run)
+        _draw_theta(theta, scenario, run)
+        _draw_errors(error, scenario, run)
         _draw_tensions(tension, run)
         for axes in (theta, error, tension):
             panels.show_time(axes, run, named=axes is tension)
@@ -48,10 +49,10 @@ def length_drive_figure(title: str, run: Trajectory) -> StyledFigure:
     return figure
 
 
-def _draw_robot(figure: StyledFigure, run: Trajectory) -> None:
+def _draw_robot(figure: StyledFigure, scenario: Scenario, run: Trajectory) -> None:
     times = np.unique(np.clip([GO, BACK], run.t[0], run.t[-1]))
     shapes = states_at(run, times)
-    ideal = wanted(times[-1:])[0]
+    ideal = wanted(scenario, times[-1:])[0]
     axes: Any = space.add_axes(figure)
     show_robot(axes, run.model, [*shapes, ideal], run.tip)
     for k, (q, alpha) in enumerate(zip(shapes, (0.3, 1.0)[-len(shapes) :], strict=True)):
@@ -68,8 +69,8 @@ def _draw_robot(figure: StyledFigure, run: Trajectory) -> None:
     figure.legend(handles, labels, loc="upper center", bbox_to_anchor=(middle, 0.82), ncols=2)
 
 
-def _draw_theta(axes: Axes, run: Trajectory) -> None:
-    asked = np.rad2deg(np.linalg.norm(wanted(run.t).reshape(len(run), -1, 2), axis=2))
+def _draw_theta(axes: Axes, scenario: Scenario, run: Trajectory) -> None:
+    asked = np.rad2deg(np.linalg.norm(wanted(scenario, run.t).reshape(len(run), -1, 2), axis=2))
     reached = np.rad2deg(np.abs(run.theta))
     colors = line_colors(run.model.num_sections)
     for i, color in enumerate(colors):
@@ -91,16 +92,17 @@ def _draw_theta(axes: Axes, run: Trajectory) -> None:
         )
 
 
-def _draw_errors(axes: Axes, run: Trajectory) -> None:
-    better = stiffer(float(run.t[-1]))
+def _draw_errors(axes: Axes, scenario: Scenario, run: Trajectory) -> None:
+    better = stiffer(scenario, float(run.t[-1]))
+    stiffness = better.model.robot.sections[0].cable_stiffness
     colors = line_colors(run.model.num_sections)
     for one, dashes in ((run, "-"), (better, "-.")):
-        for values, color in zip(np.rad2deg(errors(one)).T, colors, strict=True):
+        for values, color in zip(np.rad2deg(errors(scenario, one)).T, colors, strict=True):
             axes.plot(one.t, np.maximum(values, MIN_ERROR), color=color, linestyle=dashes)
     axes.set_yscale("log")
     axes.set_ylabel("error [deg]")
     axes.set_ylim(MIN_ERROR, 2e1)
-    note(axes, f"full: as above; dash-dotted: cables of {1e-3 * STIFFER:g} N/mm")
+    note(axes, f"full: as above; dash-dotted: cables of {1e-3 * stiffness:g} N/mm")
 
 
 def _draw_tensions(axes: Axes, run: Trajectory) -> None:

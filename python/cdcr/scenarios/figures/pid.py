@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
@@ -11,6 +13,9 @@ from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.figures.drawing import legend_below, new_figure, note
 from cdcr.scenarios.studies.pid import LOOPS, READINGS, RECOMMENDED, TARGET, Loop, runs
 
+if TYPE_CHECKING:
+    from cdcr.scenarios.scenario import Scenario
+
 FloatArray = NDArray[np.float64]
 
 SIZE = (12.4, 6.6)  # [in]
@@ -19,11 +24,11 @@ SHOWN = {"radians": 6.0, "degrees": 1.0, "moment": 1.0}  # what comes after is s
 TENSIONS = (-2.5, 12.0)  # shown; the first instants ask for far more [N]
 
 
-def pid_figure(title: str, run: Trajectory) -> StyledFigure:
+def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
     """Draw bending angle and tension of every loop."""
     others = runs(float(run.t[-1]))
     with style():
-        figure = new_figure(title, SIZE)
+        figure = new_figure(scenario.title, SIZE)
         panels = figure.subplots(2, 3, sharex="col", sharey="row")
         for column, (reading, (words, _)) in enumerate(READINGS.items()):
             angle, tension = panels[:, column]

@@ -12,11 +12,10 @@ from cdcr.plotting.style import BLACK, COLORS, GREY, StyledFigure, style
 from cdcr.scenarios.figures.drawing import new_figure, note
 from cdcr.scenarios.studies.energy import integral
 from cdcr.scenarios.studies.pull_release import (
-    DAMPING,
-    FRICTION,
     FULL,
     RAMP,
     beyond,
+    coefficients,
     dead_band,
     friction_power,
     frictionless,
@@ -25,15 +24,16 @@ from cdcr.scenarios.studies.pull_release import (
 
 if TYPE_CHECKING:
     from cdcr.runs.trajectory import Trajectory
+    from cdcr.scenarios.scenario import Scenario
 
 RUB, SMOOTH, FAR = COLORS[1], BLACK, COLORS[0]
 
 
-def pull_release_figure(title: str, run: Trajectory) -> StyledFigure:
+def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
     """Draw the loop in space and in work, the tensions, and the power of friction."""
-    smooth = frictionless(float(run.t[-1]))
+    smooth = frictionless(scenario, float(run.t[-1]))
     with style():
-        figure = new_figure(title, (12.4, 7.4))
+        figure = new_figure(scenario.title, (12.4, 7.4))
         left, right = figure.subfigures(1, 2, squeeze=False, width_ratios=[1.0, 1.05])[0]
         loop, work = left.subplots(2, 1)
         tension, power = right.subplots(2, 1, height_ratios=[1.35, 1.0])
@@ -53,7 +53,7 @@ def _draw_loop(axes: Axes, run: Trajectory, smooth: Trajectory) -> None:
     axes.set_ylabel("tension at the base [N]")
     axes.set_ylim(-0.4, 1.12 * FULL)
     note(axes, "both cycles lie on one loop")
-    _name(axes, run, 0.42, rf"pulled, $\mu$ = {FRICTION:g}", RUB, (-10, 8), "right")
+    _name(axes, run, 0.42, rf"pulled, $\mu$ = {coefficients(run)[0]:g}", RUB, (-10, 8), "right")
     _name(axes, run, 1.5, "released", RUB, (14, -10), "left")
     _name(axes, smooth, 0.3, r"$\mu$ = 0", SMOOTH, (16, -10), "left")
     band = dead_band(run)
@@ -105,7 +105,7 @@ def _draw_work(axes: Axes, run: Trajectory, smooth: Trajectory) -> None:
     if run.t[-1] >= run.t[0] + 2.0 * RAMP:
         area = float(integral(force, way))  # N mm
         rate = np.sum(run.qd[cycle] ** 2, axis=1)
-        damped = 1e3 * DAMPING * float(integral(rate, run.t[cycle]))
+        damped = 1e3 * coefficients(run)[1] * float(integral(rate, run.t[cycle]))
         axes.text(
             0.03,
             0.95,
@@ -117,11 +117,11 @@ def _draw_work(axes: Axes, run: Trajectory, smooth: Trajectory) -> None:
 
 def _draw_tension(axes: Axes, run: Trajectory) -> None:
     far, theta = beyond(run), np.abs(run.theta[:, 0])
-    base = run.tension[:, 0]
+    base, friction = run.tension[:, 0], coefficients(run)[0]
     axes.fill_between(
         run.t,
-        base * np.exp(-FRICTION * theta),
-        base * np.exp(FRICTION * theta),
+        base * np.exp(-friction * theta),
+        base * np.exp(friction * theta),
         color=FAR,
         alpha=0.15,
         linewidth=0,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from matplotlib.axes import Axes
 
@@ -21,13 +23,16 @@ from cdcr.scenarios.studies.subdivision import (
     responses,
 )
 
+if TYPE_CHECKING:
+    from cdcr.scenarios.scenario import Scenario
+
 MARKS = ("o", "s", "^")
 
 
-def subdivision_figure(title: str) -> StyledFigure:
+def plot(scenario: Scenario, run: None) -> StyledFigure:
     """Draw frequencies and their errors over the number of parts, and step responses."""
     with style():
-        figure = new_figure(title, (12.4, 7.6))
+        figure = new_figure(scenario.title, (12.4, 7.6))
         grid = figure.add_gridspec(2, 2, height_ratios=[1.15, 1.0])
         _draw_frequencies(figure.add_subplot(grid[0, 0]))
         _draw_convergence(figure.add_subplot(grid[0, 1]))

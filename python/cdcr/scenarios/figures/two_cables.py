@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -13,13 +15,16 @@ from cdcr.scenarios.figures import workspace
 from cdcr.scenarios.figures.drawing import legend_above, note
 from cdcr.scenarios.studies.two_cables import RESTS, settled
 
+if TYPE_CHECKING:
+    from cdcr.scenarios.scenario import Scenario
 
-def two_cables_figure(title: str, run: Trajectory) -> StyledFigure:
+
+def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
     """Draw the tip in space, and over time beside its settled positions."""
     rest = settled(run)
     tips = run.model.tips(rest)
     with style():
-        figure = workspace.new_figure(title)
+        figure = workspace.new_figure(scenario.title)
         _draw_paths(figure, run, tips)
         tension, *tip = workspace.add_panels(figure, [1.0, 1.0, 1.0, 1.0])
         panels.plot_tension(tension, run)

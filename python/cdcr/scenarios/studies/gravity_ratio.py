@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from cdcr._core import taylor_range
 from cdcr.model.coordinates import polar
 from cdcr.model.model import Model
 from cdcr.robots import amouri2020
+from cdcr.scenarios.metrics import Metric
+
+if TYPE_CHECKING:
+    from cdcr.scenarios.scenario import Scenario
 
 G = 9.81  # [m/s^2]
 # How the robot stands in the field, by name: gravity along Z of the base [m/s^2].
@@ -49,3 +56,21 @@ def linear_theta_deg(tension: float, way: str) -> float:
     """Return the same from the stiffness of the straight robot [deg]."""
     radius = amouri2020().sections[0].cable_radius
     return float(np.rad2deg(tension * radius / stiffness(way)))
+
+
+def summarize(scenario: Scenario, run: None) -> tuple[Metric, ...]:
+    """Return the ratio of energies, and bending angles at rest with and without gravity."""
+    start = 1.0 - stiffness("upright") / stiffness("no gravity")
+    end = -float(energy_ratio(taylor_range, "upright")[0])
+    found = [
+        Metric("ratio_0", "gravitational over elastic energy at theta -> 0", 100.0 * start, "%"),
+        Metric("ratio_end", "the same at theta = 3 pi/5", 100.0 * end, "%"),
+    ]
+    for way in WAYS:
+        key, label = way.replace(" ", "_"), f"theta at {TENSION:g} N, {way}"
+        linear = linear_theta_deg(TENSION, way)
+        found += [
+            Metric(f"theta_{key}_deg", label, theta_deg(TENSION, way), "deg"),
+            Metric(f"theta_{key}_linear_deg", f"{label}, linearised", linear, "deg"),
+        ]
+    return tuple(found)

@@ -1,4 +1,4 @@
-"""What the scenarios of several sections have in common."""
+"""A robot of several sections that swings to rest once it is let go or its payload falls off."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from cdcr.model.model import Model
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.metrics import Metric
 from cdcr.scenarios.studies.energy import dissipated, energy_gap, fine_run
@@ -16,20 +15,8 @@ if TYPE_CHECKING:
     from cdcr.scenarios.scenario import Scenario
 
 Array = NDArray[np.float64]
-Vector = tuple[float, float, float]
-Rotation = tuple[Vector, Vector, Vector]
-
-# Base orientations, by rows. The straight robot points down, or along x with cable 1 on top.
-HANGING: Rotation = ((1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, -1.0))
-HORIZONTAL: Rotation = ((0.0, 0.0, 1.0), (0.0, -1.0, 0.0), (1.0, 0.0, 0.0))
 
 SETTLED = 0.02  # share of the first distance
-
-
-def holding(model: Model, q: Array) -> Array:
-    """Return the least-norm tensions (num_cables,) under which q (2n,) is at rest [N]."""
-    still = np.zeros_like(q)
-    return model.allocate(model.inverse_dynamics(q, still, still))
 
 
 def distance(run: Trajectory, q: Array) -> Array:
@@ -45,13 +32,30 @@ def settling_time(t: Array, away: Array) -> float | None:
     return float(t[last]) if last + 1 < len(t) else None
 
 
-def release_metrics(scenario: Scenario, run: Trajectory, rest: Array) -> tuple[Metric, ...]:
-    """Return what is worth knowing of a robot that swings to rest at q = `rest` (2n,)."""
+def at_rest(run: Trajectory) -> Array:
+    """Return q (2n,) where a run under constant tensions comes to rest [rad]."""
+    return run.model.equilibrium(run.command[0])
+
+
+def lift(run: Trajectory) -> float:
+    """Return the first acceleration of the tip upwards [m/s^2]."""
+    model = run.model
+    start = model.forward_dynamics(run.q[0], run.qd[0], run.tension[0])
+    return float((model.jacobian(run.q[0], model.num_sections - 1, 1.0) @ start)[2])
+
+
+def summarize(scenario: Scenario, run: Trajectory) -> tuple[Metric, ...]:
+    """Return how the tip leaves, swings and settles, and where the energy goes."""
+    rest = at_rest(run)
     away = distance(run, rest)
     x, _, z = run.model.tip(rest)[1]
     fine = fine_run(scenario, run)
     loss = float(dissipated(fine)[-1])
-    found = [
+    found = []
+    if run.tension.any():  # held until now, by the cables
+        label = "the tip's first acceleration upwards"
+        found.append(Metric("lift_m_s2", label, lift(run), "m/s^2"))
+    found += [
         Metric("start_distance_mm", "tip from where it comes to rest, start", 1e3 * away[0], "mm"),
         Metric("end_distance_mm", "the same, end", 1e3 * float(away[-1]), "mm"),
         Metric("rest_x_m", "tip at rest: x", float(x), "m"),
