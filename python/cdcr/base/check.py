@@ -120,7 +120,7 @@ class Check:
         kind, requirement = about["kind"], about["requirement"]
         if isinstance(kind, type):
             return self.things(item, value, requirement, kind)
-        if kind == "whole":
+        if kind in ("whole", "section"):
             return self.whole(item, value, requirement)
         if kind == "numbers":
             return self.numbers(item, value, requirement, about["each"])

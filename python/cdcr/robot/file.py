@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from cdcr import _core
 from cdcr.files.new_file import new_file
-from cdcr.files.toml import read_toml, refuse, schema_errors
+from cdcr.files.toml import format_toml, read_toml, refuse, schema_errors
 from cdcr.robot.cable import Cable
 from cdcr.robot.section import Section
 
@@ -47,8 +47,14 @@ def robot_from_table(kind: type[Robot], table: Mapping[str, Any], where: str) ->
     for i, section in enumerate(table["sections"]):
         found += schema_errors(table_of(Section), section, f"sections[{i}]")
         found += _doubled(section, f"sections[{i}]", "cable_angles")
+    num_sections = len(table["sections"])
     for j, cable in enumerate(table.get("cables", [])):
-        found += schema_errors(table_of(Cable), cable, f"cables[{j}]")
+        wrong = schema_errors(table_of(Cable), cable, f"cables[{j}]")
+        if not wrong and cable["end_section"] > num_sections:
+            requirement = f"the number of a section, 1 to {num_sections}"
+            end = format_toml(cable["end_section"])
+            wrong = [f"cables[{j}].end_section must be {requirement}, got {end}"]
+        found += wrong
         found += _doubled(cable, f"cables[{j}]", "angle")
         if not {"angle", "angle_deg"} & cable.keys():
             found.append(f"cables[{j}] must have angle [rad] or angle_deg [deg]")
@@ -75,7 +81,10 @@ def _doubled(table: Mapping[str, Any], at: str, name: str) -> list[str]:
 
 
 def _fields_of(kind: type[Section | Cable], table: Mapping[str, Any]) -> dict[str, Any]:
-    return _defaults(kind) | in_radians(table)
+    values = _defaults(kind) | in_radians(table)
+    if kind is Cable:
+        values["end_section"] -= 1  # counted from 1 in files
+    return values
 
 
 def in_radians(table: Mapping[str, Any]) -> dict[str, Any]:
@@ -112,12 +121,17 @@ def _lines(thing: Robot | Section | Cable, all_fields: bool) -> Iterator[str]:
     written = {
         item.name: item.metadata for item in fields(thing) if _is_written(thing, item, all_fields)
     }
-    pairs = {name: f"{name} = {_toml_value(getattr(thing, name))}" for name in written}
+    pairs = {name: f"{name} = {_toml_value(_in_file(thing, name))}" for name in written}
     short = [len(pair) for pair in pairs.values() if len(pair) <= 40]
     for name, pair in pairs.items():
         about, unit = written[name]["about"], written[name]["unit"]
         comment = f"{about} [{unit}]" if unit else about
         yield f"{pair:<{max(short, default=0)}}  # {comment}"
+
+
+def _in_file(thing: Robot | Section | Cable, name: str) -> Any:
+    value = getattr(thing, name)
+    return value + 1 if name == "end_section" else value
 
 
 def _is_written(thing: Robot | Section | Cable, item: Field[Any], all_fields: bool) -> bool:

@@ -20,6 +20,7 @@ _TYPES: dict[str, Any] = {
     "number": float,
     "number or none": float,
     "whole": _Int,
+    "section": Annotated[_Int, pydantic.Field(ge=1)],
     "numbers": list[float],
     "vector": _Three,
     "matrix": _Rows,
@@ -58,6 +59,8 @@ def _requirement(item: Field[Any], unit: str) -> str:
     if item.metadata["kind"] in ("vector", "matrix"):
         rows = "3 rows of " if item.metadata["kind"] == "matrix" else ""
         return f"an array of {rows}3 numbers" + (f" [{unit}]" if unit else "")
+    if item.metadata["kind"] == "section":
+        return "the number of a section, from 1"
     words = str(item.metadata["requirement"]).removesuffix(", or None")
     # "numbers in kg" and "a number of rad" are "numbers [kg]" and "a number [rad]" there.
     return re.sub(r"(numbers?) (in|of) \S+$", rf"\1 [{unit}]", words).replace(

@@ -109,7 +109,9 @@ def _attributes(run: Trajectory) -> dict[str, str | int]:
         "method": run.method,
         "formulation": run.model.formulation,
         "robot": json.dumps(asdict(run.model.robot)),
-        "slack_events": json.dumps(run.slack_events),
+        "slack_events": json.dumps(
+            [event._replace(cable=event.cable + 1) for event in run.slack_events]
+        ),
         **{name: getattr(run.stats, name) for name in STATS},
     }
 

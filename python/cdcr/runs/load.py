@@ -46,6 +46,7 @@ def _netcdf(file: Path, model: Model | None) -> dict[str, Any]:
         about = found.attrs
         model = model or _model(json.loads(about["robot"]), about["formulation"])
         rows = len(found.time)
+        events = json.loads(about.get("slack_events", "[]"))  # cables counted from 1, as in files
         command = found.command if "command" in found else found.tension
         return {
             "model": model,
@@ -58,7 +59,7 @@ def _netcdf(file: Path, model: Model | None) -> dict[str, Any]:
             "message": about["message"],
             "method": about["method"],
             "stats": make_stats(int(about[name]) for name in STATS),
-            "slack_events": json.loads(about.get("slack_events", "[]")),
+            "slack_events": [(t, cable - 1, slack) for t, cable, slack in events],
         }
     except (OSError, KeyError, AttributeError) as error:
         raise ValueError(f"{file} is no run that cdcr has written: {error}") from None
