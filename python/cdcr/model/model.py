@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, Literal, overload
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from cdcr import _core
+from cdcr.base.arrays import FloatArray
 from cdcr.model.inverse_kinematics import InverseKinematics
 from cdcr.model.modes import Modes, modes
 from cdcr.model.statics import checked_allocation, checked_equilibrium
@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 
     from cdcr.model.wrench import Wrench
 
-FloatArray = NDArray[np.float64]
 
 FORMULATIONS = tuple(f.name.replace("_", "-") for f in _core.Formulation)
 

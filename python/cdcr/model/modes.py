@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from cdcr.base.arrays import FloatArray
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from cdcr.model.model import Model
     from cdcr.model.wrench import Wrench
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, repr=False)

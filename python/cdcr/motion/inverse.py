@@ -11,13 +11,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cdcr import _core
+from cdcr.base.arrays import FloatArray
 from cdcr.model.model import Model
 from cdcr.model.statics import InfeasibleError
 from cdcr.motion.reference import Reference
 from cdcr.runs.command import Interpolation, TensionTable
 from cdcr.runs.simulate import warn_beyond_taylor_range
 
-FloatArray = NDArray[np.float64]
 Infeasible = Literal["raise", "nearest"]
 
 

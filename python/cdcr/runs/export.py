@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from cdcr import _core
+from cdcr.base.arrays import FloatArray
 from cdcr.base.extras import require
 from cdcr.files.new_file import new_file
 from cdcr.runs.stats import STATS
 
 if TYPE_CHECKING:
     import xarray
-    from numpy.typing import NDArray
 
     from cdcr.model.model import Model
     from cdcr.runs.trajectory import Trajectory
@@ -33,7 +33,7 @@ class Quantity(NamedTuple):
     dims: tuple[str, ...]
     units: str
     long_name: str
-    values: NDArray[np.float64]
+    values: FloatArray
 
 
 def by_length(model: Model) -> bool:

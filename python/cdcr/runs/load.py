@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cdcr._core import Status
+from cdcr.base.arrays import FloatArray
 from cdcr.base.extras import require
 from cdcr.model.model import Model
 from cdcr.robot.cable import Cable
@@ -19,8 +19,6 @@ from cdcr.robot.robot import Robot
 from cdcr.robot.section import Section
 from cdcr.runs.export import by_length
 from cdcr.runs.stats import STATS, make_stats
-
-FloatArray = NDArray[np.float64]
 
 
 def load(path: str | PathLike[str], model: Model | None) -> dict[str, Any]:

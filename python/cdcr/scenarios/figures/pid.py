@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
-from numpy.typing import NDArray
 
+from cdcr.base.arrays import FloatArray
 from cdcr.plotting.style import BLACK, COLORS, StyledFigure, style
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.figures.drawing import legend_below, new_figure, note
@@ -16,7 +16,6 @@ from cdcr.scenarios.studies.pid import LOOPS, READINGS, RECOMMENDED, TARGET, Loo
 if TYPE_CHECKING:
     from cdcr.scenarios.scenario import Scenario
 
-FloatArray = NDArray[np.float64]
 
 SIZE = (12.4, 6.6)  # [in]
 ALONE, FORWARD = COLORS[1], COLORS[0]

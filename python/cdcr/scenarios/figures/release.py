@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.axes import Axes
 
+from cdcr.base.arrays import FloatArray
 from cdcr.plotting import panels
 from cdcr.plotting.geometry import states_at
 from cdcr.plotting.style import BLACK, StyledFigure, line_colors, style
 from cdcr.scenarios.figures.drawing import legend_above, note
 from cdcr.scenarios.figures.sections import (
     SIZE,
-    Array,
     add_panels,
     draw_bending,
     draw_robot,
@@ -76,7 +76,7 @@ def _draw_held_tensions(axes: Axes, run: Trajectory) -> None:
     axes.set_xlabel("cable; colour: section where it ends")
 
 
-def _draw_tip(axes: Axes, run: Trajectory, rest: Array) -> None:
+def _draw_tip(axes: Axes, run: Trajectory, rest: FloatArray) -> None:
     for k, (name, color) in enumerate(zip("xyz", line_colors(6)[3:], strict=True)):
         axes.plot(run.t, run.tip[:, k], color=color, label=name)
         axes.axhline(rest[k], color=color, linewidth=0.9, dashes=(6, 4))

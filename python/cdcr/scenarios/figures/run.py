@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
-from numpy.typing import NDArray
 
+from cdcr.base.arrays import FloatArray
 from cdcr.plotting import panels, plot_run_robot, space
 from cdcr.plotting.style import BLACK, StyledFigure, line_colors, style
 from cdcr.scenarios.figures.workspace import new_figure
@@ -35,7 +35,7 @@ def run_figure(scenario: Scenario, run: Trajectory) -> StyledFigure:
     return figure
 
 
-def _draw_robot(figure: StyledFigure, run: Trajectory, times: NDArray[np.float64]) -> None:
+def _draw_robot(figure: StyledFigure, run: Trajectory, times: FloatArray) -> None:
     axes = space.add_axes(figure)
     plot_run_robot(run, times, ax=axes)
     scale, _ = space.fit(axes, ROBOT_ROOM)
@@ -59,7 +59,7 @@ def _draw_panels(figure: StyledFigure, run: Trajectory, wrenches: Sequence[Wrenc
     figure.align_ylabels()
 
 
-def _mark_rest(axes: Axes, rest: NDArray[np.float64] | None) -> None:
+def _mark_rest(axes: Axes, rest: FloatArray | None) -> None:
     """Draw the bending angles of rest (n,) [deg], where there are some."""
     if rest is None:
         return

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from numpy.typing import NDArray
 
+from cdcr.base.arrays import FloatArray
 from cdcr.plotting import panels, space
 from cdcr.plotting.robot3d import RobotArtists, section_colors, show_robot
 from cdcr.plotting.style import BLACK, GREY, StyledFigure
@@ -16,7 +16,6 @@ from cdcr.plotting.style import BLACK, GREY, StyledFigure
 if TYPE_CHECKING:
     from cdcr.runs.trajectory import Trajectory
 
-Array = NDArray[np.float64]
 
 SIZE = (12.4, 8.0)  # of the picture [in]
 ROOM = np.array([5.9, 7.0])  # of the robot in space, left [in]
@@ -27,9 +26,9 @@ SLANTED = 0.3  # a name beside a tip starts or ends there, one above or below is
 def draw_robot(
     figure: StyledFigure,
     run: Trajectory,
-    states: Array,
+    states: FloatArray,
     names: Sequence[str],
-    fading: Array,
+    fading: FloatArray,
     fallen: str = "",
 ) -> None:
     """Draw the robot at states (M, 2n), each named at its tip, and the path of the tip."""
@@ -59,7 +58,7 @@ def draw_robot(
     )
 
 
-def _name_shape(axes: Any, R: Array, p: Array, name: str) -> None:
+def _name_shape(axes: Any, R: FloatArray, p: FloatArray, name: str) -> None:
     """Write a name beyond the tip of a shape."""
     paper = space.paper_directions(axes)
     across, _ = away = paper @ R[:, 2] / np.linalg.norm(paper @ R[:, 2])

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cdcr.base.arrays import FloatArray
 from cdcr.plotting import panels
 from cdcr.plotting.geometry import states_at
 from cdcr.plotting.style import BLACK, COLORS, StyledFigure, style
@@ -41,7 +41,7 @@ def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
     return figure
 
 
-def _draw_paths(figure: StyledFigure, run: Trajectory, settled_tips: NDArray[np.float64]) -> None:
+def _draw_paths(figure: StyledFigure, run: Trajectory, settled_tips: FloatArray) -> None:
     times = [time for time in RESTS.values() if time <= run.t[-1]]
     shown = states_at(run, np.array(times or [run.t[-1]]))
     axes = workspace.add_surface(figure, run.model, shown, float(run.theta.max()))

@@ -6,16 +6,14 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from numpy.typing import NDArray
 
 from cdcr._core import taylor_range
+from cdcr.base.arrays import FloatArray
 from cdcr.model.coordinates import bending
 from cdcr.model.model import Model
 from cdcr.plotting import space
 from cdcr.plotting.robot3d import RobotArtists, show_robot
 from cdcr.plotting.style import GREY, StyledFigure
-
-Array = NDArray[np.float64]
 
 SIZE = (12.4, 7.2)  # of the picture [in]
 ROOM = np.array([6.2, 6.5])  # of the surface, at the left [in]
@@ -32,7 +30,7 @@ def new_figure(title: str, size: tuple[float, float] = SIZE) -> StyledFigure:
     return figure
 
 
-def add_surface(figure: StyledFigure, model: Model, states: Array, largest: float) -> Any:
+def add_surface(figure: StyledFigure, model: Model, states: FloatArray, largest: float) -> Any:
     """Add Axes3D with the surface of tips well round a path that bends by up to `largest` [rad].
 
     The robot is drawn at `states` (M, 2) [rad], the earlier the fainter.

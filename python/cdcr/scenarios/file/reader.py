@@ -24,8 +24,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cdcr.base.arrays import FloatArray
 from cdcr.files.toml import read_toml, refuse, schema_errors
 from cdcr.model.model import Model
 from cdcr.runs.command import TensionTable
@@ -39,8 +39,6 @@ from cdcr.scenarios.file.trajectory import read_trajectory
 from cdcr.scenarios.file.values import error_prefix
 from cdcr.scenarios.file.wrenches import read_wrenches
 from cdcr.scenarios.scenario import FILES, Scenario
-
-FloatArray = NDArray[np.float64]
 
 # Keys that a file has in common with Scenario.
 _COMMON = ("title", "description", "source", "formulation", "t_end")

@@ -12,15 +12,11 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from cdcr.base.arrays import FloatArray
 from cdcr.files.toml import refuse, schema_errors
 from cdcr.model.model import Model
 from cdcr.model.statics import ConvergenceError
 from cdcr.scenarios.file.values import bending_vector, length_errors, rival_errors
-
-FloatArray = NDArray[np.float64]
 
 _SHAPE = ("q", "theta", "theta_deg", "phi", "phi_deg")
 

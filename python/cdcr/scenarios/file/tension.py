@@ -13,9 +13,8 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
-from cdcr.base.arrays import even_times
+from cdcr.base.arrays import FloatArray, even_times
 from cdcr.files.number_csv import Layout, read_numbers
 from cdcr.files.toml import format_toml, refuse, schema_errors
 from cdcr.model.model import Model
@@ -30,8 +29,6 @@ from cdcr.scenarios.file.values import (
     length_errors,
     rival_errors,
 )
-
-FloatArray = NDArray[np.float64]
 
 SHAPES: dict[str, Callable[..., Shape]] = {
     "step": step,

@@ -7,10 +7,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cdcr._core import Status
-from cdcr.base.arrays import even_times
+from cdcr.base.arrays import FloatArray, even_times
 from cdcr.model.model import Model
 from cdcr.motion.inverse import Infeasible, InverseRun, inverse_run
 from cdcr.motion.reference import Reference
@@ -26,8 +25,6 @@ from cdcr.scenarios.scenario import Scenario
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-FloatArray = NDArray[np.float64]
 
 
 def driven_by_length(model: Model) -> bool:

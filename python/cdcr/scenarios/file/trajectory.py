@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cdcr.base.arrays import FloatArray
 from cdcr.base.check import nearest
 from cdcr.files.number_csv import Layout, read_numbers
 from cdcr.files.toml import format_toml, refuse, schema_errors
@@ -25,8 +25,6 @@ from cdcr.motion.reference import Reference
 from cdcr.motion.splines import Motion, bending_vectors
 from cdcr.scenarios.file.tracking import TrackedMotion, driven_by_length
 from cdcr.scenarios.file.values import count, error_prefix, of_sections, rival_errors
-
-FloatArray = NDArray[np.float64]
 
 AT = "trajectory"
 _LIMITS = ("min_tension", "max_tension", "infeasible")

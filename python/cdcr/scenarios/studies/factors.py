@@ -5,16 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cdcr._core import taylor_range
+from cdcr.base.arrays import FloatArray
 from cdcr.paper import factors
 from cdcr.scenarios.metrics import Metric
 
 if TYPE_CHECKING:
     from cdcr.scenarios.scenario import Scenario
 
-FloatArray = NDArray[np.float64]
 
 SAME = 1e-9  # relative; closer than this, printed and derived are one
 

@@ -7,8 +7,8 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cdcr.base.arrays import FloatArray
 from cdcr.model.model import Model
 from cdcr.robots import amouri2020
 from cdcr.runs.simulate import simulate
@@ -37,10 +37,10 @@ def linear_settling_time(damping: float) -> float:
     return float(2.0 * inertia * math.log(1.0 / SETTLED) / damping)
 
 
-def amplitude(run: Trajectory) -> NDArray[np.float64]:
+def amplitude(run: Trajectory) -> FloatArray:
     """Return how far the robot would swing with its energy at each time (N,) [rad]."""
     stiffness = run.model.robot.sections[0].stiffness
-    reach: NDArray[np.float64] = np.sqrt(2.0 * run.energy / stiffness)
+    reach: FloatArray = np.sqrt(2.0 * run.energy / stiffness)
     return reach
 
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from cdcr._core import taylor_range
+from cdcr.base.arrays import FloatArray
 from cdcr.model.coordinates import polar
 from cdcr.model.model import Model
 from cdcr.robots import amouri2020
@@ -28,14 +29,14 @@ def model_of(way: str) -> Model:
     return Model(amouri2020(gravity=(0.0, 0.0, WAYS[way])))
 
 
-def energy_ratio(theta: ArrayLike, way: str) -> NDArray[np.float64]:
+def energy_ratio(theta: ArrayLike, way: str) -> FloatArray:
     """Return the gravitational energy, zero when straight, over the elastic one, theta > 0 [1]."""
     angles = np.atleast_1d(np.asarray(theta, dtype=np.float64))
     q = np.stack([angles, np.zeros_like(angles)], axis=1)
     free, heavy = model_of("no gravity"), model_of(way)
     elastic, total = free.potential_energies(q), heavy.potential_energies(q)
     straight = heavy.potential_energy([0.0, 0.0])
-    ratio: NDArray[np.float64] = (total - straight - elastic) / elastic
+    ratio: FloatArray = (total - straight - elastic) / elastic
     return ratio
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cdcr._core import taylor_range
+from cdcr.base.arrays import FloatArray
 from cdcr.paper import factors, inertia
 from cdcr.robot.robot import Robot
 from cdcr.scenarios.metrics import Metric
@@ -16,7 +16,6 @@ from cdcr.scenarios.studies.factors import cut
 if TYPE_CHECKING:
     from cdcr.scenarios.scenario import Scenario
 
-FloatArray = NDArray[np.float64]
 
 CLAIM = 0.05  # error that the paper gives for both [%]
 

@@ -7,8 +7,9 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from cdcr.base.arrays import FloatArray
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.metrics import Metric
 from cdcr.scenarios.studies.energy import integral
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
     from cdcr.scenarios.file.tracking import TrackedMotion
     from cdcr.scenarios.scenario import Scenario
 
-FloatArray = NDArray[np.float64]
 
 GO, BACK = 0.5, 4.5  # when it starts to go and to come back, as in the file [s]
 TIMES = 10.0  # as stiff are the cables it is compared with

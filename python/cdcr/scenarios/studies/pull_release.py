@@ -7,8 +7,8 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cdcr.base.arrays import FloatArray
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.metrics import Metric
 from cdcr.scenarios.studies.energy import integral
@@ -16,7 +16,6 @@ from cdcr.scenarios.studies.energy import integral
 if TYPE_CHECKING:
     from cdcr.scenarios.scenario import Scenario
 
-FloatArray = NDArray[np.float64]
 
 FULL = 15.0  # largest tension of cable 1 [N]
 RAMP = 20.0  # time to pull, and to release [s]

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cdcr.base.arrays import FloatArray
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.metrics import Metric
 from cdcr.scenarios.studies.energy import dissipated, energy_gap, fine_run
@@ -14,25 +14,24 @@ from cdcr.scenarios.studies.energy import dissipated, energy_gap, fine_run
 if TYPE_CHECKING:
     from cdcr.scenarios.scenario import Scenario
 
-Array = NDArray[np.float64]
 
 SETTLED = 0.02  # share of the first distance
 
 
-def distance(run: Trajectory, q: Array) -> Array:
+def distance(run: Trajectory, q: FloatArray) -> FloatArray:
     """Return how far the tip is (N,) from where it is at q (2n,) [m]."""
-    away: Array = np.linalg.norm(run.tip - run.model.tip(q)[1], axis=1)
+    away: FloatArray = np.linalg.norm(run.tip - run.model.tip(q)[1], axis=1)
     return away
 
 
-def settling_time(t: Array, away: Array) -> float | None:
+def settling_time(t: FloatArray, away: FloatArray) -> float | None:
     """Return when `away` (N,) is last above SETTLED of its start, None if it is so at the end."""
     outside = np.flatnonzero(away > SETTLED * away[0])
     last = int(outside[-1]) if outside.size else 0
     return float(t[last]) if last + 1 < len(t) else None
 
 
-def at_rest(run: Trajectory) -> Array:
+def at_rest(run: Trajectory) -> FloatArray:
     """Return q (2n,) where a run under constant tensions comes to rest [rad]."""
     return run.model.equilibrium(run.command[0])
 

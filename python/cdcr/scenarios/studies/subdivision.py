@@ -6,9 +6,9 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cdcr._core import max_sections
+from cdcr.base.arrays import FloatArray
 from cdcr.model.model import Model
 from cdcr.robots import amouri2020
 from cdcr.runs.simulate import simulate
@@ -18,7 +18,6 @@ from cdcr.scenarios.metrics import Metric
 if TYPE_CHECKING:
     from cdcr.scenarios.scenario import Scenario
 
-FloatArray = NDArray[np.float64]
 
 COUNTS = tuple(range(1, 11))
 SHOWN = 3  # planar modes

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cdcr.base.arrays import FloatArray
 from cdcr.model.coordinates import polar
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.metrics import Metric
@@ -16,10 +16,8 @@ if TYPE_CHECKING:
     from cdcr.scenarios.file.tension import Hold
     from cdcr.scenarios.scenario import Scenario
 
-Array = NDArray[np.float64]
 
-
-def goals(scenario: Scenario) -> Array:
+def goals(scenario: Scenario) -> FloatArray:
     """Return the shape of each phase (3, 6): one section is bent, the others are straight."""
     return cast("Hold", scenario.tension).q[2::2]
 
@@ -31,7 +29,7 @@ def ends(scenario: Scenario, run: Trajectory) -> list[tuple[int, int]]:
     return [(k, int(np.searchsorted(run.t, t - half))) for k, t in times if t <= run.t[-1]]
 
 
-def own_cables_alone(run: Trajectory, k: int, last: int) -> Array:
+def own_cables_alone(run: Trajectory, k: int, last: int) -> FloatArray:
     """Return q (2n,) at rest if only the cables that end at section k pulled, as at a sample."""
     own = np.array([cable.end_section == k for cable in run.model.robot.all_cables])
     return run.model.equilibrium(np.where(own, run.tension[last], 0.0))

@@ -6,9 +6,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
-from cdcr.base.arrays import even_times
+from cdcr.base.arrays import FloatArray, even_times
 from cdcr.motion.inverse import InverseRun
 from cdcr.motion.reference import Reference
 from cdcr.runs.trajectory import Trajectory
@@ -18,7 +17,6 @@ if TYPE_CHECKING:
     from cdcr.scenarios.file.tracking import TrackedMotion
     from cdcr.scenarios.scenario import Scenario
 
-FloatArray = NDArray[np.float64]
 
 STEP = 0.2  # between the tensions fed back, as in the paper [s]
 FINE_STEP = 1e-3  # the same, for comparison [s]

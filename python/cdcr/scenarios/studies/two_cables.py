@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cdcr.base.arrays import FloatArray
 from cdcr.model.coordinates import polar
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.metrics import Metric
@@ -18,7 +18,7 @@ FULL = 5.0  # of a pulled cable [N]
 RESTS = {"cable 1": 3.0, "cables 1 and 2": 6.0, "cable 2": 9.0}  # times between ramps [s]
 
 
-def settled(run: Trajectory) -> NDArray[np.float64]:
+def settled(run: Trajectory) -> FloatArray:
     """Return the bending vectors of rest (N, 2) under the tensions of each time [rad]."""
     return np.array([run.model.equilibrium(tension) for tension in run.tension])
 
