@@ -7,7 +7,7 @@ import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, cast
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
@@ -16,7 +16,7 @@ import cdcr
 from cdcr.cli import audit, figures, info, new, run, tables
 
 if TYPE_CHECKING:
-    from cdcr.runs.simulate import MethodName
+    pass
 
 app = typer.Typer(
     help="Dynamics of cable-driven continuum robots.",
@@ -140,7 +140,7 @@ def run_command(
             out,
             overwrite=overwrite,
             console=Console(stderr=True),
-            method=cast("MethodName | None", method),
+            method=method,
             t_end=t_end,
             rtol=rtol,
             atol=atol,

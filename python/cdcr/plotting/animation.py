@@ -22,8 +22,6 @@ from cdcr.plotting.video import MAX_GIF_FPS, film_path, write_film
 if TYPE_CHECKING:
     from cdcr.runs.trajectory import Trajectory
 
-__all__ = ["animate"]
-
 SIZE = (11.0, 5.6)  # of the picture [in]
 DPI = 100  # with SIZE, even numbers of pixels: films want that
 ROBOT_ROOM = np.array([5.6, 5.4])  # of the robot's part, left [in]
@@ -102,8 +100,7 @@ class _Film:
         robot_axes = space.add_axes(figure)
         chosen = np.linspace(0, len(run) - 1, min(len(run), NUM_FITTED)).astype(int)
         show_robot(robot_axes, run.model, run.q[chosen], run.tip)
-        scale, _ = space.fit(robot_axes, ROBOT_ROOM)
-        space.place(robot_axes, scale, ROBOT_ROOM)
+        space.fill(robot_axes, ROBOT_ROOM)
         self._robot = RobotArtists(robot_axes, run.model, run.q[0])
         self._largest = np.max(run.tension, initial=0.0)
 

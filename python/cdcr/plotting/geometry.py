@@ -14,9 +14,6 @@ if TYPE_CHECKING:
     from cdcr.robot.cable import Cable
     from cdcr.runs.trajectory import Trajectory
 
-__all__ = ["RobotShape", "base_plate", "robot_shape", "states_at"]
-
-
 PIECES = 48  # straight pieces of a section's backbone
 CORNERS = 48  # of a disk
 

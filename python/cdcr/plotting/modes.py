@@ -15,9 +15,6 @@ if TYPE_CHECKING:
     from cdcr.model.model import Model
     from cdcr.model.modes import Modes
 
-__all__ = ["plot_modes"]
-
-
 PANEL = np.array([2.9, 4.4])  # [in]
 SWING = (1.0, 0.5)  # of the phases drawn to each side of rest, the full one last
 VIEW = {"elev": 24.0, "azim": -52.0}  # [deg]: shows motion along x and along y
@@ -57,8 +54,7 @@ def plot_modes(modes: Modes, count: int = 4, *, deflection: float = 0.15) -> Sty
             axes = space.add_axes(figure)
             axes.view_init(**VIEW)
             space.show_points(axes, points)
-            scale, _ = space.fit(axes, PANEL)
-            space.place(axes, scale, PANEL)
+            space.fill(axes, PANEL)
             box = axes.get_position()
             axes.set_position((box.x0 + k / shown, box.y0, box.width, box.height))
             for j, line in enumerate(pair):

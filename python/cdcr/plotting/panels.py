@@ -15,18 +15,6 @@ if TYPE_CHECKING:
     from cdcr.model.model import Model
     from cdcr.runs.trajectory import Trajectory
 
-__all__ = [
-    "cable_colors",
-    "cable_dashes",
-    "keep_span",
-    "plot_phi",
-    "plot_run",
-    "plot_tension",
-    "plot_theta",
-    "show_time",
-    "shown_phi",
-]
-
 # Smallest spans shown, so that rounding noise does not fill a panel.
 MIN_ANGLE = 1.0  # [deg]
 MIN_TENSION = 1.0  # [N]

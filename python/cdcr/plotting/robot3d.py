@@ -19,9 +19,6 @@ if TYPE_CHECKING:
     from cdcr.model.model import Model
     from cdcr.runs.trajectory import Trajectory
 
-__all__ = ["RobotArtists", "plot_robot", "plot_run_robot", "section_colors", "show_robot"]
-
-
 SLACK_WIDTH, TAUT_WIDTH = 0.8, 2.2  # of the line of a cable [pt]
 FINER = 0.6  # share of these, of the cables of several sections
 FAINTEST = 0.25  # opacity of the earliest of several shapes

@@ -12,9 +12,6 @@ from mpl_toolkits.mplot3d import proj3d  # type: ignore[import-untyped]
 
 from cdcr.base.arrays import FloatArray
 
-__all__ = ["add_axes", "fit", "paper_directions", "place", "show_points", "towards_viewer"]
-
-
 # Of three cables, the first along X, none hides another.
 VIEW = {"elev": 24.0, "azim": -74.0}  # [deg]
 MAX_TICKS = 7  # along the longest side
@@ -100,6 +97,12 @@ def place(axes: Any, scale: float, room: FloatArray) -> None:
     # The middle of the box has the coordinates (0, 0) of the square.
     corner = center + scale * axes.viewLim.min / axes.viewLim.size
     axes.set_position((*(corner / paper), *(scale / paper)))
+
+
+def fill(axes: Any, room: FloatArray) -> None:
+    """Let Axes3D fill a room (width, height) [in] at the left of its figure."""
+    scale, _ = fit(axes, room)
+    place(axes, scale, room)
 
 
 def _limits(axes: Any) -> FloatArray:

@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from cdcr.model.model import Model
     from cdcr.runs.trajectory import Trajectory
 
-__all__ = ["save", "to_xarray"]
-
 
 class Quantity(NamedTuple):
     """One array of a run: its dimensions after time, its unit and what it is."""

@@ -15,7 +15,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from cdcr.base.check import nearest
+from cdcr.base.check import require_known
 from cdcr.scenarios import library
 from cdcr.scenarios.scenario import Scenario
 
@@ -75,7 +75,7 @@ def get(name: str) -> Scenario:
     ValueError
         For an unknown name, with the known ones.
     """
-    _check(name, names())
+    require_known("scenario", name, names())
     file, module = _folder() / f"{name}.toml", name.replace("-", "_")
     if file.exists():
         from cdcr.scenarios.file.reader import load_scenario
@@ -113,15 +113,8 @@ def source_file(name: str) -> Path:
                 f"the scenario {name!r} is no file: it is a picture of the model alone, made in "
                 f"Python. Files: {', '.join(files)}"
             )
-        _check(name, files)
+        require_known("scenario", name, files)
     return file
-
-
-def _check(name: str, known: Sequence[str]) -> None:
-    if name not in known:
-        raise ValueError(
-            f"there is no scenario {name!r}.{nearest(name, known)} Known: {', '.join(known)}"
-        )
 
 
 def _folder() -> Path:

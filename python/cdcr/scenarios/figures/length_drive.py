@@ -12,7 +12,7 @@ from cdcr.plotting.geometry import states_at
 from cdcr.plotting.robot3d import RobotArtists, show_robot
 from cdcr.plotting.style import BLACK, GREY, LIGHT_GREY, StyledFigure, line_colors, style
 from cdcr.scenarios.figures.drawing import note
-from cdcr.scenarios.figures.workspace import new_figure
+from cdcr.scenarios.figures.workspace import add_panels, new_figure
 from cdcr.scenarios.studies.length_drive import BACK, GO, errors, stiffer, wanted
 
 if TYPE_CHECKING:
@@ -29,17 +29,8 @@ def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
     with style():
         figure = new_figure(scenario.title, SIZE)
         _draw_robot(figure, scenario, run)
-        grid = figure.add_gridspec(
-            3,
-            1,
-            left=0.56,
-            right=0.955,
-            bottom=0.075,
-            top=0.91,
-            hspace=0.3,
-            height_ratios=[1.2, 1.0, 1.6],
-        )
-        theta, error, tension = (figure.add_subplot(grid[row]) for row in range(3))
+        place = {"left": 0.56, "right": 0.955, "bottom": 0.075, "top": 0.91, "hspace": 0.3}
+        theta, error, tension = add_panels(figure, [1.2, 1.0, 1.6], **place)
         _draw_theta(theta, scenario, run)
         _draw_errors(error, scenario, run)
         _draw_tensions(tension, run)
@@ -62,8 +53,7 @@ def _draw_robot(figure: StyledFigure, scenario: Scenario, run: Trajectory) -> No
     line = np.array([run.model.pose(ideal, i, x)[1] for i in sections for x in places])
     axes.plot(*line.T, color=BLACK, linewidth=1.8, linestyle=":", zorder=20, label="wanted")
     axes.plot(*run.tip.T, color=GREY, linewidth=1.0, zorder=19, label="path of the tip")
-    scale, _ = space.fit(axes, ROOM)
-    space.place(axes, scale, ROOM)
+    space.fill(axes, ROOM)
     middle = ROOM[0] / SIZE[0] / 2.0
     handles, labels = axes.get_legend_handles_labels()
     figure.legend(handles, labels, loc="upper center", bbox_to_anchor=(middle, 0.82), ncols=2)

@@ -13,13 +13,13 @@ from cdcr.plotting.geometry import states_at
 from cdcr.plotting.style import BLACK, StyledFigure, line_colors, style
 from cdcr.scenarios.figures.drawing import legend_above, note
 from cdcr.scenarios.figures.sections import (
+    PLACE,
     SIZE,
-    add_panels,
     draw_bending,
     draw_robot,
     finish,
 )
-from cdcr.scenarios.figures.workspace import new_figure
+from cdcr.scenarios.figures.workspace import add_panels, new_figure
 from cdcr.scenarios.studies.energy import cable_work, dissipated
 from cdcr.scenarios.studies.release import at_rest
 
@@ -49,7 +49,7 @@ def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
         draw_robot(figure, run, states, names, fading, fallen)
         moving = [k for k in (0, 1) if np.ptp(run.q[:, k::2]) > STILL]
         pulled = bool(run.tension.any())
-        charts = add_panels(figure, [1.2] * (len(moving) + 2) + [0.9] * pulled)
+        charts = add_panels(figure, [1.2] * (len(moving) + 2) + [0.9] * pulled, **PLACE)
         *bends, tip, energy = timed = charts[: len(moving) + 2]
         for k, axes in zip(moving, bends, strict=True):
             draw_bending(axes, run, k)

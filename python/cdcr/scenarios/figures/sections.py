@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 SIZE = (12.4, 8.0)  # of the picture [in]
 ROOM = np.array([5.9, 7.0])  # of the robot in space, left [in]
 BEYOND = 0.045  # from a tip to the name of the shape [m]
+PLACE = {"left": 0.545, "bottom": 0.075, "top": 0.91, "hspace": 0.42}  # of the panels
 SLANTED = 0.3  # a name beside a tip starts or ends there, one above or below is centred
 
 
@@ -39,8 +40,7 @@ def draw_robot(
     for k, (q, alpha) in enumerate(zip(states, fading, strict=True)):
         robot = RobotArtists(axes, model, q, alpha=float(alpha), layer=3.0 + k)
     robot.name_cables()
-    scale, _ = space.fit(axes, ROOM)
-    space.place(axes, scale, ROOM)
+    space.fill(axes, ROOM)
     if fallen:
         axes.plot(*run.tip[:1].T, "o", color=BLACK, markersize=9, zorder=25, label=f"{fallen}, 0 s")
     for q, name in zip(states, names, strict=True):
@@ -65,21 +65,6 @@ def _name_shape(axes: Any, R: FloatArray, p: FloatArray, name: str) -> None:
     side = "center" if abs(across) < SLANTED else "left" if across > 0.0 else "right"
     place = p + BEYOND * away @ paper
     axes.text(*place, name, fontsize=9.5, color=BLACK, ha=side, va="center", zorder=30)
-
-
-def add_panels(figure: StyledFigure, heights: Sequence[float]) -> list[Axes]:
-    """Add panels at the right, one above the other."""
-    grid = figure.add_gridspec(
-        len(heights),
-        1,
-        left=0.545,
-        right=0.98,
-        bottom=0.075,
-        top=0.91,
-        hspace=0.42,
-        height_ratios=list(heights),
-    )
-    return [figure.add_subplot(grid[row]) for row in range(len(heights))]
 
 
 def finish(figure: StyledFigure, charts: Sequence[Axes], run: Trajectory) -> None:

@@ -10,8 +10,8 @@ from matplotlib.axes import Axes
 from cdcr.plotting import panels
 from cdcr.plotting.style import BLACK, StyledFigure, style
 from cdcr.scenarios.figures.drawing import legend_above, note
-from cdcr.scenarios.figures.sections import SIZE, add_panels, draw_bending, draw_robot, finish
-from cdcr.scenarios.figures.workspace import new_figure
+from cdcr.scenarios.figures.sections import PLACE, SIZE, draw_bending, draw_robot, finish
+from cdcr.scenarios.figures.workspace import add_panels, new_figure
 from cdcr.scenarios.studies.three_sections import ends, goals
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
         states = np.concatenate([[run.q[0]], run.q[last]])
         draw_robot(figure, run, states, ["straight", *names], np.ones(len(states)))
         heights = [1.4, 1.4, *[1.0] * run.model.num_sections]
-        bend_x, bend_y, *pulls = charts = add_panels(figure, heights)
+        bend_x, bend_y, *pulls = charts = add_panels(figure, heights, **PLACE)
         for axes, k, name in ((bend_x, 0, "x"), (bend_y, 1, "y")):
             draw_bending(axes, run, k)
             _draw_goals(axes, scenario, run, k)

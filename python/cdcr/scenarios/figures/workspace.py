@@ -53,23 +53,14 @@ def add_surface(figure: StyledFigure, model: Model, states: FloatArray, largest:
 
 def finish_surface(figure: StyledFigure, axes: Any) -> None:
     """Give the surface its place, and its legend below it."""
-    scale, _ = space.fit(axes, ROOM)
-    space.place(axes, scale, ROOM)
+    space.fill(axes, ROOM)
     middle = ROOM[0] / SIZE[0] / 2.0
     handles, labels = axes.get_legend_handles_labels()
     figure.legend(handles, labels, loc="upper center", bbox_to_anchor=(middle, 0.945), ncols=2)
 
 
-def add_panels(figure: StyledFigure, heights: list[float]) -> list[Axes]:
-    """Add panels over time at the right, one above the other."""
-    grid = figure.add_gridspec(
-        len(heights),
-        1,
-        left=0.555,
-        right=0.98,
-        bottom=0.09,
-        top=0.9,
-        hspace=0.4,
-        height_ratios=heights,
-    )
+def add_panels(figure: StyledFigure, heights: list[float], **place: float) -> list[Axes]:
+    """Add panels over time at the right, one above the other; `place` is of their grid."""
+    usual = {"left": 0.555, "right": 0.98, "bottom": 0.09, "top": 0.9, "hspace": 0.4}
+    grid = figure.add_gridspec(len(heights), 1, height_ratios=heights, **(usual | place))
     return [figure.add_subplot(grid[row]) for row in range(len(heights))]

@@ -19,16 +19,10 @@ from cdcr.files.number_csv import Layout, read_numbers
 from cdcr.files.toml import format_toml, refuse, schema_errors
 from cdcr.model.model import Model
 from cdcr.runs.command import Interpolation, TensionTable, command_input
+from cdcr.scenarios.file import values
 from cdcr.scenarios.file.shapes import Shape, TensionShapes, pulse, ramp, sine, step
 from cdcr.scenarios.file.start import carrying
 from cdcr.scenarios.file.trajectory import shape_errors
-from cdcr.scenarios.file.values import (
-    bending_vector,
-    count,
-    error_prefix,
-    length_errors,
-    rival_errors,
-)
 
 SHAPES: dict[str, Callable[..., Shape]] = {
     "step": step,
@@ -65,7 +59,7 @@ class Hold:
     def commands(self, model: Model) -> FloatArray:
         """Return the commands (N, num_cables) at the times [N], [m] of cables driven by length."""
         loaded, still = carrying(model, self.payload), np.zeros(model.num_coordinates)
-        with error_prefix(self.where):
+        with values.error_prefix(self.where):
             return np.array(
                 [
                     loaded.commands(q, loaded.allocate(loaded.inverse_dynamics(q, still, still)))
@@ -94,7 +88,7 @@ def read_tension(
     num_cables = model.num_cables
     tension = model.rest_command() if value is None else value
     if len(tension) != num_cables:
-        requirement = f"tension must have {count(num_cables, 'number')}, one for each cable"
+        requirement = f"tension must have {values.count(num_cables, 'number')}, one for each cable"
         refuse(str(file), [f"{requirement}, got {format_toml(value)}"])
     return tuple(map(float, tension))
 
@@ -117,7 +111,7 @@ def _over_time(table: dict[str, Any], model: Model, file: Path) -> TensionTable:
         t, rows = table["t"], table["rows"]
         refuse(where, _row_errors(t, rows, model.num_cables))
     tension = TensionTable(t, rows, table.get("interpolation", "linear"))
-    with error_prefix(where):
+    with values.error_prefix(where):
         command_input(model, tension)
     return tension
 
@@ -125,10 +119,9 @@ def _over_time(table: dict[str, Any], model: Model, file: Path) -> TensionTable:
 def _row_errors(t: list[float], rows: list[list[float]], num_cables: int) -> list[str]:
     if len(rows) != len(t):
         return [f"rows must be as many as t, {len(t)}, got {len(rows)}"]
+    must = f"must have {values.count(num_cables, 'number')}, one for each cable"
     return [
-        f"rows[{i}] must have {count(num_cables, 'number')}, one for each cable, got {len(row)}"
-        for i, row in enumerate(rows)
-        if len(row) != num_cables
+        f"rows[{i}] {must}, got {len(row)}" for i, row in enumerate(rows) if len(row) != num_cables
     ]
 
 
@@ -137,7 +130,7 @@ def _hold(table: dict[str, Any], model: Model, file: Path) -> Hold:
 
     at, hold = "tension.hold", table["hold"]
     refuse(str(file), schema_errors(TensionHold, table, "tension"))
-    refuse(str(file), [*schema_errors(HoldTable, hold, at), *rival_errors(hold, at)])
+    refuse(str(file), [*schema_errors(HoldTable, hold, at), *values.rival_errors(hold, at)])
     t = table.get("t", [0.0])
     given = {key: value for key, value in hold.items() if key != "payload"}
     rows = given if "t" in table else {key: [value] for key, value in given.items()}
@@ -148,12 +141,12 @@ def _hold(table: dict[str, Any], model: Model, file: Path) -> Hold:
     q = []
     for k in range(len(t)):
         shape = {key: value[k] for key, value in rows.items()}
-        refuse(str(file), length_errors(shape, model.num_sections, at))
-        q.append(bending_vector(shape, model.num_sections))
+        refuse(str(file), values.length_errors(shape, model.num_sections, at))
+        q.append(values.bending_vector(shape, model.num_sections))
     times, payload = np.array(t), hold.get("payload", 0.0)
     held = Hold(times, np.array(q), payload, table.get("interpolation", "linear"), f"{file}, {at}")
     commands = held(model, float(times[-1]))
-    with error_prefix(f"{file}, [tension]"):
+    with values.error_prefix(f"{file}, [tension]"):
         command_input(model, commands)
     return held
 
@@ -187,9 +180,9 @@ def _shapes(tables: list[dict[str, Any]], model: Model, file: Path, name: str) -
     refuse(str(file), found)
     shapes = []
     for i, table in enumerate(tables):
-        with error_prefix(f"{file}: {name}[{i}]"):
+        with values.error_prefix(f"{file}: {name}[{i}]"):
             shapes.append((table["cable"] - 1, _shape(table)))
-    with error_prefix(f"{file}, [[{name}]]"):
+    with values.error_prefix(f"{file}, [[{name}]]"):
         return TensionShapes(model.num_cables, shapes)
 
 
