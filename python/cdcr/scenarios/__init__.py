@@ -8,7 +8,6 @@ a picture of its own are ``summarize`` and ``plot`` of modules of that name in `
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 from importlib import import_module
 from importlib.util import find_spec
