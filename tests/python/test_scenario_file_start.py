@@ -56,6 +56,10 @@ def test_a_known_robot_with_changes(tmp_path: Path) -> None:
         (ROBOT.replace("damping", "damp"), ": each_section.damp is not a known key. Did you "),
         (ROBOT.replace("0.01", "'a'"), ": each_section.damping must be a number >= 0 "),
         (ROBOT.replace("0.01", "-1"), ", each_section: damping must be >= 0 "),
+        (
+            ROBOT + "cable_angles = [0]\ncable_angles_deg = [0]\n",
+            ": each_section must have cable_angles or cable_angles_deg, not both",
+        ),
         (ROBOT + "[[robot.cables]]\nradius = 0.1\n", ": cables is not a known key"),
     ],
 )

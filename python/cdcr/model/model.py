@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 
     from cdcr.model.wrench import Wrench
 
-
 FORMULATIONS = tuple(f.name.replace("_", "-") for f in _core.Formulation)
 
 

@@ -28,7 +28,6 @@ from cdcr.base.arrays import FloatArray
 if TYPE_CHECKING:
     from fractions import Fraction
 
-
 # Points of the Gauss quadrature along the backbone: exact to rounding up to max_bending.
 _NUM_POINTS = 32
 # Terms of a power series in y below one: the next is under 1e-17 of the first.

@@ -46,7 +46,7 @@ def robot_from_table(kind: type[Robot], table: Mapping[str, Any], where: str) ->
     found: list[str] = []
     for i, section in enumerate(table["sections"]):
         found += schema_errors(table_of(Section), section, f"sections[{i}]")
-        found += _doubled(section, f"sections[{i}]", "cable_angles")
+        found += doubled(section, f"sections[{i}]", "cable_angles")
     num_sections = len(table["sections"])
     for j, cable in enumerate(table.get("cables", [])):
         wrong = schema_errors(table_of(Cable), cable, f"cables[{j}]")
@@ -55,7 +55,7 @@ def robot_from_table(kind: type[Robot], table: Mapping[str, Any], where: str) ->
             end = format_toml(cable["end_section"])
             wrong = [f"cables[{j}].end_section must be {requirement}, got {end}"]
         found += wrong
-        found += _doubled(cable, f"cables[{j}]", "angle")
+        found += doubled(cable, f"cables[{j}]", "angle")
         if not {"angle", "angle_deg"} & cable.keys():
             found.append(f"cables[{j}] must have angle [rad] or angle_deg [deg]")
     refuse(where, found)
@@ -75,7 +75,8 @@ def robot_from_table(kind: type[Robot], table: Mapping[str, Any], where: str) ->
     return kind(**robot | described)
 
 
-def _doubled(table: Mapping[str, Any], at: str, name: str) -> list[str]:
+def doubled(table: Mapping[str, Any], at: str, name: str) -> list[str]:
+    """Return a sentence where a table has a value in radians and in degrees."""
     both = name in table and f"{name}_deg" in table
     return [f"{at} must have {name} or {name}_deg, not both"] if both else []
 

@@ -15,7 +15,6 @@ from cdcr.runs.trajectory import Trajectory
 if TYPE_CHECKING:
     from cdcr.scenarios.scenario import Scenario
 
-
 # A signal has swung when it has left this share of its span around its mean on both sides.
 _SWING = 0.02
 

@@ -16,7 +16,6 @@ from cdcr.scenarios.studies.pid import LOOPS, READINGS, RECOMMENDED, TARGET, Loo
 if TYPE_CHECKING:
     from cdcr.scenarios.scenario import Scenario
 
-
 SIZE = (12.4, 6.6)  # [in]
 ALONE, FORWARD = COLORS[1], COLORS[0]
 SHOWN = {"radians": 6.0, "degrees": 1.0, "moment": 1.0}  # what comes after is steady or slow [s]

@@ -16,7 +16,6 @@ from cdcr.plotting.style import BLACK, GREY, StyledFigure
 if TYPE_CHECKING:
     from cdcr.runs.trajectory import Trajectory
 
-
 SIZE = (12.4, 8.0)  # of the picture [in]
 ROOM = np.array([5.9, 7.0])  # of the robot in space, left [in]
 BEYOND = 0.045  # from a tip to the name of the shape [m]

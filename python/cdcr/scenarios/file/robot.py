@@ -15,7 +15,7 @@ from typing import Any
 
 from cdcr import robots
 from cdcr.files.toml import refuse, schema_errors
-from cdcr.robot.file import in_radians, robot_from_table
+from cdcr.robot.file import doubled, in_radians, robot_from_table
 from cdcr.robot.robot import Robot
 from cdcr.scenarios.file.values import error_prefix
 
@@ -37,6 +37,7 @@ def _changed(table: dict[str, Any], where: str) -> Robot:
     each = table.get("each_section", {})
     refuse(where, schema_errors(RobotChanges, table))
     refuse(where, schema_errors(SECTION_CHANGES, each, "each_section"))
+    refuse(where, doubled(each, "each_section", "cable_angles"))
     changes = {key: value for key, value in table.items() if key not in ("name", "each_section")}
     with error_prefix(where):
         robot = robots.get(table["name"])

@@ -13,7 +13,6 @@ from cdcr.runs.trajectory import Trajectory
 if TYPE_CHECKING:
     from cdcr.scenarios.scenario import Scenario
 
-
 # A release wakes motions that damping ends within milliseconds: sampled finely up to here [s].
 JUMP, JUMP_STEP, STEP = 0.05, 5e-5, 1e-3
 

@@ -14,7 +14,6 @@ from cdcr.scenarios.metrics import Metric
 if TYPE_CHECKING:
     from cdcr.scenarios.scenario import Scenario
 
-
 SAME = 1e-9  # relative; closer than this, printed and derived are one
 
 # The two factors of each scenario, and what its picture says of them.

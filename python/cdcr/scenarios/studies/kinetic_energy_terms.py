@@ -16,7 +16,6 @@ from cdcr.scenarios.studies.factors import cut
 if TYPE_CHECKING:
     from cdcr.scenarios.scenario import Scenario
 
-
 CLAIM = 0.05  # error that the paper gives for both [%]
 
 

@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from cdcr.scenarios.file.tracking import TrackedMotion
     from cdcr.scenarios.scenario import Scenario
 
-
 GO, BACK = 0.5, 4.5  # when it starts to go and to come back, as in the file [s]
 TIMES = 10.0  # as stiff are the cables it is compared with
 

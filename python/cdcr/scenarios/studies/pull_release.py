@@ -16,7 +16,6 @@ from cdcr.scenarios.studies.energy import integral
 if TYPE_CHECKING:
     from cdcr.scenarios.scenario import Scenario
 
-
 FULL = 15.0  # largest tension of cable 1 [N]
 RAMP = 20.0  # time to pull, and to release [s]
 SLIDES = 0.95  # share of the friction at full sliding from which a cable counts as sliding

@@ -14,7 +14,6 @@ from cdcr.scenarios.studies.energy import dissipated, energy_gap, fine_run
 if TYPE_CHECKING:
     from cdcr.scenarios.scenario import Scenario
 
-
 SETTLED = 0.02  # share of the first distance
 
 

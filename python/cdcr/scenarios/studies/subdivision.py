@@ -18,7 +18,6 @@ from cdcr.scenarios.metrics import Metric
 if TYPE_CHECKING:
     from cdcr.scenarios.scenario import Scenario
 
-
 COUNTS = tuple(range(1, 11))
 SHOWN = 3  # planar modes
 STEPS = (1, 2, 4, 8)  # parts whose step responses are shown

@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from cdcr.scenarios.file.tracking import TrackedMotion
     from cdcr.scenarios.scenario import Scenario
 
-
 STEP = 0.2  # between the tensions fed back, as in the paper [s]
 FINE_STEP = 1e-3  # the same, for comparison [s]
 
