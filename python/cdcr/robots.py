@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 
-from cdcr.base.check import nearest
+from cdcr.base.check import require_known
 from cdcr.robot.robot import Robot
 from cdcr.robot.section import Section
 
@@ -163,7 +163,5 @@ def get(name: str) -> Robot:
     ValueError
         For an unknown name, with the known ones.
     """
-    if name not in _ROBOTS:
-        known = ", ".join(names())
-        raise ValueError(f"there is no robot {name!r}.{nearest(name, names())} Known: {known}")
+    require_known("robot", name, names())
     return _ROBOTS[name]()

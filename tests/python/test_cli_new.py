@@ -18,9 +18,10 @@ pytest.importorskip("h5netcdf")
 from matplotlib.figure import Figure
 
 from cdcr.scenarios.file import schema, shape_schema
-from cdcr.scenarios.file.template import TEMPLATE
-from command import cdcr_, everything_in
+from cdcr.scenarios.file.template import template
+from command import cdcr_, everything_in, refused
 
+TEMPLATE = template()
 BLOCKS = TEMPLATE.split("\n\n")
 SWITCHED_OFF = [i for i, block in enumerate(BLOCKS) if re.search(r"^#\S", block, re.MULTILINE)]
 # Tensions are shared among cables that are named by other arithmetic than among all [rad].
@@ -73,12 +74,13 @@ def test_it_runs_with_each_comment_switched_on(tmp_path: Path, i: int) -> None:
     if "[trajectory]" in BLOCKS[i]:
         errors = [value for key, value in told["findings"].items() if key == "path_error_rad"]
         assert len(errors) == ("feed_back = true\n" in BLOCKS[i] + "\n")
-        assert all(error < 1e-8 for error in errors)
+        # Cables driven by length give a little.
+        assert all(error < (0.05 if "shorter" in BLOCKS[i] else 1e-8) for error in errors)
 
 
 def test_there_are_blocks_to_switch_on() -> None:
-    assert len(SWITCHED_OFF) == 19
-    assert sum("[trajectory]" in BLOCKS[i] for i in SWITCHED_OFF) == 6
+    assert len(SWITCHED_OFF) == 24
+    assert sum("[trajectory]" in BLOCKS[i] for i in SWITCHED_OFF) == 7
 
 
 def test_every_key_is_shown() -> None:
@@ -86,10 +88,15 @@ def test_every_key_is_shown() -> None:
     schemas: tuple[type[BaseModel], ...] = (
         schema.ScenarioTable,
         schema.InitialTable,
+        schema.RobotChanges,
+        schema.IntegratorTable,
         schema.OutputTable,
         schema.ControllerTable,
         schema.ReferenceTable,
         schema.TensionRows,
+        schema.TensionHold,
+        schema.HoldTable,
+        schema.TensionSampled,
         schema.TensionFile,
         schema.WrenchTable,
         shape_schema.TrajectorySamples,
@@ -173,3 +180,45 @@ def test_a_file_must_be_one_that_run_takes(tmp_path: Path) -> None:
     result = cdcr_("new", tmp_path / "folder.toml", "--overwrite")
     assert result.stderr == f"cdcr: {tmp_path / 'folder.toml'} is a folder, not a file\n"
     assert everything_in(tmp_path) == ["folder.toml"]
+
+
+def file_scenarios() -> list[str]:
+    found = [one for one in cdcr.scenarios.names() if cdcr.scenarios.get(one).has_run]
+    assert len(found) == 11
+    return found
+
+
+@pytest.mark.usefixtures("quick")
+@pytest.mark.parametrize("name", file_scenarios())
+def test_a_scenario_written_out_is_the_same_run(tmp_path: Path, name: str) -> None:
+    path, out = tmp_path / "my.toml", tmp_path / "out"
+    result = cdcr_("new", path, "--from", name)
+    assert result.exit_code == 0, result.output
+    assert result.stdout == f"wrote {path}; next: cdcr run {path}\n"
+    assert path.read_bytes() == cdcr.scenarios.source_file(name).read_bytes()
+    runs = []
+    for one in (path, name):
+        result = cdcr_("run", one, "--out", out, "--json")
+        assert result.exit_code == 0, result.output
+        runs.append(json.loads(result.stdout))
+    same = ("title", "source", "robot", "formulation", "method", "t_end", "num_samples", "stats")
+    assert [runs[0][key] for key in same] == [runs[1][key] for key in same]
+    assert (out / "my.csv").read_bytes() == (out / f"{name}.csv").read_bytes()
+
+
+def test_only_scenarios_that_are_files_can_be_written_out(tmp_path: Path) -> None:
+    path, known = tmp_path / "my.toml", ", ".join(file_scenarios())
+    assert refused(cdcr_("new", path, "--from", "step-tensoin")) == (
+        f"there is no scenario 'step-tensoin'. Did you mean 'step-tension'? Known: {known}"
+    )
+    assert refused(cdcr_("new", path, "--from", "gravity-ratio")) == (
+        "the scenario 'gravity-ratio' is no file: it is a picture of the model alone, made in "
+        f"Python. Files: {known}"
+    )
+    assert everything_in(tmp_path) == []
+    path.write_text("mine")
+    told = f"{path} exists already; give --overwrite to replace it"
+    assert refused(cdcr_("new", path, "--from", "pid")) == told
+    assert path.read_text() == "mine"
+    assert cdcr_("new", path, "--from", "pid", "--overwrite").exit_code == 0
+    assert "[controller]" in path.read_text(encoding="utf-8")

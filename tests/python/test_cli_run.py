@@ -27,7 +27,9 @@ from command import cdcr_, everything_in, refused
 
 FILES = ["step-tension.png", "step-tension.csv", "step-tension.nc"]
 # 500 N bends the robot beyond the largest angle within a fraction of a second.
-TOO_STRONG = 'robot = "amouri2020"\nt_end = 1\nmethod = "dopri5"\ntension = [500, 0, 0]\n'
+TOO_STRONG = (
+    'robot = "amouri2020"\nt_end = 1\nintegrator.method = "dopri5"\ntension = [500, 0, 0]\n'
+)
 
 
 @pytest.fixture(scope="module")

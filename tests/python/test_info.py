@@ -3,6 +3,7 @@
 import dataclasses
 import math
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,7 +15,6 @@ pytest.importorskip("typer")
 
 from cdcr.cli.info import mode_rows
 from cdcr.model.rest import at_rest
-from cdcr.scenarios.studies import length_drive
 from command import cdcr_
 
 REL = 1e-9  # eigenvalues and differences of well-conditioned matrices
@@ -133,7 +133,7 @@ def test_tip_stiffness_and_motion_by_statics() -> None:
 
 
 def test_cables_driven_by_length(tmp_path: Path) -> None:
-    robot = length_drive.robot(length_drive.STIFFNESS)
+    robot = cdcr.scenarios.get("length-drive").robot
     robot.save(tmp_path / "driven.toml")
     text = printed(tmp_path / "driven.toml")
     assert row(text, "cable 1")[3] == "length"
@@ -189,8 +189,9 @@ def test_other_methods_are_refused() -> None:
 @pytest.mark.parametrize("cable_damping", [0.0, 20.0])
 def test_rk4_stays_bounded_below_the_step_and_diverges_above(cable_damping: float) -> None:
     """A stiff robot driven by length, its cables well taut, in a small motion."""
-    plain = length_drive.robot(length_drive.STIFFER)
-    sections = [dataclasses.replace(s, cable_damping=cable_damping) for s in plain.sections]
+    plain = cdcr.scenarios.get("length-drive").robot
+    drive: dict[str, Any] = {"cable_stiffness": 2e5, "cable_damping": cable_damping}
+    sections = [dataclasses.replace(s, **drive) for s in plain.sections]
     rest = at_rest(dataclasses.replace(plain, sections=tuple(sections)))
     assert np.all(rest.tension > 0.0)
     start = rest.q + 1e-10 * np.random.default_rng(4).standard_normal(6)

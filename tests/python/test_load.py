@@ -1,5 +1,6 @@
 """Runs read back from their files: everything a netCDF file holds, the numbers of a CSV file."""
 
+import json
 import re
 import sys
 from pathlib import Path
@@ -47,6 +48,8 @@ def test_a_netcdf_file_holds_everything(run: cdcr.Trajectory, tmp_path: Path) ->
     assert (again.status, again.message) == (cdcr.Status.step_limit, run.message)
     assert (again.method, again.slack_events) == ("bdf", run.slack_events)
     assert len(run.slack_events) > 0
+    stored = json.loads(run.to_xarray().attrs["slack_events"])
+    assert [cable - 1 for _, cable, _ in stored] == [event.cable for event in run.slack_events]
     for name in STATS:
         assert getattr(again.stats, name) == getattr(run.stats, name)
 

@@ -52,17 +52,19 @@ def test_installed_with_its_types(file: str) -> None:
 
 def test_installs_the_package_and_nothing_else() -> None:
     belongs = re.compile(
-        r"cdcr/([\w/]+\.(py|pyi|toml)|py\.typed|_core\.[\w.-]+\.so)"
+        r"cdcr/([\w/-]+\.(html|py|pyi|toml)|py\.typed|_core\.[\w.-]+\.so)"
         r"|cdcr-[\d.]+\.dist-info/.*"
         r"|(\.\./)+bin/cdcr"
     )
     assert [file for file in installed_files() if not belongs.fullmatch(file)] == []
 
 
-def test_every_python_file_is_installed() -> None:
+def test_every_file_is_installed() -> None:
     source = ROOT / "python"
     files = {
-        path.relative_to(source).as_posix() for path in source.rglob("*") if path.suffix == ".py"
+        path.relative_to(source).as_posix()
+        for path in source.rglob("*")
+        if path.suffix in (".html", ".py", ".pyi", ".toml")
     }
     assert files - set(installed_files()) == set()
 

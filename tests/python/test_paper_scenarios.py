@@ -196,20 +196,19 @@ def test_plane_tracking() -> None:
 
 
 @pytest.mark.parametrize("name", ["circle-tracking", "plane-tracking"])
-def test_rates_of_a_sweep_are_its_derivatives(name: str) -> None:
-    from cdcr.scenarios.library import circle_tracking, plane_tracking
-
-    sweep = circle_tracking.CIRCLE if name.startswith("circle") else plane_tracking.PLANE
+def test_rates_of_a_path_are_its_derivatives(name: str) -> None:
+    scenario = cdcr.scenarios.get(name)
+    path: Any = scenario.input_source
     h = 1e-4
     t = np.array([0.7 - h, 0.7, 0.7 + h])
-    motion = sweep.reference(t)
+    motion = path.reference(t)
     rate = (motion.q[2] - motion.q[0]) / (2 * h)
     acceleration = (motion.qd[2] - motion.qd[0]) / (2 * h)
     np.testing.assert_allclose(motion.qd[1], rate, atol=1e-7)
     np.testing.assert_allclose(motion.qdd[1], acceleration, atol=1e-7)
-    scenario = cdcr.scenarios.get(name)
-    np.testing.assert_array_equal(scenario.q0, sweep.reference(np.array([0.0, 1.0])).q[0])
-    np.testing.assert_array_equal(scenario.qd0, sweep.reference(np.array([0.0, 1.0])).qd[0])
+    first = path.reference(np.array([0.0, 1.0]))
+    np.testing.assert_array_equal(scenario.q0, first.q[0])
+    np.testing.assert_array_equal(scenario.qd0, first.qd[0])
 
 
 def test_pid_readings() -> None:

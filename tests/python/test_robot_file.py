@@ -225,8 +225,8 @@ def test_angles_in_degrees(tmp_path: Path) -> None:
 def test_cables_as_people_write_them(tmp_path: Path) -> None:
     text = (
         "base_orientation = [[1, 0, 0], [0, -1, 0], [0, 0, -1]]\n" + FILE + "[[cables]]\n"
-        "radius = 0.01\nangle_deg = 90\nend_section = 0\n[[cables]]\n"
-        "radius = 0.02\nangle = 1\nend_section = 0\nstiffness = 5000\n"
+        "radius = 0.01\nangle_deg = 90\nend_section = 1\n[[cables]]\n"
+        "radius = 0.02\nangle = 1\nend_section = 1\nstiffness = 5000\n"
     )
     robot = load(tmp_path, text)
     assert robot.base_orientation == ((1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, -1.0))

@@ -9,7 +9,7 @@ import cdcr
 from cdcr.robot.schema import table_of
 from robot_file import FILE, load, replaced
 
-CABLE = "[[cables]]\nradius = 0.01\nangle = 0.5\nend_section = 0\n"
+CABLE = "[[cables]]\nradius = 0.01\nangle = 0.5\nend_section = 1\n"
 
 
 def refusal(folder: Path, text: str) -> list[str]:
@@ -203,11 +203,20 @@ def test_wrong_types_and_values(tmp_path: Path, old: str, new: str, sentence: st
             "angle_deg = '1'",
             "cables[0].angle_deg must be a finite number [deg], got '1' (string)",
         ),
-        ("end_section = 0", "end_section = 1", "cables[0].end_section must be 0 to 0, got 1"),
         (
+            "end_section = 1",
+            "end_section = 2",
+            "cables[0].end_section must be the number of a section, 1 to 1, got 2 (integer)",
+        ),
+        (
+            "end_section = 1",
             "end_section = 0",
-            "end_section = 0.0",
-            "cables[0].end_section must be the index of a section, from 0, got 0.0 (float)",
+            "cables[0].end_section must be the number of a section, from 1, got 0 (integer)",
+        ),
+        (
+            "end_section = 1",
+            "end_section = 1.0",
+            "cables[0].end_section must be the number of a section, from 1, got 1.0 (float)",
         ),
     ],
 )

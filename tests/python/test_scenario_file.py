@@ -11,8 +11,9 @@ import pytest
 import cdcr
 from cdcr import _core
 from cdcr.scenarios import Scenario
-from cdcr.scenarios.file.reader import initial_state, load_scenario
-from cdcr.scenarios.file.schema import ScenarioTable
+from cdcr.scenarios.file.reader import load_scenario
+from cdcr.scenarios.file.schema import IntegratorTable, ScenarioTable
+from cdcr.scenarios.file.start import read_start
 
 FILE = """\
 robot = "amouri2020"
@@ -66,14 +67,16 @@ source = "imagined"
 robot = "amouri2020"
 formulation = "exact"
 t_end = 0.5
+tension = [0, 1.5, 0]
+[output]
 num_samples = 11
+[integrator]
 method = "dopri5"
 rtol = 1e-6
 atol = 1e-8
 step = 0.01
 max_step = 0.1
 max_steps = 5000
-tension = [0, 1.5, 0]
 [initial]
 q = [0.1, -0.2]
 qd = [1, 2]
@@ -92,7 +95,7 @@ qd = [1, 2]
 
 
 def test_a_file_runs_as_the_same_call_in_python(tmp_path: Path) -> None:
-    scenario = load(tmp_path, FILE + "method = 'dopri5'\nnum_samples = 6\n")
+    scenario = load(tmp_path, FILE + "integrator.method = 'dopri5'\noutput.num_samples = 6\n")
     plain = cdcr.simulate(
         cdcr.Model(cdcr.robots.amouri2020()),
         [0.0, 0.0],
@@ -145,7 +148,7 @@ def test_initial_state(tmp_path: Path, initial: str, q0: tuple[float, float]) ->
 
 
 def test_methods_are_those_of_the_core() -> None:
-    description = ScenarioTable.model_fields["method"].description or ""
+    description = IntegratorTable.model_fields["method"].description or ""
     assert set(re.findall(r'"(\w+)"', description)) == set(_core.Method.__members__)
 
 
@@ -161,12 +164,13 @@ def test_methods_are_those_of_the_core() -> None:
         (
             without("robot"),
             "robot is missing; it must be the name of a robot, "
-            "the name of a robot file (.toml) or a table with sections",
+            "the name of a robot file (.toml), a table with sections "
+            "or a table with the name of a robot and what is different",
         ),
         (
             without("robot") + "robot = 3\n",
-            "robot must be the name of a robot, the name of a robot file (.toml) "
-            "or a table with sections, got 3 (integer)",
+            "robot must be the name of a robot, the name of a robot file (.toml), a table with "
+            "sections or a table with the name of a robot and what is different, got 3 (integer)",
         ),
         (
             FILE.replace("0.5", "0"),
@@ -177,25 +181,29 @@ def test_methods_are_those_of_the_core() -> None:
             "t_end must be a number > 0 [s], got inf (float)",
         ),
         (
-            FILE + "num_samples = 1\n",
-            "num_samples must be a whole number 2 to 10000000, got 1 (integer)",
+            FILE + "output.num_samples = 1\n",
+            "output.num_samples must be a whole number 2 to 10000000, got 1 (integer)",
         ),
         (
-            FILE + "method = 'euler'\n",
-            'method must be "bdf", "adams", "dopri5" or "rk4", got \'euler\' (string)',
+            FILE + "integrator.method = 'euler'\n",
+            'integrator.method must be "bdf", "adams", "dopri5" or "rk4", got \'euler\' (string)',
         ),
-        (FILE + "rtol = -1\n", "rtol must be a number > 0 [1], got -1 (integer)"),
+        (
+            FILE + "integrator.rtol = -1\n",
+            "integrator.rtol must be a number > 0 [1], got -1 (integer)",
+        ),
+        (FILE + "rtol = 1e-6\n", "rtol must stand in [integrator]"),
         (
             FILE.replace("[5, 0, 0]", "5"),
             "tension must be an array with a number >= 0 [N] for each cable, "
             "or tables [[tension]] with cable and shape, or a table with t and rows, "
-            "or a table with file, got 5 (integer)",
+            "hold, shapes or file, got 5 (integer)",
         ),
         (
             FILE.replace("[5, 0, 0]", "[5, -1, 0]"),
             "tension must be an array with a number >= 0 [N] for each cable, "
             "or tables [[tension]] with cable and shape, or a table with t and rows, "
-            "or a table with file, got -1 (integer) at tension[1]",
+            "hold, shapes or file, got -1 (integer) at tension[1]",
         ),
         (
             FILE.replace("[5, 0, 0]", "[5]"),
@@ -216,7 +224,7 @@ def test_methods_are_those_of_the_core() -> None:
         (
             FILE + "[initial]\ntheta_dge = [1]\n",
             "initial.theta_dge is not a known key. Did you mean 'theta_deg'? "
-            "Known keys: q, theta, theta_deg, phi, phi_deg, qd",
+            "Known keys: q, theta, theta_deg, phi, phi_deg, qd, equilibrium, payload",
         ),
         (
             FILE + "[controller]\ntype = 'pid'\nkp = 1\n",
@@ -234,7 +242,7 @@ def test_methods_are_those_of_the_core() -> None:
         ),
         (
             FILE + "num_samples = 5\n[output]\nnum_samples = 6\n",
-            "num_samples must stand at the top or in [output], not in both",
+            "num_samples must stand in [output]",
         ),
         (
             FILE + "[initial]\ntheta = [1]\ntheta_deg = [1]\n",
@@ -316,6 +324,6 @@ def test_a_missing_scenario_file(tmp_path: Path) -> None:
 
 def test_two_sections_want_two_angles(tmp_path: Path) -> None:
     table = {"theta_deg": [90.0, 180.0], "phi_deg": [0.0, 90.0]}
-    q0, qd0 = initial_state(table, 2, tmp_path)
+    q0, qd0 = read_start(table, 2, None, tmp_path)
     assert q0 == pytest.approx((math.pi / 2, 0.0, 0.0, math.pi), abs=1e-15)
     assert qd0 == (0.0,) * 4

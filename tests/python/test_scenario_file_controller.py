@@ -10,7 +10,7 @@ import cdcr
 from cdcr.scenarios import Scenario
 from cdcr.scenarios.file.reader import load_scenario
 
-HEAD = 'robot = "amouri2020"\nt_end = 2\nnum_samples = 201\nmethod = "dopri5"\n'
+HEAD = 'robot = "amouri2020"\nt_end = 2\noutput.num_samples = 201\nintegrator.method = "dopri5"\n'
 PID = 'type = "pid"\nkp = 2.0\nki = 0.5\nkd = 0.3\n'
 BENT = "[controller.reference]\ntheta_deg = [15]\nphi_deg = [60]\n"
 

@@ -21,7 +21,7 @@ PATH = 1e-9
 # Derivatives by central differences over 1e-4 s: their error is of the order of 1e-8.
 DIFFERENCES = 1e-6
 
-HEAD = 'robot = "amouri2020"\nt_end = 10\nnum_samples = 51\nmethod = "dopri5"\n'
+HEAD = 'robot = "amouri2020"\nt_end = 10\noutput.num_samples = 51\nintegrator.method = "dopri5"\n'
 CIRCLE = 'shape = "circle"\ntheta_deg = 15\nturns_per_second = 0.1\n'
 SAMPLED = np.linspace(0.0, 10.0, 41)
 SHAPES = [
@@ -149,9 +149,13 @@ def test_samples(tmp_path: Path, kind: str, in_csv: bool) -> None:
         assert 0.0 < value(scenario, "acceleration_error") < 1e-3
 
 
+def two_sections() -> cdcr.Model:
+    return cdcr.Model(cdcr.robots.rao2021())
+
+
 def test_samples_of_two_sections(tmp_path: Path) -> None:
     rows = [[0.02 * t, 0.03 * t] for t in SAMPLED.tolist()]
-    motion = read_trajectory({"t": SAMPLED.tolist(), "theta": rows}, 2, 10.0, tmp_path)
+    motion = read_trajectory({"t": SAMPLED.tolist(), "theta": rows}, two_sections(), 10.0, tmp_path)
     q, qd, _ = motion.motion(np.array([5.0, 10.0]))
     np.testing.assert_allclose(q, [[0.1, 0.0, 0.15, 0.0], [0.2, 0.0, 0.3, 0.0]], atol=ROUNDING)
     np.testing.assert_allclose(qd, [[0.02, 0.0, 0.03, 0.0]] * 2, atol=ROUNDING)
@@ -159,7 +163,7 @@ def test_samples_of_two_sections(tmp_path: Path) -> None:
 
 def test_a_shape_for_each_of_two_sections(tmp_path: Path) -> None:
     table = {"shape": "circle", "theta": [0.1, 0.2], "turns_per_second": 0.1, "phi_deg": [0, 90]}
-    q0, qd0 = read_trajectory(table, 2, 10.0, tmp_path).start()
+    q0, qd0 = read_trajectory(table, two_sections(), 10.0, tmp_path).start()
     np.testing.assert_allclose(q0, [0.1, 0.0, 0.0, 0.2], atol=ROUNDING)
     speed = 0.2 * math.pi
     np.testing.assert_allclose(qd0, [0.0, 0.1 * speed, -0.2 * speed, 0.0], atol=ROUNDING)
@@ -187,7 +191,7 @@ def test_out_of_reach_names_time_and_cables(tmp_path: Path) -> None:
 
 def test_what_refuses_a_motion_names_file_and_table(tmp_path: Path) -> None:
     start = r"^.*track\.toml, \[trajectory\]: "
-    with pytest.raises(ValueError, match=start + r"the reference bends sections\[0\] by "):
+    with pytest.raises(ValueError, match=start + r"the reference bends section 1 by "):
         load(tmp_path, CIRCLE.replace("15", "600")).simulate()
     scenario = load(tmp_path, f"t = {SAMPLED.tolist()}\ntheta = {[0.1] * 41}\n")
     with pytest.raises(ValueError, match=start + "t must lie within the reference, 0 to 10 s"):
@@ -219,8 +223,8 @@ def test_a_taylor_formulation_warns_once(tmp_path: Path) -> None:
         (
             CIRCLE + "turn_per_second = 1\n",
             ": trajectory.turn_per_second is not a known key. Did you mean 'turns_per_second'? "
-            "Known keys: min_tension, max_tension, infeasible, feed_back, step, shape, phi, "
-            "phi_deg, theta, theta_deg, turns_per_second",
+            "Known keys: min_tension, max_tension, infeasible, feed_back, shorter, step, shape, "
+            "phi, phi_deg, theta, theta_deg, turns_per_second",
         ),
         (
             CIRCLE.replace("15", "[15, 15]"),

@@ -18,7 +18,7 @@ from typer.testing import CliRunner
 from cdcr.cli.app import app
 from cdcr.scenarios.file.reader import load_scenario
 
-BASE = 'robot = "three_sections"\nt_end = 0.4\nnum_samples = 41\n'
+BASE = 'robot = "three_sections"\nt_end = 0.4\noutput.num_samples = 41\n'
 WRENCH = "[[wrenches]]\nsection = 2\n"
 SETTLED = 1e-3  # of a run with strong damping, at its end [rad]
 
@@ -85,7 +85,7 @@ def test_wrenches_act_beside_whatever_moves_the_robot(tmp_path: Path, drive: str
 def test_a_pushed_robot_comes_to_the_rest_that_statics_tells(tmp_path: Path) -> None:
     robot = cdcr.robots.three_sections(damping=0.03)
     robot.save(tmp_path / "robot.toml")
-    text = 'robot = "robot.toml"\nt_end = 20.0\nnum_samples = 201\n'
+    text = 'robot = "robot.toml"\nt_end = 20.0\noutput.num_samples = 201\n'
     force = "force = [0.05, 0.02, 0.0]\n"
     scenario = load_scenario(written(tmp_path, text + WRENCH + force))
     run = scenario.simulate()
@@ -186,7 +186,7 @@ def test_cables_driven_by_length_stay_as_they_are_without_a_command(tmp_path: Pa
     (section,) = cdcr.robots.amouri2020(damping=1e-3).sections
     robot = cdcr.Robot(sections=[replace(section, cable_stiffness=1e4)])
     robot.save(tmp_path / "robot.toml")
-    text = 'robot = "robot.toml"\nt_end = 0.1\nnum_samples = 11\n'
+    text = 'robot = "robot.toml"\nt_end = 0.1\noutput.num_samples = 11\n'
     scenario = load_scenario(written(tmp_path, text))
     np.testing.assert_array_equal(scenario.tension, [section.length] * 3)
     run = scenario.simulate()

@@ -39,19 +39,21 @@ def test_capstan_bounds_the_tension_and_gives_the_dead_band() -> None:
     assert found["ratio"] == pytest.approx(found["capstan"], rel=TABLE)
     assert found["capstan"] < 0.95  # else the test would tell nothing
     assert found["dead_band_N"] == pytest.approx(found["dead_band_expected_N"], rel=SMEARED)
-    bound = pull_release.FRICTION * np.abs(run.theta[:, 0])
+    bound = pull_release.coefficients(run)[0] * np.abs(run.theta[:, 0])
     taut = run.tension[:, 0] > 0.0
     ratio = pull_release.beyond(run)[taut] / run.tension[taut, 0]
     assert np.all(np.abs(np.log(ratio)) <= bound[taut] + 1e-12)
 
 
 def test_without_friction_there_is_no_loop() -> None:
-    _, run, found = told("pull-release")
-    smooth = pull_release.frictionless(float(run.t[-1]))
+    scenario, run, found = told("pull-release")
+    smooth = pull_release.frictionless(scenario, float(run.t[-1]))
     area = float(integral(smooth.tension[:, 0], pull_release.pulled(smooth)))
     assert np.all(np.abs(pull_release.friction_power(smooth)) < 1e-12)
     assert area < 0.1 * found["loop_J"]  # what is left is damping
-    damped = pull_release.DAMPING * float(integral(np.sum(smooth.qd**2, axis=1), smooth.t))
+    damped = pull_release.coefficients(run)[1] * float(
+        integral(np.sum(smooth.qd**2, axis=1), smooth.t)
+    )
     assert area == pytest.approx(damped, rel=TABLE)
     # It follows its static equilibrium: K theta = F r.
     section = smooth.model.robot.sections[0]
@@ -79,13 +81,13 @@ def test_cables_driven_by_length_hold_their_shape() -> None:
 
 
 def test_stiffer_cables_come_nearer() -> None:
-    _, _, found = told("length-drive")
+    scenario, _, found = told("length-drive")
     # Ten times as stiff without slack: a tenth of the error or less, as slack cables do not help.
     assert found["stiffer_slack"] == 0.0
     assert found["stiffer_error_held_deg"] < found["error_held_deg"] / 9.0
-    run = length_drive.stiffer(length_drive.END)
+    run = length_drive.stiffer(scenario, scenario.t_end)
     lengths = np.array([run.model.cable_lengths(q) for q in run.q])
-    stretch = run.tension / length_drive.STIFFER
+    stretch = run.tension / 2e5
     assert np.max(np.abs(lengths - run.command - stretch)) < 1e-5  # springs and a little damping
 
 
@@ -103,9 +105,11 @@ def test_slack_cables_pull_nothing_and_events_come_in_pairs() -> None:
 
 
 def test_wanted_shapes_start_and_end_straight() -> None:
-    assert np.all(length_drive.wanted([0.0, length_drive.GO, length_drive.END]) == 0.0)
-    middle = length_drive.wanted(length_drive.BACK)[0]
-    np.testing.assert_array_equal(middle, length_drive.WANTED)
+    scenario = cdcr.scenarios.get("length-drive")
+    wanted = length_drive.wanted(scenario, [0.0, length_drive.GO, length_drive.BACK, 9.0])
+    assert np.all(wanted[[0, 1, 3]] == 0.0)
+    shape = cdcr.bending(np.deg2rad([25.0, 45.0, 65.0]), np.deg2rad([30.0, -50.0, 10.0]))
+    np.testing.assert_array_equal(wanted[2], np.ravel(shape))
 
 
 def ritz(terms: int = 14) -> Any:

@@ -8,15 +8,16 @@ import numpy as np
 import pytest
 
 import cdcr
-from cdcr.scenarios.library import hanging_arm, payload_drop
+from cdcr.scenarios.file.start import carrying
 from cdcr.scenarios.metrics import run_metrics, static_theta
 from cdcr.scenarios.studies import three_sections
 from cdcr.scenarios.studies.energy import cable_work, dissipated, energy_gap, fine_run
-from cdcr.scenarios.studies.sections import HANGING, HORIZONTAL, distance, settling_time
+from cdcr.scenarios.studies.release import at_rest, distance, settling_time
 from scenario_runs import told
 
 NAMES = ("three-sections", "hanging-arm", "payload-drop")
 
+PAYLOAD = 0.015  # that falls off [kg]
 ROUNDING = 1e-11  # solves of 6 x 6 systems whose inertias span three powers of ten, relative
 BALANCE = 1e-6  # energy lost against damping and work of tensions, over the energy that moved
 SETTLED = 2e-3  # of the first distance or goal: what the slowest mode leaves at the end
@@ -75,9 +76,9 @@ def test_a_wrong_damping_shows_in_the_balance() -> None:
     assert energy_gap(replace(run, model=other)) > 1e-3
 
 
-@pytest.mark.parametrize("orientation", [HANGING, HORIZONTAL])
-def test_base_orientations_are_rotations(orientation: Any) -> None:
-    R = np.array(orientation)
+@pytest.mark.parametrize("name", [*NAMES, "length-drive"])
+def test_base_orientations_are_rotations(name: str) -> None:
+    R = np.array(cdcr.scenarios.get(name).robot.base_orientation)
     np.testing.assert_array_equal(R @ R.T, np.eye(3))
     assert np.linalg.det(R) == pytest.approx(1.0, rel=1e-15)
 
@@ -86,18 +87,19 @@ def test_base_orientations_are_rotations(orientation: Any) -> None:
 
 
 def test_each_phase_comes_to_rest_in_its_goal() -> None:
-    _, run, _ = told("three-sections")
-    goals = three_sections.goals()
-    for k, last in three_sections.ends(run):
-        assert run.t[last] == three_sections.PHASE * (k + 1)
+    scenario, run, _ = told("three-sections")
+    goals = three_sections.goals(scenario)
+    for k, last in three_sections.ends(scenario, run):
+        assert run.t[last] == 5.0 * (k + 1)
         theta = np.hypot(goals[k, 0::2], goals[k, 1::2])
         assert np.flatnonzero(theta).tolist() == [k]  # one section is bent
         assert np.max(np.abs(run.q[last] - goals[k])) < SETTLED * theta[k]
 
 
 def test_goals_are_equilibria_of_the_tensions() -> None:
-    _, run, _ = told("three-sections")
-    for (_, last), goal in zip(three_sections.ends(run), three_sections.goals(), strict=True):
+    scenario, run, _ = told("three-sections")
+    ends, goals = three_sections.ends(scenario, run), three_sections.goals(scenario)
+    for (_, last), goal in zip(ends, goals, strict=True):
         tension = run.tension[last]
         assert np.all(tension >= 0.0)
         np.testing.assert_allclose(run.model.equilibrium(tension), goal, atol=ROUNDING)
@@ -126,9 +128,9 @@ def test_cables_of_a_section_bend_all_before_it() -> None:
 
 def test_what_the_driven_cables_alone_would_do() -> None:
     """Cables that the others must pull against, or sections 1 and 2 would bend far."""
-    _, run, found = told("three-sections")
+    scenario, run, found = told("three-sections")
     model = run.model
-    _, last = three_sections.ends(run)[2]
+    _, last = three_sections.ends(scenario, run)[2]
     own = np.array([cable.end_section == 2 for cable in model.robot.all_cables])
     alone = np.rad2deg(cdcr.polar(model.equilibrium(np.where(own, run.tension[last], 0.0)))[0])
     assert found["section_3_alone_1_deg"] == pytest.approx(alone[0], rel=ROUNDING)
@@ -140,7 +142,7 @@ def test_what_the_driven_cables_alone_would_do() -> None:
 def test_a_run_cut_short_tells_of_the_phases_it_ended() -> None:
     scenario = cdcr.scenarios.get("three-sections")
     run = scenario.simulate(t_end=6.0, num_samples=2401)
-    assert [k for k, _ in three_sections.ends(run)] == [0]
+    assert [k for k, _ in three_sections.ends(scenario, run)] == [0]
     keys = {metric.key for metric in scenario.summary(run)}
     assert "section_1_tip_mm" in keys
     assert "section_2_tip_mm" not in keys
@@ -151,7 +153,7 @@ def test_a_run_cut_short_tells_of_the_phases_it_ended() -> None:
 
 def test_the_arm_rests_where_gravity_and_elasticity_balance() -> None:
     _, run, found = told("hanging-arm")
-    rest = hanging_arm.at_rest(run.model)
+    rest = at_rest(run)
     still = np.zeros(6)
     np.testing.assert_allclose(run.model.inverse_dynamics(rest, still, still), 0.0, atol=ROUNDING)
     assert np.all(np.linalg.eigvals(run.model.linearize(rest, still, np.zeros(9))[0]).real < 0.0)
@@ -175,8 +177,9 @@ def test_settling_time_is_the_last_one_outside() -> None:
 
 def test_it_starts_where_it_holds_the_payload_at_rest() -> None:
     scenario, run, _ = told("payload-drop")
-    heavy = payload_drop.loaded(run.model)
-    assert heavy.robot.payload == payload_drop.PAYLOAD > scenario.robot.payload == 0.0
+    start: Any = scenario.q0
+    heavy = carrying(run.model, start.payload)
+    assert heavy.robot.payload == PAYLOAD > scenario.robot.payload == 0.0
     q, still = run.q[0], np.zeros(6)
     assert np.all(run.tension == run.tension[0])
     held = heavy.forward_dynamics(q, still, run.tension[0])
@@ -191,7 +194,7 @@ def test_it_starts_with_the_acceleration_of_the_freed_robot() -> None:
     _, run, found = told("payload-drop")
     model = run.model
     J = model.jacobian(run.q[0], 2, 1.0)
-    weight = payload_drop.PAYLOAD * J[:3].T @ np.array([0.0, 0.0, 9.81])
+    weight = PAYLOAD * J[:3].T @ np.array([0.0, 0.0, 9.81])
     expected = np.linalg.solve(model.mass_matrix(run.q[0]), weight)
     got = model.forward_dynamics(run.q[0], run.qd[0], run.tension[0])
     np.testing.assert_allclose(got, expected, atol=1e-9 * np.max(np.abs(expected)))
@@ -205,11 +208,9 @@ def test_it_starts_with_the_acceleration_of_the_freed_robot() -> None:
 
 def test_the_tip_is_thrown_beyond_its_rest() -> None:
     _, run, found = told("payload-drop")
-    rest = run.model.tip(payload_drop.at_rest(run.model))[1]
+    rest = run.model.tip(at_rest(run))[1]
     assert found["highest_m"] > rest[2] > run.tip[0, 2]
-    assert distance(run, payload_drop.at_rest(run.model))[-1] * 1e3 == pytest.approx(
-        found["end_distance_mm"]
-    )
+    assert distance(run, at_rest(run))[-1] * 1e3 == pytest.approx(found["end_distance_mm"])
 
 
 def test_fine_samples_are_the_same_run() -> None:

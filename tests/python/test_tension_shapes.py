@@ -22,7 +22,11 @@ ROUNDING = 1e-14
 # Of two runs at the tightest tolerance whose steps differ [rad], [rad/s].
 RUN = 1e-10
 TIGHT: dict[str, Any] = {"method": "dopri5", "rtol": 1e-12, "atol": 1e-14}
-HEAD = 'robot = "amouri2020"\nt_end = 2.0\nmethod = "dopri5"\nrtol = 1e-12\natol = 1e-14\n'
+HEAD = """\
+robot = "amouri2020"
+t_end = 2.0
+integrator = { method = "dopri5", rtol = 1e-12, atol = 1e-14 }
+"""
 
 STEP = step(value=5.0, at=0.3)
 RAMP = ramp(before=1.0, after=3.0, start=0.5, end=1.0)

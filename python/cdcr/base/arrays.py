@@ -17,3 +17,8 @@ def finite(value: ArrayLike, name: str) -> FloatArray:
     if not np.isfinite(array).all():
         raise ValueError(f"{name} must be finite, got {value!r}")
     return array
+
+
+def even_times(end: float, step: float) -> FloatArray:
+    """Return times from 0 to the end [s], as near to that step as they divide it evenly."""
+    return np.linspace(0.0, end, max(1, round(end / step)) + 1)

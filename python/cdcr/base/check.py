@@ -28,6 +28,13 @@ def nearest(word: str, known: Iterable[str]) -> str:
     return f" Did you mean {close[0]!r}?" if close else ""
 
 
+def require_known(noun: str, name: str, known: Collection[str]) -> None:
+    """Refuse a name that is not among the known ones, and say which these are."""
+    if name not in known:
+        told = f"there is no {noun} {name!r}.{nearest(name, known)}"
+        raise ValueError(f"{told} Known: {', '.join(known)}")
+
+
 class Check:
     """Makes plain Python values of given ones, and keeps a sentence for each it cannot take.
 
@@ -120,7 +127,7 @@ class Check:
         kind, requirement = about["kind"], about["requirement"]
         if isinstance(kind, type):
             return self.things(item, value, requirement, kind)
-        if kind == "whole":
+        if kind in ("whole", "section"):
             return self.whole(item, value, requirement)
         if kind == "numbers":
             return self.numbers(item, value, requirement, about["each"])

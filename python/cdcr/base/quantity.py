@@ -22,8 +22,10 @@ def quantity(
     ----------
     about, unit, requirement : str
         What it is, in which unit, and what it must be.
-    kind : {"number", "number or none", "whole", "numbers", "vector", "matrix"} or type, optional
-        How `Check.keep` makes it plain; a type is that of every thing in a sequence.
+    kind : str or type, optional
+        How `Check.keep` makes it plain: "number", "number or none", "whole", "section" (an index,
+        which files count from 1), "numbers", "vector" or "matrix"; a type is that of every thing
+        in a sequence.
     each : str, optional
         What every number in a sequence must be.
     default : optional

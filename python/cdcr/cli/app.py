@@ -7,7 +7,7 @@ import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, cast
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
@@ -16,7 +16,7 @@ import cdcr
 from cdcr.cli import audit, figures, info, new, run, tables
 
 if TYPE_CHECKING:
-    from cdcr.runs.simulate import MethodName
+    pass
 
 app = typer.Typer(
     help="Dynamics of cable-driven continuum robots.",
@@ -140,8 +140,8 @@ def run_command(
             out,
             overwrite=overwrite,
             console=Console(stderr=True),
-            method=cast("MethodName | None", method),
             t_end=t_end,
+            method=method,
             rtol=rtol,
             atol=atol,
             max_steps=max_steps,
@@ -157,13 +157,20 @@ def run_command(
 @app.command("new", short_help="Write a scenario file to start from.")
 def new_command(
     file: Annotated[Path, typer.Argument(metavar="FILE.toml", help="The file to write.")],
+    name: Annotated[
+        str | None,
+        typer.Option("--from", metavar="NAME", help="The scenario of `cdcr list` to start from."),
+    ] = None,
     overwrite: Annotated[
         bool, typer.Option("--overwrite", help="Replace a file that is there.")
     ] = False,
 ) -> None:
-    """Write a scenario file that `run` takes as it is, with every option in a comment."""
+    """Write a scenario file that `run` takes as it is, with every option in a comment.
+
+    With --from, the file of a scenario of `cdcr list`.
+    """
     with _told_plainly(), run.mistakes():
-        new.write_template(file, overwrite=overwrite)
+        new.write_scenario(file, name, overwrite=overwrite)
         typer.echo(f"wrote {file}; next: cdcr run {file}")
 
 

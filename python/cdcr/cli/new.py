@@ -4,23 +4,25 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from cdcr import scenarios
 from cdcr.files.new_file import new_file
-from cdcr.scenarios.file.template import TEMPLATE
+from cdcr.scenarios.file.template import template
 
 
-def write_template(path: Path, *, overwrite: bool) -> None:
-    """Write the template as a file that ``cdcr run`` takes for one, complete or not at all.
+def write_scenario(path: Path, name: str | None, *, overwrite: bool) -> None:
+    """Write a scenario of the package, or the template, as a file that ``cdcr run`` takes for one.
 
     Raises
     ------
     ValueError
-        Where the name does not end in .toml.
+        Where the name of the file does not end in .toml, or there is no file of that scenario.
     OSError
         Where the folder is missing, or the file exists and is not to be replaced.
     """
     if path.suffix != ".toml":
         raise ValueError(f"the file name must end in .toml, got {path.name!r}")
+    text = scenarios.source_file(name).read_text(encoding="utf-8") if name else template()
     if path.exists() and not path.is_dir() and not overwrite:
         raise FileExistsError(f"{path} exists already; give --overwrite to replace it")
     with new_file(path, overwrite=overwrite) as part:
-        part.write_text(TEMPLATE, encoding="utf-8", newline="\n")
+        part.write_text(text, encoding="utf-8", newline="\n")

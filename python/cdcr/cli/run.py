@@ -17,7 +17,6 @@ from cdcr import robots, scenarios
 from cdcr.base.extras import require
 from cdcr.files.new_file import new_files
 from cdcr.robot.robot import Robot
-from cdcr.runs.simulate import MethodName
 from cdcr.runs.stats import STATS
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios import Scenario
@@ -88,23 +87,14 @@ class Report:
         }
 
 
-def run(
-    name: str,
-    out: Path,
-    *,
-    overwrite: bool,
-    console: Console,
-    method: MethodName | None,
-    t_end: float | None,
-    rtol: float | None,
-    atol: float | None,
-    max_steps: int | None,
-) -> Report:
-    """Run a scenario by name or file and write its files; a failed run writes none."""
+def run(name: str, out: Path, *, overwrite: bool, console: Console, **options: Any) -> Report:
+    """Run a scenario by name or file and write its files; a failed run writes none.
+
+    `options` are those of `Scenario.simulate`, None where not given.
+    """
     scenario = find_scenario(name)
     if not scenario.has_run:
-        given = {"t_end": t_end, "method": method, "rtol": rtol, "atol": atol}
-        _refuse_options(scenario, given | {"max_steps": max_steps})
+        _refuse_options(scenario, options)
         return _picture(scenario, out, overwrite=overwrite)
     files = scenario.files
     targets = tuple(out / f"{scenario.name}{suffix}" for suffix in files)
@@ -112,23 +102,16 @@ def run(
     for suffix in files:
         for module, extra in NEEDED[suffix]:
             require(module, extra)
-    with DelayedBar(console, scenario.name, scenario.t_end if t_end is None else t_end) as bar:
+    with DelayedBar(console, scenario.name, options["t_end"] or scenario.t_end) as bar:
         start = time.perf_counter()
         with mistakes():
-            trajectory = scenario.simulate(
-                t_end=t_end,
-                method=method,
-                rtol=rtol,
-                atol=atol,
-                max_steps=max_steps,
-                progress=bar,
-            )
+            trajectory = scenario.simulate(**options, progress=bar)
         wall_time = time.perf_counter() - start
     if trajectory.success:
         write(scenario, trajectory, targets, overwrite=overwrite)
     return Report(
         scenario=scenario,
-        method=method or scenario.method,
+        method=options["method"] or scenario.method,
         run=trajectory,
         wall_time=wall_time,
         metrics=scenario.summary(trajectory) if trajectory.success else (),

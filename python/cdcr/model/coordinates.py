@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from cdcr import _core
-from cdcr.base.arrays import finite
-
-FloatArray = NDArray[np.float64]
+from cdcr.base.arrays import FloatArray, finite
 
 
 def polar(

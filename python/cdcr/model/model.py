@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
+from dataclasses import fields
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from cdcr import _core
+from cdcr.base.arrays import FloatArray
 from cdcr.model.inverse_kinematics import InverseKinematics
-from cdcr.model.modes import Modes, modes
+from cdcr.model.modes import Modes
 from cdcr.model.statics import checked_allocation, checked_equilibrium
 from cdcr.robot.robot import Robot
 
@@ -18,8 +20,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from cdcr.model.wrench import Wrench
-
-FloatArray = NDArray[np.float64]
 
 FORMULATIONS = tuple(f.name.replace("_", "-") for f in _core.Formulation)
 
@@ -166,7 +166,10 @@ class Model(_core.Model):
         >>> model.modes([0.0, 0.0], [0.0, 0.0, 0.0])
         <Modes at 1.448, 1.448 Hz, stable>
         """
-        return modes(self, q, tension, wrenches)
+        found = self._modes(q, tension, wrenches)
+        names = [item.name for item in fields(Modes)][2:]
+        answers = {name: getattr(found, name) for name in names}
+        return Modes(model=self, q=np.array(q, dtype=np.float64), **answers)
 
     @overload
     def allocate(

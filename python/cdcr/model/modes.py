@@ -7,15 +7,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
+
+from cdcr.base.arrays import FloatArray
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from cdcr.model.model import Model
-    from cdcr.model.wrench import Wrench
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -89,20 +86,3 @@ class Modes:
         shown = ", ".join(f"{f:.4g}" for f in self.frequency_hz[:4])
         more = ", ..." if len(self.frequency) > 4 else ""
         return f"<Modes at {shown}{more} Hz, {'' if self.stable else 'not '}stable>"
-
-
-def modes(
-    model: Model, q: ArrayLike, tension: ArrayLike, wrenches: Wrench | Sequence[Wrench]
-) -> Modes:
-    """Return the modes about q; see Model.modes."""
-    found = model._modes(q, tension, wrenches)
-    return Modes(
-        model,
-        np.array(q, dtype=np.float64),
-        found.frequency,
-        found.squared_frequency,
-        found.shape,
-        found.damping_ratio,
-        found.eigenvalues,
-        found.stable,
-    )

@@ -7,15 +7,13 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cdcr.base.arrays import FloatArray
 from cdcr.model.model import Model
 from cdcr.model.modes import Modes
 from cdcr.model.stability import stable_step
 from cdcr.model.statics import ConvergenceError
 from cdcr.robot.robot import Robot
-
-FloatArray = NDArray[np.float64]
 
 TAUT = 10.0  # tension to which cables driven by length are wound, that all are taut [N]
 PERTURBATION = 0.1  # off a shape that does not last, towards one that does [rad]

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from cdcr import _core
-
-FloatArray = NDArray[np.float64]
+from cdcr.base.arrays import FloatArray
 
 
 class ConvergenceError(RuntimeError):

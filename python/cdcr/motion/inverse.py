@@ -11,13 +11,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cdcr import _core
+from cdcr.base.arrays import FloatArray
 from cdcr.model.model import Model
 from cdcr.model.statics import InfeasibleError
 from cdcr.motion.reference import Reference
 from cdcr.runs.command import Interpolation, TensionTable
 from cdcr.runs.simulate import warn_beyond_taylor_range
 
-FloatArray = NDArray[np.float64]
 Infeasible = Literal["raise", "nearest"]
 
 
@@ -238,7 +238,7 @@ def _check(model: Model, reference: Reference, infeasible: str) -> None:
     for j, cable in enumerate(model.robot.all_cables):
         if cable.stiffness > 0.0:
             raise ValueError(
-                f"inverse_run gives tensions, but cable {j} is driven by length; "
+                f"inverse_run gives tensions, but cable {j + 1} is driven by length; "
                 "model.commands(q, tension) gives the lengths that hold tensions"
             )
     angles = np.hypot(reference.q[:, 0::2], reference.q[:, 1::2])
@@ -246,7 +246,7 @@ def _check(model: Model, reference: Reference, infeasible: str) -> None:
     if beyond.size:
         i, section = beyond[0]
         raise ValueError(
-            f"the reference bends sections[{section}] by {angles[i, section]:.4g} rad at "
+            f"the reference bends section {section + 1} by {angles[i, section]:.4g} rad at "
             f"t = {reference.t[i]:g} s, beyond cdcr.max_bending = {_core.max_bending:.4g} rad"
         )
 
@@ -254,9 +254,9 @@ def _check(model: Model, reference: Reference, infeasible: str) -> None:
 def _refusal(
     t: float, force: ArrayLike, answer: _core.Allocation, limits: tuple[float, float]
 ) -> str:
-    cables = ", ".join(str(cable) for cable in answer.limiting)
+    cables = ", ".join(str(cable + 1) for cable in answer.limiting)
     return (
         f"at t = {t:g} s force {np.asarray(force)} N m cannot be met with tensions from "
-        f"{limits[0]:g} to {limits[1]:g} N: limited by cables [{cables}], the nearest force is "
+        f"{limits[0]:g} to {limits[1]:g} N: limited by cables {cables}, the nearest force is "
         f"{answer.force}"
     )

@@ -7,14 +7,13 @@ from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from cdcr import _core
-from cdcr.base.arrays import finite
+from cdcr.base.arrays import FloatArray, finite
 from cdcr.motion import splines
 from cdcr.motion.splines import Motion, Pair, TimeFunction
 
-FloatArray = NDArray[np.float64]
 Angle: TypeAlias = "ArrayLike | TimeFunction"
 
 

@@ -10,12 +10,11 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from cdcr.base.arrays import finite
+from cdcr.base.arrays import FloatArray, finite
 from cdcr.base.extras import require
 
-FloatArray = NDArray[np.float64]
 TimeFunction: TypeAlias = Callable[[float], ArrayLike]
 # Takes times (M,), gives values, rates and accelerations (3, M, k).
 Motion: TypeAlias = Callable[[FloatArray], FloatArray]

@@ -22,12 +22,11 @@ from math import factorial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+
+from cdcr.base.arrays import FloatArray
 
 if TYPE_CHECKING:
     from fractions import Fraction
-
-FloatArray = NDArray[np.float64]
 
 # Points of the Gauss quadrature along the backbone: exact to rounding up to max_bending.
 _NUM_POINTS = 32

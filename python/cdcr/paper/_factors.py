@@ -6,17 +6,15 @@ from dataclasses import fields
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from cdcr._core import max_bending
-from cdcr.base.arrays import finite
+from cdcr.base.arrays import FloatArray, finite
 from cdcr.base.check import Check
 from cdcr.model.model import FORMULATIONS
 from cdcr.paper._elements import Sums, cut_sums, disks, rod, sums, tip
 from cdcr.robot.robot import Robot
 from cdcr.robot.section import Section
-
-FloatArray = NDArray[np.float64]
 
 
 class Factors(NamedTuple):

@@ -14,14 +14,13 @@ from dataclasses import KW_ONLY, dataclass
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from cdcr.base.arrays import finite
+from cdcr.base.arrays import FloatArray, finite
 from cdcr.paper._elements import bow, disks, rod, sinc, sinc_slope, tip
 from cdcr.paper._factors import check_kind, checked_angles, inertia_and_slopes, only_section
 from cdcr.robot.robot import Robot
 
-FloatArray = NDArray[np.float64]
 VelocityOrder = Literal["mended", "printed"]
 
 # Below this phi has lost half of its digits and M22 nearly all of its size [rad].

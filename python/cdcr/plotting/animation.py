@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from cdcr.base.arrays import FloatArray
 from cdcr.files.new_file import new_file
 from cdcr.plotting import panels, space
 from cdcr.plotting.geometry import states_at
@@ -20,8 +21,6 @@ from cdcr.plotting.video import MAX_GIF_FPS, film_path, write_film
 
 if TYPE_CHECKING:
     from cdcr.runs.trajectory import Trajectory
-
-__all__ = ["animate"]
 
 SIZE = (11.0, 5.6)  # of the picture [in]
 DPI = 100  # with SIZE, even numbers of pixels: films want that
@@ -71,15 +70,15 @@ def animate(
     return path
 
 
-def frame_times(run: Trajectory, step: float) -> NDArray[np.float64]:
+def frame_times(run: Trajectory, step: float) -> FloatArray:
     """Return the times of the frames: every `step` [s] from the start, as far as the run goes."""
     start, end = run.t[0], run.t[-1]
     count = math.floor((end - start) / step + 1e-6) + 1  # rounding must not lose the last frame
-    times: NDArray[np.float64] = np.minimum(start + step * np.arange(count), end)
+    times: FloatArray = np.minimum(start + step * np.arange(count), end)
     return times
 
 
-def draw_frames(run: Trajectory, times: NDArray[np.float64]) -> Iterator[NDArray[np.uint8]]:
+def draw_frames(run: Trajectory, times: FloatArray) -> Iterator[NDArray[np.uint8]]:
     """Yield a picture (height, width, 4) for each time.
 
     What stands still is drawn once; each frame only draws what moves on a copy of it.
@@ -95,14 +94,13 @@ def draw_frames(run: Trajectory, times: NDArray[np.float64]) -> Iterator[NDArray
 class _Film:
     """The picture with its moving parts."""
 
-    def __init__(self, run: Trajectory, times: NDArray[np.float64]) -> None:
+    def __init__(self, run: Trajectory, times: FloatArray) -> None:
         figure = StyledFigure(figsize=SIZE, dpi=DPI)
         self._canvas = cast(Any, figure.canvas)
         robot_axes = space.add_axes(figure)
         chosen = np.linspace(0, len(run) - 1, min(len(run), NUM_FITTED)).astype(int)
         show_robot(robot_axes, run.model, run.q[chosen], run.tip)
-        scale, _ = space.fit(robot_axes, ROBOT_ROOM)
-        space.place(robot_axes, scale, ROBOT_ROOM)
+        space.fill(robot_axes, ROBOT_ROOM)
         self._robot = RobotArtists(robot_axes, run.model, run.q[0])
         self._largest = np.max(run.tension, initial=0.0)
 
@@ -126,9 +124,7 @@ class _Film:
         self._canvas.draw()
         self._still = self._canvas.copy_from_bbox(figure.bbox)
 
-    def frame(
-        self, time: float, q: NDArray[np.float64], tension: NDArray[np.float64]
-    ) -> NDArray[np.uint8]:
+    def frame(self, time: float, q: FloatArray, tension: FloatArray) -> NDArray[np.uint8]:
         """Return the picture (height, width, 4) of one moment."""
         self._robot.update(q)
         self._robot.show_tension(tension, self._largest)

@@ -6,16 +6,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
+
+from cdcr.base.arrays import FloatArray
 
 if TYPE_CHECKING:
     from cdcr.model.model import Model
     from cdcr.robot.cable import Cable
     from cdcr.runs.trajectory import Trajectory
-
-__all__ = ["RobotShape", "base_plate", "robot_shape", "states_at"]
-
-Array = NDArray[np.float64]
 
 PIECES = 48  # straight pieces of a section's backbone
 CORNERS = 48  # of a disk
@@ -36,23 +33,23 @@ class RobotShape:
         order of the tensions.
     """
 
-    backbone: Array
-    disks: list[Array]
-    cables: list[Array]
+    backbone: FloatArray
+    disks: list[FloatArray]
+    cables: list[FloatArray]
 
     @property
-    def sections(self) -> list[Array]:
+    def sections(self) -> list[FloatArray]:
         """The backbone of each section, list of (49, 3), base to tip."""
         ends = range(0, len(self.backbone) - 1, PIECES)
         return [self.backbone[k : k + PIECES + 1] for k in ends]
 
     @property
-    def points(self) -> Array:
+    def points(self) -> FloatArray:
         """All of them (P, 3)."""
         return np.concatenate([self.backbone, *self.disks, *self.cables])
 
 
-def robot_shape(model: Model, q: Array) -> RobotShape:
+def robot_shape(model: Model, q: FloatArray) -> RobotShape:
     """Return the shape at q (2n,) [rad].
 
     A section without disks leads its cables parallel to the backbone, as the model takes them.
@@ -80,12 +77,12 @@ def robot_shape(model: Model, q: Array) -> RobotShape:
     return RobotShape(np.array(backbone), disks, cables)
 
 
-def _hole(cable: Cable) -> Array:
+def _hole(cable: Cable) -> FloatArray:
     """Return where a cable passes a disk (3,), in the frame of the disk [m]."""
     return cable.radius * np.array([np.cos(cable.angle), np.sin(cable.angle), 0.0])
 
 
-def base_plate(model: Model) -> Array:
+def base_plate(model: Model) -> FloatArray:
     """Return the rim (48, 3) of a plate that is wider than anything that stands on it [m]."""
     robot = model.robot
     widest = max(
@@ -96,14 +93,14 @@ def base_plate(model: Model) -> Array:
     return _circle(1.5 * widest, np.array(robot.base_orientation), np.zeros(3))
 
 
-def _circle(radius: float, R: Array, p: Array) -> Array:
+def _circle(radius: float, R: FloatArray, p: FloatArray) -> FloatArray:
     """Return points (48, 3) of the circle about p in the x-y plane of a frame."""
     angle = np.linspace(0.0, 2.0 * np.pi, CORNERS, endpoint=False)
     flat = radius * np.stack([np.cos(angle), np.sin(angle), np.zeros(CORNERS)], axis=1)
     return np.asarray(p + flat @ R.T)
 
 
-def states_at(run: Trajectory, times: Array) -> Array:
+def states_at(run: Trajectory, times: FloatArray) -> FloatArray:
     """Return q (M, 2n) at times (M,) [s]: between samples the cubic that has their q and qd."""
     start, end = run.t[0], run.t[-1]
     if not np.all((times >= start) & (times <= end)):

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cdcr.base.arrays import FloatArray
 from cdcr.plotting import space
 from cdcr.plotting.geometry import PIECES
 from cdcr.plotting.style import ALARM, BLACK, GREY, StyledFigure, line_colors, style
@@ -14,10 +14,6 @@ from cdcr.plotting.style import ALARM, BLACK, GREY, StyledFigure, line_colors, s
 if TYPE_CHECKING:
     from cdcr.model.model import Model
     from cdcr.model.modes import Modes
-
-__all__ = ["plot_modes"]
-
-Array = NDArray[np.float64]
 
 PANEL = np.array([2.9, 4.4])  # [in]
 SWING = (1.0, 0.5)  # of the phases drawn to each side of rest, the full one last
@@ -58,8 +54,7 @@ def plot_modes(modes: Modes, count: int = 4, *, deflection: float = 0.15) -> Sty
             axes = space.add_axes(figure)
             axes.view_init(**VIEW)
             space.show_points(axes, points)
-            scale, _ = space.fit(axes, PANEL)
-            space.place(axes, scale, PANEL)
+            space.fill(axes, PANEL)
             box = axes.get_position()
             axes.set_position((box.x0 + k / shown, box.y0, box.width, box.height))
             for j, line in enumerate(pair):
@@ -89,7 +84,7 @@ def _label(modes: Modes, k: int) -> str:
     return text if abs(ratio) < 1e-12 else f"{text}\ndamping ratio {ratio:.2g}"
 
 
-def _backbone(model: Model, q: Array) -> Array:
+def _backbone(model: Model, q: FloatArray) -> FloatArray:
     """Points (P, 3) of the backbone at q [m]."""
     points = [np.zeros(3)]
     for i in range(model.num_sections):
@@ -97,7 +92,7 @@ def _backbone(model: Model, q: Array) -> Array:
     return np.array(points)
 
 
-def _swings(modes: Modes, k: int, farthest: float) -> list[Array]:
+def _swings(modes: Modes, k: int, farthest: float) -> list[FloatArray]:
     """Backbones swung to both sides in mode k, the farthest point about `farthest` away [m]."""
     model, shape = modes.model, modes.shape[:, k]
     rest = _backbone(model, modes.q)

@@ -7,25 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from numpy.typing import NDArray
 
+from cdcr.base.arrays import FloatArray
 from cdcr.plotting.style import ALARM, BLACK, GREY, StyledFigure, line_colors, style
 
 if TYPE_CHECKING:
     from cdcr.model.model import Model
     from cdcr.runs.trajectory import Trajectory
-
-__all__ = [
-    "cable_colors",
-    "cable_dashes",
-    "keep_span",
-    "plot_phi",
-    "plot_run",
-    "plot_tension",
-    "plot_theta",
-    "show_time",
-    "shown_phi",
-]
 
 # Smallest spans shown, so that rounding noise does not fill a panel.
 MIN_ANGLE = 1.0  # [deg]
@@ -102,13 +90,13 @@ def plot_phi(axes: Axes, run: Trajectory) -> None:
     keep_span(axes, MIN_ANGLE)
 
 
-def shown_phi(run: Trajectory) -> NDArray[np.float64]:
+def shown_phi(run: Trajectory) -> FloatArray:
     """Return the orientation angles (N, n) [deg] as they are drawn.
 
     One section shows all of them. Of several, those that pass near straight turn round and round:
     they are shown between -180 and 180, and not at all (NaN) where a section is nearly straight.
     """
-    phi: NDArray[np.float64] = np.rad2deg(run.phi)
+    phi: FloatArray = np.rad2deg(run.phi)
     if run.model.num_sections == 1:
         return phi
     wrapped = (phi + 180.0) % 360.0 - 180.0
@@ -174,9 +162,7 @@ def _plot_energy_error(axes: Axes, run: Trajectory) -> None:
     keep_span(axes, MIN_ERROR)
 
 
-def _plot_lines(
-    axes: Axes, t: NDArray[np.float64], values: NDArray[np.float64], names: Sequence[str]
-) -> None:
+def _plot_lines(axes: Axes, t: FloatArray, values: FloatArray, names: Sequence[str]) -> None:
     """Draw the columns of values (N, k) over t, with a legend where there are several."""
     count = values.shape[1]
     for k, (name, color) in enumerate(zip(names, line_colors(count), strict=True)):

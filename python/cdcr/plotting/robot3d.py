@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.colors import to_rgba
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # type: ignore[import-untyped]
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from cdcr.base.arrays import FloatArray
 from cdcr.plotting import panels, space
 from cdcr.plotting.geometry import base_plate, robot_shape, states_at
 from cdcr.plotting.style import BLACK, DISK, GREY, StyledFigure, line_colors, style
@@ -17,10 +18,6 @@ from cdcr.plotting.style import BLACK, DISK, GREY, StyledFigure, line_colors, st
 if TYPE_CHECKING:
     from cdcr.model.model import Model
     from cdcr.runs.trajectory import Trajectory
-
-__all__ = ["RobotArtists", "plot_robot", "plot_run_robot", "section_colors", "show_robot"]
-
-Array = NDArray[np.float64]
 
 SLACK_WIDTH, TAUT_WIDTH = 0.8, 2.2  # of the line of a cable [pt]
 FINER = 0.6  # share of these, of the cables of several sections
@@ -32,7 +29,7 @@ class RobotArtists:
     """The drawing of one robot. `update` moves it without drawing anew."""
 
     def __init__(
-        self, axes: Any, model: Model, q: Array, *, alpha: float = 1.0, layer: float = 3.0
+        self, axes: Any, model: Model, q: FloatArray, *, alpha: float = 1.0, layer: float = 3.0
     ) -> None:
         """Draw the robot at q (2n,) [rad] into Axes3D, above what lies in lower layers."""
         self._model = model
@@ -70,14 +67,14 @@ class RobotArtists:
         """Backbone of each section, then cables."""
         return [*self.backbones, *self.cables]
 
-    def update(self, q: Array) -> None:
+    def update(self, q: FloatArray) -> None:
         """Move everything to q (2n,) [rad]."""
         shape = robot_shape(self._model, q)
         self.disks.set_verts(shape.disks)
         for line, points in zip(self.lines, (*shape.sections, *shape.cables), strict=True):
             line.set_data_3d(*points.T)
 
-    def show_tension(self, tension: Array, largest: float) -> None:
+    def show_tension(self, tension: FloatArray, largest: float) -> None:
         """Draw the cables the thicker, the more tension (num_cables,) they carry."""
         for line, value in zip(self.cables, tension, strict=True):
             share = value / largest if largest > 0.0 else 0.0
@@ -180,7 +177,7 @@ def plot_run_robot(
     return axes
 
 
-def show_robot(axes: Any, model: Model, states: Iterable[Array], *more: Array) -> None:
+def show_robot(axes: Any, model: Model, states: Iterable[FloatArray], *more: FloatArray) -> None:
     """Show a base plate, and make Axes3D wide enough for all states (M, 2n) and more points."""
     plate = base_plate(model)
     shapes = [robot_shape(model, q).points for q in states]
@@ -201,7 +198,7 @@ def _finish(axes: Any) -> None:
     space.place(axes, scale, size)
 
 
-def _checked(name: str, value: ArrayLike, size: int) -> Array:
+def _checked(name: str, value: ArrayLike, size: int) -> FloatArray:
     array = np.asarray(value, dtype=np.float64)
     if array.shape != (size,):
         raise ValueError(f"{name} must have shape ({size},), got {array.shape}")

@@ -9,11 +9,8 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d import proj3d  # type: ignore[import-untyped]
-from numpy.typing import NDArray
 
-__all__ = ["add_axes", "fit", "paper_directions", "place", "show_points", "towards_viewer"]
-
-Array = NDArray[np.float64]
+from cdcr.base.arrays import FloatArray
 
 # Of three cables, the first along X, none hides another.
 VIEW = {"elev": 24.0, "azim": -74.0}  # [deg]
@@ -36,7 +33,7 @@ def add_axes(figure: Figure) -> Any:
     return axes
 
 
-def show_points(axes: Any, points: Array) -> None:
+def show_points(axes: Any, points: FloatArray) -> None:
     """Widen Axes3D to show points (P, 3) [m], with the same scale in all directions."""
     low, high = points.min(axis=0), points.max(axis=0)
     if axes.has_data():
@@ -49,7 +46,7 @@ def show_points(axes: Any, points: Array) -> None:
     _number_axes(axes, low, high)
 
 
-def _number_axes(axes: Any, low: Array, high: Array) -> None:
+def _number_axes(axes: Any, low: FloatArray, high: FloatArray) -> None:
     """Give the box its proportions, and its axes as many numbers as have room."""
     size = high - low
     axes.set_box_aspect(tuple(size))  # it would write into an array
@@ -65,20 +62,20 @@ def _number_axes(axes: Any, low: Array, high: Array) -> None:
         axis.set_tick_params(pad=TICK_OFFSET / away - 8.0)
 
 
-def towards_viewer(axes: Any) -> Array:
+def towards_viewer(axes: Any) -> FloatArray:
     """Return the direction (3,) in which Axes3D is looked at from."""
     elev, azim = np.deg2rad([axes.elev, axes.azim])
     return np.array([np.cos(elev) * np.cos(azim), np.cos(elev) * np.sin(azim), np.sin(elev)])
 
 
-def paper_directions(axes: Any) -> Array:
+def paper_directions(axes: Any) -> FloatArray:
     """Return the directions (2, 3) that Axes3D shows from left to right and upwards."""
     azim = np.deg2rad(axes.azim)
     across = np.array([-np.sin(azim), np.cos(azim), 0.0])
     return np.stack([across, np.cross(towards_viewer(axes), across)])
 
 
-def fit(axes: Any, room: Array) -> tuple[float, Array]:
+def fit(axes: Any, room: FloatArray) -> tuple[float, FloatArray]:
     """Return the scale at which Axes3D fills a room (width, height) and the size it takes [in].
 
     Matplotlib draws Axes3D into a square; the scale is the side of that square.
@@ -92,7 +89,7 @@ def fit(axes: Any, room: Array) -> tuple[float, Array]:
     return scale, scale * box + labels
 
 
-def place(axes: Any, scale: float, room: Array) -> None:
+def place(axes: Any, scale: float, room: FloatArray) -> None:
     """Put Axes3D into the middle of a room (width, height) [in] at the left of its figure."""
     paper = axes.figure.get_size_inches()
     left, below, right, above = LABELS
@@ -102,6 +99,12 @@ def place(axes: Any, scale: float, room: Array) -> None:
     axes.set_position((*(corner / paper), *(scale / paper)))
 
 
-def _limits(axes: Any) -> Array:
+def fill(axes: Any, room: FloatArray) -> None:
+    """Let Axes3D fill a room (width, height) [in] at the left of its figure."""
+    scale, _ = fit(axes, room)
+    place(axes, scale, room)
+
+
+def _limits(axes: Any) -> FloatArray:
     """Lower and upper limit of x, y, z (3, 2) [m]."""
     return np.array([axes.get_xlim(), axes.get_ylim(), axes.get_zlim()])

@@ -13,8 +13,6 @@ from cycler import cycler
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-__all__ = ["ALARM", "BLACK", "DISK", "GREY", "STYLE", "StyledFigure", "line_colors", "style"]
-
 # Okabe and Ito, without black and without the yellow that is hard to see on white.
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00")
 BLACK, GREY, LIGHT_GREY = "#222222", "#777777", "#D9D9D9"

@@ -13,8 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-__all__ = ["MAX_GIF_FPS", "film_path", "write_film"]
-
 Frame = NDArray[np.uint8]  # (height, width, 4): red, green, blue, opacity
 MAX_GIF_FPS = 50.0  # browsers slow down anything faster
 

@@ -25,7 +25,7 @@ class Cable:
     angle : float
         Angle about Z, from X [rad].
     end_section : int
-        Index of the section, from 0, at whose end the cable ends.
+        Index of the section, from 0, at whose end the cable ends; files count from 1.
     stiffness : float, default 0
         Of the cable and its drive [N/m], >= 0; 0 for a cable driven by tension.
     damping : float, default 0
@@ -51,10 +51,10 @@ class Cable:
     radius: float = quantity("from backbone to cable", "m", "a number > 0 m and finite")
     angle: float = quantity("about Z, from X", "rad", "a finite number of rad")
     end_section: int = quantity(
-        "index of the section where it ends, from 0",
+        "number of the section where it ends, from 1",
         "",
         "the index of a section, from 0",
-        kind="whole",
+        kind="section",
     )
     stiffness: float = quantity(
         "driven by length", "N/m", "a number >= 0 N/m and finite", default=0.0, advanced=True

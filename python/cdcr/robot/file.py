@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from cdcr import _core
 from cdcr.files.new_file import new_file
-from cdcr.files.toml import read_toml, refuse, schema_errors
+from cdcr.files.toml import format_toml, read_toml, refuse, schema_errors
 from cdcr.robot.cable import Cable
 from cdcr.robot.section import Section
 
@@ -46,10 +46,16 @@ def robot_from_table(kind: type[Robot], table: Mapping[str, Any], where: str) ->
     found: list[str] = []
     for i, section in enumerate(table["sections"]):
         found += schema_errors(table_of(Section), section, f"sections[{i}]")
-        found += _doubled(section, f"sections[{i}]", "cable_angles")
+        found += doubled(section, f"sections[{i}]", "cable_angles")
+    num_sections = len(table["sections"])
     for j, cable in enumerate(table.get("cables", [])):
-        found += schema_errors(table_of(Cable), cable, f"cables[{j}]")
-        found += _doubled(cable, f"cables[{j}]", "angle")
+        wrong = schema_errors(table_of(Cable), cable, f"cables[{j}]")
+        if not wrong and cable["end_section"] > num_sections:
+            requirement = f"the number of a section, 1 to {num_sections}"
+            end = format_toml(cable["end_section"])
+            wrong = [f"cables[{j}].end_section must be {requirement}, got {end}"]
+        found += wrong
+        found += doubled(cable, f"cables[{j}]", "angle")
         if not {"angle", "angle_deg"} & cable.keys():
             found.append(f"cables[{j}] must have angle [rad] or angle_deg [deg]")
     refuse(where, found)
@@ -69,14 +75,22 @@ def robot_from_table(kind: type[Robot], table: Mapping[str, Any], where: str) ->
     return kind(**robot | described)
 
 
-def _doubled(table: Mapping[str, Any], at: str, name: str) -> list[str]:
+def doubled(table: Mapping[str, Any], at: str, name: str) -> list[str]:
+    """Return a sentence where a table has a value in radians and in degrees."""
     both = name in table and f"{name}_deg" in table
     return [f"{at} must have {name} or {name}_deg, not both"] if both else []
 
 
 def _fields_of(kind: type[Section | Cable], table: Mapping[str, Any]) -> dict[str, Any]:
-    """Return all fields of a description, angles in radians."""
-    values = _defaults(kind) | dict(table)
+    values = _defaults(kind) | in_radians(table)
+    if kind is Cable:
+        values["end_section"] -= 1  # counted from 1 in files
+    return values
+
+
+def in_radians(table: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the keys of a section's or a cable's table, angles in radians."""
+    values = dict(table)
     if "cable_angles_deg" in values:
         values["cable_angles"] = [math.radians(a) for a in values.pop("cable_angles_deg")]
     if "angle_deg" in values:
@@ -108,12 +122,17 @@ def _lines(thing: Robot | Section | Cable, all_fields: bool) -> Iterator[str]:
     written = {
         item.name: item.metadata for item in fields(thing) if _is_written(thing, item, all_fields)
     }
-    pairs = {name: f"{name} = {_toml_value(getattr(thing, name))}" for name in written}
+    pairs = {name: f"{name} = {_toml_value(_in_file(thing, name))}" for name in written}
     short = [len(pair) for pair in pairs.values() if len(pair) <= 40]
     for name, pair in pairs.items():
         about, unit = written[name]["about"], written[name]["unit"]
         comment = f"{about} [{unit}]" if unit else about
         yield f"{pair:<{max(short, default=0)}}  # {comment}"
+
+
+def _in_file(thing: Robot | Section | Cable, name: str) -> Any:
+    value = getattr(thing, name)
+    return value + 1 if name == "end_section" else value
 
 
 def _is_written(thing: Robot | Section | Cable, item: Field[Any], all_fields: bool) -> bool:

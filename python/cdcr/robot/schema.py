@@ -20,6 +20,7 @@ _TYPES: dict[str, Any] = {
     "number": float,
     "number or none": float,
     "whole": _Int,
+    "section": Annotated[_Int, pydantic.Field(ge=1)],
     "numbers": list[float],
     "vector": _Three,
     "matrix": _Rows,
@@ -27,21 +28,24 @@ _TYPES: dict[str, Any] = {
 
 
 @cache
-def table_of(kind: type[Any]) -> type[pydantic.BaseModel]:
+def table_of(kind: type[Any], *, partial: bool = False) -> type[pydantic.BaseModel]:
     """Return what the table of a Robot, a Section or a Cable may hold.
 
-    A key may be left out where the field has a default, which then holds. Angles may be in degrees,
-    under keys that say so.
+    A key may be left out where the field has a default, which then holds; every key of a `partial`
+    table, which changes what there is, and has no tables of sections and cables in it. Angles may
+    be in degrees, under keys that say so.
     """
-    keys = {key: value for item in fields(kind) for key, value in _keys(item)}
+    keys = {key: value for item in fields(kind) for key, value in _keys(item, partial)}
     config = pydantic.ConfigDict(extra="forbid", strict=True)
     return pydantic.create_model(f"{kind.__name__}Table", __config__=config, **keys)
 
 
-def _keys(item: Field[Any]) -> Iterator[tuple[str, Any]]:
+def _keys(item: Field[Any], partial: bool) -> Iterator[tuple[str, Any]]:
     kind, unit = item.metadata["kind"], item.metadata["unit"]
-    given = ... if item.default is MISSING and unit != "rad" else None
+    given = ... if item.default is MISSING and unit != "rad" and not partial else None
     if isinstance(kind, type):
+        if partial:
+            return
         table = f"one [[{item.name}]] table for each {item.name.removesuffix('s')}"
         yield item.name, (list[dict[str, Any]], pydantic.Field(given, description=table))
         return
@@ -55,6 +59,8 @@ def _requirement(item: Field[Any], unit: str) -> str:
     if item.metadata["kind"] in ("vector", "matrix"):
         rows = "3 rows of " if item.metadata["kind"] == "matrix" else ""
         return f"an array of {rows}3 numbers" + (f" [{unit}]" if unit else "")
+    if item.metadata["kind"] == "section":
+        return "the number of a section, from 1"
     words = str(item.metadata["requirement"]).removesuffix(", or None")
     # "numbers in kg" and "a number of rad" are "numbers [kg]" and "a number [rad]" there.
     return re.sub(r"(numbers?) (in|of) \S+$", rf"\1 [{unit}]", words).replace(

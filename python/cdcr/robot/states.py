@@ -5,11 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cdcr.base.arrays import finite
+from cdcr.base.arrays import FloatArray, finite
 from cdcr.robot.parts import Parts, part_counts
 from cdcr.robot.robot import Robot
-
-FloatArray = NDArray[np.float64]
 
 
 def subdivide_state(robot: Robot, parts: Parts, q: ArrayLike) -> FloatArray:

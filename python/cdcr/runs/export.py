@@ -12,18 +12,16 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from cdcr import _core
+from cdcr.base.arrays import FloatArray
 from cdcr.base.extras import require
 from cdcr.files.new_file import new_file
 from cdcr.runs.stats import STATS
 
 if TYPE_CHECKING:
     import xarray
-    from numpy.typing import NDArray
 
     from cdcr.model.model import Model
     from cdcr.runs.trajectory import Trajectory
-
-__all__ = ["save", "to_xarray"]
 
 
 class Quantity(NamedTuple):
@@ -33,7 +31,7 @@ class Quantity(NamedTuple):
     dims: tuple[str, ...]
     units: str
     long_name: str
-    values: NDArray[np.float64]
+    values: FloatArray
 
 
 def by_length(model: Model) -> bool:
@@ -109,7 +107,9 @@ def _attributes(run: Trajectory) -> dict[str, str | int]:
         "method": run.method,
         "formulation": run.model.formulation,
         "robot": json.dumps(asdict(run.model.robot)),
-        "slack_events": json.dumps(run.slack_events),
+        "slack_events": json.dumps(
+            [event._replace(cable=event.cable + 1) for event in run.slack_events]
+        ),
         **{name: getattr(run.stats, name) for name in STATS},
     }
 

@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cdcr._core import Status
+from cdcr.base.arrays import FloatArray
 from cdcr.base.extras import require
 from cdcr.model.model import Model
 from cdcr.robot.cable import Cable
@@ -19,8 +19,6 @@ from cdcr.robot.robot import Robot
 from cdcr.robot.section import Section
 from cdcr.runs.export import by_length
 from cdcr.runs.stats import STATS, make_stats
-
-FloatArray = NDArray[np.float64]
 
 
 def load(path: str | PathLike[str], model: Model | None) -> dict[str, Any]:
@@ -46,6 +44,7 @@ def _netcdf(file: Path, model: Model | None) -> dict[str, Any]:
         about = found.attrs
         model = model or _model(json.loads(about["robot"]), about["formulation"])
         rows = len(found.time)
+        events = json.loads(about.get("slack_events", "[]"))  # cables counted from 1, as in files
         command = found.command if "command" in found else found.tension
         return {
             "model": model,
@@ -58,7 +57,7 @@ def _netcdf(file: Path, model: Model | None) -> dict[str, Any]:
             "message": about["message"],
             "method": about["method"],
             "stats": make_stats(int(about[name]) for name in STATS),
-            "slack_events": json.loads(about.get("slack_events", "[]")),
+            "slack_events": [(t, cable - 1, slack) for t, cable, slack in events],
         }
     except (OSError, KeyError, AttributeError) as error:
         raise ValueError(f"{file} is no run that cdcr has written: {error}") from None

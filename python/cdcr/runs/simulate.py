@@ -7,15 +7,15 @@ from collections.abc import Callable, Sequence
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from cdcr import _core
+from cdcr.base.arrays import FloatArray
 from cdcr.model.model import Model
 from cdcr.model.wrench import Wrench, loads
 from cdcr.runs.command import Command, command_input
 from cdcr.runs.trajectory import SlackEvent, Trajectory
 
-FloatArray = NDArray[np.float64]
 MethodName = Literal["bdf", "adams", "dopri5", "rk4"]
 
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 import numpy as np
 
 from cdcr import _core
+from cdcr.base.arrays import FloatArray
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 
     import xarray
     from matplotlib.figure import Figure
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
     from cdcr._core import Stats, Status
     from cdcr.model.model import Model
@@ -75,15 +76,15 @@ class Trajectory:
     """
 
     model: Model
-    t: NDArray[np.float64]
-    q: NDArray[np.float64]
-    qd: NDArray[np.float64]
-    tension: NDArray[np.float64]
+    t: FloatArray
+    q: FloatArray
+    qd: FloatArray
+    tension: FloatArray
     status: Status
     message: str
     stats: Stats
     method: str = ""
-    command: NDArray[np.float64] = None  # type: ignore[assignment]  # the tensions
+    command: FloatArray = None  # type: ignore[assignment]  # the tensions
     slack_events: tuple[SlackEvent, ...] = ()
 
     def __post_init__(self) -> None:
@@ -139,52 +140,52 @@ class Trajectory:
     # cached_property writes to the instance's __dict__, which a frozen dataclass leaves open.
 
     @cached_property
-    def _polar(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def _polar(self) -> tuple[FloatArray, FloatArray]:
         theta, phi = _core.polar_along(self.q)
         return _read_only(theta), _read_only(phi)
 
     @property
-    def theta(self) -> NDArray[np.float64]:
+    def theta(self) -> FloatArray:
         """Bending angles (N, n) [rad]; negative after a swing through straight."""
         return self._polar[0]
 
     @property
-    def phi(self) -> NDArray[np.float64]:
+    def phi(self) -> FloatArray:
         """Orientation angles (N, n) [rad], continuous along the run."""
         return self._polar[1]
 
     @cached_property
-    def tip(self) -> NDArray[np.float64]:
+    def tip(self) -> FloatArray:
         """Tip positions (N, 3) in the base frame [m]."""
         return _read_only(self.model.tips(self.q))
 
     @cached_property
-    def kinetic_energy(self) -> NDArray[np.float64]:
+    def kinetic_energy(self) -> FloatArray:
         """Kinetic energy (N,) [J]."""
         return _read_only(self.model.kinetic_energy(self.q, self.qd))
 
     @cached_property
-    def potential_energy(self) -> NDArray[np.float64]:
+    def potential_energy(self) -> FloatArray:
         """Elastic energy plus weight (N,) [J]; the weight's is zero at the base."""
         return _read_only(self.model.potential_energy(self.q))
 
     @cached_property
-    def energy(self) -> NDArray[np.float64]:
+    def energy(self) -> FloatArray:
         """Total mechanical energy (N,) [J]."""
         return _read_only(self.kinetic_energy + self.potential_energy)
 
     @cached_property
-    def cable_energy(self) -> NDArray[np.float64]:
+    def cable_energy(self) -> FloatArray:
         """Energy in the springs of cables driven by length (N,) [J]; not part of `energy`."""
         return _read_only(self.model.cable_energy(self.q, self.command))
 
     @cached_property
-    def friction_power(self) -> NDArray[np.float64]:
+    def friction_power(self) -> FloatArray:
         """Heat that friction of the cables makes (N,) [W], never negative."""
         return _read_only(self.model.friction_power(self.q, self.qd, self.command))
 
     @property
-    def energy_error(self) -> NDArray[np.float64]:
+    def energy_error(self) -> FloatArray:
         """Relative change of the total energy since the start (N,) [1].
 
         (E - E[0]) / max(abs(E[0]), largest kinetic energy of the run); zero for a robot at rest
@@ -335,7 +336,7 @@ class Trajectory:
         )
 
 
-def _read_only(array: NDArray[np.float64]) -> NDArray[np.float64]:
+def _read_only(array: FloatArray) -> FloatArray:
     array.setflags(write=False)
     return array
 

@@ -6,16 +6,14 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cdcr.base.arrays import FloatArray
 from cdcr.model.statics import ConvergenceError
 from cdcr.model.wrench import Wrench
 from cdcr.runs.trajectory import Trajectory
 
 if TYPE_CHECKING:
     from cdcr.scenarios.scenario import Scenario
-
-FloatArray = NDArray[np.float64]
 
 # A signal has swung when it has left this share of its span around its mean on both sides.
 _SWING = 0.02

@@ -8,9 +8,9 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cdcr._core import Controller
+from cdcr.base.arrays import FloatArray
 from cdcr.base.check import Check
 from cdcr.model.model import Model
 from cdcr.model.wrench import Wrench
@@ -50,7 +50,7 @@ class InputSource(Protocol):
         model: Model,
         q0: tuple[float, ...],
         qd0: tuple[float, ...],
-        t: NDArray[np.float64],
+        t: FloatArray,
         **options: Any,
     ) -> Trajectory:
         """Run the robot from a state and sample it at output times (N,) [s]."""
@@ -154,9 +154,7 @@ class Scenario:
         """
         return self.q0(model) if callable(self.q0) else self.q0
 
-    def times(
-        self, t_end: float | None = None, num_samples: int | None = None
-    ) -> NDArray[np.float64]:
+    def times(self, t_end: float | None = None, num_samples: int | None = None) -> FloatArray:
         """Return the output times of a run; another end alone leaves their spacing.
 
         Parameters

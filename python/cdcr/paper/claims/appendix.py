@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from cdcr.base.arrays import FloatArray
 from cdcr.paper._factors import Factors, factors, inertia
 from cdcr.paper.claims.common import (
     DISK_INERTIA,
@@ -12,7 +13,6 @@ from cdcr.paper.claims.common import (
     SAME,
     SECTION,
     Claim,
-    FloatArray,
     excess,
     gap,
     holds_if,

@@ -6,12 +6,12 @@ import math
 
 import numpy as np
 
+from cdcr.base.arrays import FloatArray
 from cdcr.paper.claims.common import (
     EDGE,
     PULL,
     SECTION,
     Claim,
-    FloatArray,
     excess,
     numbers,
 )

@@ -7,13 +7,12 @@ from functools import lru_cache
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from cdcr._core import taylor_range
 from cdcr.model.model import Model
 from cdcr.robots import amouri2020
 
-FloatArray = NDArray[np.float64]
 Verdict = Literal["holds", "holds in part", "does not hold", "cannot be checked"]
 VERDICTS: tuple[Verdict, ...] = ("holds", "holds in part", "does not hold", "cannot be checked")
 

@@ -7,12 +7,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from cdcr.base.arrays import FloatArray
 from cdcr.paper.claims.common import (
     EDGE,
     PRINTED_ANGLE,
     SECTION,
     Claim,
-    FloatArray,
     holds_if,
     model,
     numbers,

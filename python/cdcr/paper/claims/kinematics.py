@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from cdcr.base.arrays import FloatArray
 from cdcr.model.coordinates import bending
 from cdcr.paper._factors import factors, taylor_coefficients
 from cdcr.paper.claims.common import (
@@ -13,7 +14,6 @@ from cdcr.paper.claims.common import (
     SAME,
     SECTION,
     Claim,
-    FloatArray,
     gap,
     holds_if,
     model,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from cdcr.base.arrays import FloatArray
 from cdcr.model.coordinates import bending
 from cdcr.paper._factors import factors
 from cdcr.paper._polar import PolarModel, VelocityOrder
@@ -14,7 +15,6 @@ from cdcr.paper.claims.common import (
     SAME,
     SECTION,
     Claim,
-    FloatArray,
     gap,
     holds_if,
     model,

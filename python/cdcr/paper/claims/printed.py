@@ -7,9 +7,8 @@ They lose digits towards theta = 0, as closed forms with theta below the fractio
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
+from cdcr.base.arrays import FloatArray
 
 _TENTHS = np.arange(1, 11) / 10.0
 

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from cdcr.base.arrays import FloatArray
 from cdcr.model.coordinates import polar
 from cdcr.model.model import Model
 from cdcr.paper.claims.common import (
@@ -14,7 +15,6 @@ from cdcr.paper.claims.common import (
     SAME,
     SECTION,
     Claim,
-    FloatArray,
     excess,
     holds_if,
     model,

@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from cdcr.base.arrays import FloatArray
 from cdcr.model.coordinates import bending
 from cdcr.model.model import Model
 from cdcr.paper._elements import bow, sinc
@@ -17,7 +18,6 @@ from cdcr.paper.claims.common import (
     ROBOT,
     SECTION,
     Claim,
-    FloatArray,
     excess,
     gap,
     model,

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from matplotlib.axes import Axes
 from matplotlib.patches import FancyBboxPatch
 
 from cdcr.plotting.style import BLACK, GREY, StyledFigure, style
 from cdcr.scenarios.figures.drawing import new_figure
+
+if TYPE_CHECKING:
+    from cdcr.scenarios.scenario import Scenario
 
 SIZE = (11.0, 5.0)  # [in]
 HALF_WIDTH, HALF_HEIGHT = 0.98, 0.42
@@ -55,10 +58,10 @@ FLOWS = (
 )
 
 
-def diagram_figure(title: str) -> StyledFigure:
+def plot(scenario: Scenario, run: None) -> StyledFigure:
     """Draw the blocks and what flows between them."""
     with style():
-        figure = new_figure(title, SIZE)
+        figure = new_figure(scenario.title, SIZE)
         axes = figure.subplots()
         axes.set_axis_off()
         axes.set_aspect("equal")

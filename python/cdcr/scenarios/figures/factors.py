@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from matplotlib.axes import Axes
 
@@ -13,7 +15,10 @@ from cdcr.scenarios.figures.drawing import (
     note,
     show_angle,
 )
-from cdcr.scenarios.studies.factors import cut, kinds, taylor_error, value
+from cdcr.scenarios.studies.factors import FACTORS, cut, kinds, taylor_error, value
+
+if TYPE_CHECKING:
+    from cdcr.scenarios.scenario import Scenario
 
 SIZE = (10.4, 6.8)  # [in]
 MIN_ERROR = 0.02  # smallest span of an error shown, so that rounding noise fills no panel [%]
@@ -22,10 +27,11 @@ DERIVED, PRINTED = (COLORS[0], "derived from eqs. (1) to (4)"), (COLORS[1], "as 
 WIDE = 3.4  # line under the dashes of its own Taylor polynomial
 
 
-def factor_figure(title: str, pair: tuple[str, str], remarks: str) -> StyledFigure:
+def plot(scenario: Scenario, run: None) -> StyledFigure:
     """Draw two factors over theta at the left, the errors of their Taylor polynomials beside."""
+    pair, remarks = FACTORS[scenario.name]
     with style():
-        figure = new_figure(title, SIZE)
+        figure = new_figure(scenario.title, SIZE)
         panels = figure.subplots(2, 2, sharex=True)
         for row, factor in enumerate(pair):
             _draw_values(panels[row, 0], factor)

@@ -10,31 +10,24 @@ from matplotlib.axes import Axes
 from cdcr.plotting import panels
 from cdcr.plotting.style import ALARM, BLACK, GREY, StyledFigure, line_colors, style
 from cdcr.scenarios.figures.drawing import legend_below, new_figure, note
-from cdcr.scenarios.studies.free_oscillation import (
-    DAMPING,
-    LOOSE,
-    PAPER_TIME,
-    SETTLED,
-    START,
-    amplitude,
-    variants,
-)
+from cdcr.scenarios.studies import free_oscillation as study
 
 if TYPE_CHECKING:
     from cdcr.runs.trajectory import Trajectory
+    from cdcr.scenarios.scenario import Scenario
 
 
-def oscillation_figure(title: str, run: Trajectory) -> StyledFigure:
+def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
     """Draw the bending angle of the run, of the damped robot, and amplitudes."""
-    others = variants(float(run.t[-1]))
+    others = study.variants(scenario, float(run.t[-1]))
     with style():
-        figure = new_figure(title, (10.4, 7.6))
+        figure = new_figure(scenario.title, (10.4, 7.6))
         free, damped, loose = figure.subplots(3, 1, height_ratios=[1.0, 1.0, 1.15])
         _draw_theta(free, run)
         note(free, "the paper's equations: no damping, the amplitude stays")
         _draw_theta(damped, others["damped"])
-        _draw_band(damped, float(run.t[-1]))
-        note(damped, rf"with a damping of {1e4 * DAMPING:.2f}$\cdot 10^{{-4}}$ N m s/rad")
+        _draw_band(damped, others["damped"])
+        note(damped, rf"with a damping of {1e4 * study.DAMPING:.2f}$\cdot 10^{{-4}}$ N m s/rad")
         _draw_amplitudes(loose, run, others)
         note(loose, "no damping, loose integrators: none drawn here explains the settling")
         for axes in (free, damped, loose):
@@ -51,22 +44,30 @@ def _draw_theta(axes: Axes, run: Trajectory) -> None:
     axes.set_yticks([-45, 0, 45])
 
 
-def _draw_band(axes: Axes, end: float) -> None:
-    band = np.rad2deg(SETTLED * START)
+def _draw_band(axes: Axes, run: Trajectory) -> None:
+    band = np.rad2deg(study.SETTLED * study.amplitude(run)[0])
     for side in (-band, band):
         axes.axhline(side, color=BLACK, linewidth=0.8, linestyle="--")
-    if end > PAPER_TIME:
-        axes.axvline(PAPER_TIME, color=ALARM, linewidth=1.2, linestyle=":")
-        axes.text(PAPER_TIME + 0.4, 30.0, f"the paper: {PAPER_TIME} s", color=ALARM, fontsize=9.5)
+    if run.t[-1] > study.PAPER_TIME:
+        axes.axvline(study.PAPER_TIME, color=ALARM, linewidth=1.2, linestyle=":")
+        axes.text(
+            study.PAPER_TIME + 0.4,
+            30.0,
+            f"the paper: {study.PAPER_TIME} s",
+            color=ALARM,
+            fontsize=9.5,
+        )
 
 
 def _draw_amplitudes(axes: Axes, run: Trajectory, others: dict[str, Trajectory]) -> None:
-    kept = np.rad2deg(amplitude(run))
+    kept = np.rad2deg(study.amplitude(run))
     axes.plot(run.t, kept, color=GREY, linewidth=3.4, alpha=0.6, label="undamped")
     damped = others["damped"]
-    axes.plot(damped.t, np.rad2deg(amplitude(damped)), color=BLACK, linestyle="--", label="damped")
-    for name, color in zip(LOOSE, line_colors(len(LOOSE)), strict=True):
+    axes.plot(
+        damped.t, np.rad2deg(study.amplitude(damped)), color=BLACK, linestyle="--", label="damped"
+    )
+    for name, color in zip(study.LOOSE, line_colors(len(study.LOOSE)), strict=True):
         other = others[name]
-        axes.plot(other.t, np.rad2deg(amplitude(other)), color=color, label=name)
+        axes.plot(other.t, np.rad2deg(study.amplitude(other)), color=color, label=name)
     axes.set_ylabel("amplitude [deg]")
     axes.set_ylim(0.0, None)

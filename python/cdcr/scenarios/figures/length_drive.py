@@ -12,35 +12,27 @@ from cdcr.plotting.geometry import states_at
 from cdcr.plotting.robot3d import RobotArtists, show_robot
 from cdcr.plotting.style import BLACK, GREY, LIGHT_GREY, StyledFigure, line_colors, style
 from cdcr.scenarios.figures.drawing import note
-from cdcr.scenarios.figures.workspace import new_figure
-from cdcr.scenarios.studies.length_drive import BACK, GO, STIFFER, errors, stiffer, wanted
+from cdcr.scenarios.figures.workspace import add_panels, new_figure
+from cdcr.scenarios.studies.length_drive import BACK, GO, errors, stiffer, wanted
 
 if TYPE_CHECKING:
     from cdcr.runs.trajectory import Trajectory
+    from cdcr.scenarios.scenario import Scenario
 
 SIZE = (12.4, 8.2)  # of the picture [in]
 ROOM = np.array([6.1, 7.2])  # of the robot in space, left [in]
 MIN_ERROR = 1e-2  # lower end of the error's axis [deg]
 
 
-def length_drive_figure(title: str, run: Trajectory) -> StyledFigure:
+def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
     """Draw the robot where it starts and where it is held, and four panels over time."""
     with style():
-        figure = new_figure(title, SIZE)
-        _draw_robot(figure, run)
-        grid = figure.add_gridspec(
-            3,
-            1,
-            left=0.56,
-            right=0.955,
-            bottom=0.075,
-            top=0.91,
-            hspace=0.3,
-            height_ratios=[1.2, 1.0, 1.6],
-        )
-        theta, error, tension = (figure.add_subplot(grid[row]) for row in range(3))
-        _draw_theta(theta, run)
-        _draw_errors(error, run)
+        figure = new_figure(scenario.title, SIZE)
+        _draw_robot(figure, scenario, run)
+        place = {"left": 0.56, "right": 0.955, "bottom": 0.075, "top": 0.91, "hspace": 0.3}
+        theta, error, tension = add_panels(figure, [1.2, 1.0, 1.6], **place)
+        _draw_theta(theta, scenario, run)
+        _draw_errors(error, scenario, run)
         _draw_tensions(tension, run)
         for axes in (theta, error, tension):
             panels.show_time(axes, run, named=axes is tension)
@@ -48,10 +40,10 @@ def length_drive_figure(title: str, run: Trajectory) -> StyledFigure:
     return figure
 
 
-def _draw_robot(figure: StyledFigure, run: Trajectory) -> None:
+def _draw_robot(figure: StyledFigure, scenario: Scenario, run: Trajectory) -> None:
     times = np.unique(np.clip([GO, BACK], run.t[0], run.t[-1]))
     shapes = states_at(run, times)
-    ideal = wanted(times[-1:])[0]
+    ideal = wanted(scenario, times[-1:])[0]
     axes: Any = space.add_axes(figure)
     show_robot(axes, run.model, [*shapes, ideal], run.tip)
     for k, (q, alpha) in enumerate(zip(shapes, (0.3, 1.0)[-len(shapes) :], strict=True)):
@@ -61,15 +53,14 @@ def _draw_robot(figure: StyledFigure, run: Trajectory) -> None:
     line = np.array([run.model.pose(ideal, i, x)[1] for i in sections for x in places])
     axes.plot(*line.T, color=BLACK, linewidth=1.8, linestyle=":", zorder=20, label="wanted")
     axes.plot(*run.tip.T, color=GREY, linewidth=1.0, zorder=19, label="path of the tip")
-    scale, _ = space.fit(axes, ROOM)
-    space.place(axes, scale, ROOM)
+    space.fill(axes, ROOM)
     middle = ROOM[0] / SIZE[0] / 2.0
     handles, labels = axes.get_legend_handles_labels()
     figure.legend(handles, labels, loc="upper center", bbox_to_anchor=(middle, 0.82), ncols=2)
 
 
-def _draw_theta(axes: Axes, run: Trajectory) -> None:
-    asked = np.rad2deg(np.linalg.norm(wanted(run.t).reshape(len(run), -1, 2), axis=2))
+def _draw_theta(axes: Axes, scenario: Scenario, run: Trajectory) -> None:
+    asked = np.rad2deg(np.linalg.norm(wanted(scenario, run.t).reshape(len(run), -1, 2), axis=2))
     reached = np.rad2deg(np.abs(run.theta))
     colors = line_colors(run.model.num_sections)
     for i, color in enumerate(colors):
@@ -91,16 +82,17 @@ def _draw_theta(axes: Axes, run: Trajectory) -> None:
         )
 
 
-def _draw_errors(axes: Axes, run: Trajectory) -> None:
-    better = stiffer(float(run.t[-1]))
+def _draw_errors(axes: Axes, scenario: Scenario, run: Trajectory) -> None:
+    better = stiffer(scenario, float(run.t[-1]))
+    stiffness = better.model.robot.sections[0].cable_stiffness
     colors = line_colors(run.model.num_sections)
     for one, dashes in ((run, "-"), (better, "-.")):
-        for values, color in zip(np.rad2deg(errors(one)).T, colors, strict=True):
+        for values, color in zip(np.rad2deg(errors(scenario, one)).T, colors, strict=True):
             axes.plot(one.t, np.maximum(values, MIN_ERROR), color=color, linestyle=dashes)
     axes.set_yscale("log")
     axes.set_ylabel("error [deg]")
     axes.set_ylim(MIN_ERROR, 2e1)
-    note(axes, f"full: as above; dash-dotted: cables of {1e-3 * STIFFER:g} N/mm")
+    note(axes, f"full: as above; dash-dotted: cables of {1e-3 * stiffness:g} N/mm")
 
 
 def _draw_tensions(axes: Axes, run: Trajectory) -> None:

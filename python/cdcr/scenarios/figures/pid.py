@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from matplotlib.axes import Axes
-from numpy.typing import NDArray
 
+from cdcr.base.arrays import FloatArray
 from cdcr.plotting.style import BLACK, COLORS, StyledFigure, style
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.figures.drawing import legend_below, new_figure, note
 from cdcr.scenarios.studies.pid import LOOPS, READINGS, RECOMMENDED, TARGET, Loop, runs
 
-FloatArray = NDArray[np.float64]
+if TYPE_CHECKING:
+    from cdcr.scenarios.scenario import Scenario
 
 SIZE = (12.4, 6.6)  # [in]
 ALONE, FORWARD = COLORS[1], COLORS[0]
@@ -19,11 +22,11 @@ SHOWN = {"radians": 6.0, "degrees": 1.0, "moment": 1.0}  # what comes after is s
 TENSIONS = (-2.5, 12.0)  # shown; the first instants ask for far more [N]
 
 
-def pid_figure(title: str, run: Trajectory) -> StyledFigure:
+def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
     """Draw bending angle and tension of every loop."""
     others = runs(float(run.t[-1]))
     with style():
-        figure = new_figure(title, SIZE)
+        figure = new_figure(scenario.title, SIZE)
         panels = figure.subplots(2, 3, sharex="col", sharey="row")
         for column, (reading, (words, _)) in enumerate(READINGS.items()):
             angle, tension = panels[:, column]

@@ -10,30 +10,21 @@ from matplotlib.axes import Axes
 from cdcr.plotting import panels
 from cdcr.plotting.style import BLACK, COLORS, GREY, StyledFigure, style
 from cdcr.scenarios.figures.drawing import new_figure, note
+from cdcr.scenarios.studies import pull_release as study
 from cdcr.scenarios.studies.energy import integral
-from cdcr.scenarios.studies.pull_release import (
-    DAMPING,
-    FRICTION,
-    FULL,
-    RAMP,
-    beyond,
-    dead_band,
-    friction_power,
-    frictionless,
-    pulled,
-)
 
 if TYPE_CHECKING:
     from cdcr.runs.trajectory import Trajectory
+    from cdcr.scenarios.scenario import Scenario
 
 RUB, SMOOTH, FAR = COLORS[1], BLACK, COLORS[0]
 
 
-def pull_release_figure(title: str, run: Trajectory) -> StyledFigure:
+def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
     """Draw the loop in space and in work, the tensions, and the power of friction."""
-    smooth = frictionless(float(run.t[-1]))
+    smooth = study.frictionless(scenario, float(run.t[-1]))
     with style():
-        figure = new_figure(title, (12.4, 7.4))
+        figure = new_figure(scenario.title, (12.4, 7.4))
         left, right = figure.subfigures(1, 2, squeeze=False, width_ratios=[1.0, 1.05])[0]
         loop, work = left.subplots(2, 1)
         tension, power = right.subplots(2, 1, height_ratios=[1.35, 1.0])
@@ -51,21 +42,23 @@ def _draw_loop(axes: Axes, run: Trajectory, smooth: Trajectory) -> None:
     axes.plot(1e3 * run.tip[:, 0], run.tension[:, 0], color=RUB)
     axes.set_xlabel("tip displacement x [mm]")
     axes.set_ylabel("tension at the base [N]")
-    axes.set_ylim(-0.4, 1.12 * FULL)
+    axes.set_ylim(-0.4, 1.12 * study.FULL)
     note(axes, "both cycles lie on one loop")
-    _name(axes, run, 0.42, rf"pulled, $\mu$ = {FRICTION:g}", RUB, (-10, 8), "right")
+    _name(
+        axes, run, 0.42, rf"pulled, $\mu$ = {study.coefficients(run)[0]:g}", RUB, (-10, 8), "right"
+    )
     _name(axes, run, 1.5, "released", RUB, (14, -10), "left")
     _name(axes, smooth, 0.3, r"$\mu$ = 0", SMOOTH, (16, -10), "left")
-    band = dead_band(run)
+    band = study.dead_band(run)
     if band is not None:
         right = 1e3 * float(np.max(smooth.tip[:, 0])) * 1.035
         axes.annotate(
             "",
-            xy=(right, FULL - band[0]),
-            xytext=(right, FULL),
+            xy=(right, study.FULL - band[0]),
+            xytext=(right, study.FULL),
             arrowprops={"arrowstyle": "<->", "color": GREY, "shrinkA": 0, "shrinkB": 0},
         )
-        middle = FULL - band[0] / 2.0
+        middle = study.FULL - band[0] / 2.0
         axes.text(1.02 * right, middle, f"dead band\n{band[0]:.2f} N", va="center", color=BLACK)
         axes.set_xlim(None, 1.27 * right)
 
@@ -80,7 +73,7 @@ def _name(
     side: str,
 ) -> None:
     """Write a name beside the line of a run, where it is after some ramps."""
-    k = int(np.searchsorted(run.t, ramps * RAMP))
+    k = int(np.searchsorted(run.t, ramps * study.RAMP))
     if k < len(run):
         axes.annotate(
             text,
@@ -94,18 +87,18 @@ def _name(
 
 
 def _draw_work(axes: Axes, run: Trajectory, smooth: Trajectory) -> None:
-    cycle = run.t <= run.t[0] + 2.0 * RAMP
-    way, force = 1e3 * pulled(run)[cycle], run.tension[cycle, 0]
+    cycle = run.t <= run.t[0] + 2.0 * study.RAMP
+    way, force = 1e3 * study.pulled(run)[cycle], run.tension[cycle, 0]
     axes.fill(way, force, color=RUB, alpha=0.18, linewidth=0)
     axes.plot(way, force, color=RUB)
-    axes.plot(1e3 * pulled(smooth), smooth.tension[:, 0], color=SMOOTH, linewidth=1.2)
+    axes.plot(1e3 * study.pulled(smooth), smooth.tension[:, 0], color=SMOOTH, linewidth=1.2)
     axes.set_xlabel("cable 1 pulled out of the robot [mm]")
     axes.set_ylabel("tension at the base [N]")
-    axes.set_ylim(-0.4, 1.12 * FULL)
-    if run.t[-1] >= run.t[0] + 2.0 * RAMP:
+    axes.set_ylim(-0.4, 1.12 * study.FULL)
+    if run.t[-1] >= run.t[0] + 2.0 * study.RAMP:
         area = float(integral(force, way))  # N mm
         rate = np.sum(run.qd[cycle] ** 2, axis=1)
-        damped = 1e3 * DAMPING * float(integral(rate, run.t[cycle]))
+        damped = 1e3 * study.coefficients(run)[1] * float(integral(rate, run.t[cycle]))
         axes.text(
             0.03,
             0.95,
@@ -116,12 +109,12 @@ def _draw_work(axes: Axes, run: Trajectory, smooth: Trajectory) -> None:
 
 
 def _draw_tension(axes: Axes, run: Trajectory) -> None:
-    far, theta = beyond(run), np.abs(run.theta[:, 0])
-    base = run.tension[:, 0]
+    far, theta = study.beyond(run), np.abs(run.theta[:, 0])
+    base, friction = run.tension[:, 0], study.coefficients(run)[0]
     axes.fill_between(
         run.t,
-        base * np.exp(-FRICTION * theta),
-        base * np.exp(FRICTION * theta),
+        base * np.exp(-friction * theta),
+        base * np.exp(friction * theta),
         color=FAR,
         alpha=0.15,
         linewidth=0,
@@ -129,10 +122,10 @@ def _draw_tension(axes: Axes, run: Trajectory) -> None:
     axes.plot(run.t, base, color=BLACK, linewidth=1.2)
     axes.plot(run.t, far, color=FAR)
     axes.set_ylabel("tension of cable 1 [N]")
-    axes.set_ylim(-0.4, 1.34 * FULL)
+    axes.set_ylim(-0.4, 1.34 * study.FULL)
     axes.margins(x=0.0)
     note(axes, r"shaded: what the capstan equation allows, $F\,e^{\pm\mu\theta}$")
-    top = min(RAMP, float(run.t[-1]))
+    top = min(study.RAMP, float(run.t[-1]))
     k = int(np.searchsorted(run.t, top))
     axes.annotate(
         "at the base",
@@ -157,8 +150,8 @@ def _draw_tension(axes: Axes, run: Trajectory) -> None:
 
 
 def _draw_power(axes: Axes, run: Trajectory) -> None:
-    axes.fill_between(run.t, 1e3 * friction_power(run), color=RUB, alpha=0.18, linewidth=0)
-    axes.plot(run.t, 1e3 * friction_power(run), color=RUB)
+    axes.fill_between(run.t, 1e3 * study.friction_power(run), color=RUB, alpha=0.18, linewidth=0)
+    axes.plot(run.t, 1e3 * study.friction_power(run), color=RUB)
     axes.set_ylabel("power of friction [mW]")
     axes.set_ylim(0.0, None)
     panels.show_time(axes, run, named=True)

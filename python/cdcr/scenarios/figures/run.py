@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
-from numpy.typing import NDArray
 
+from cdcr.base.arrays import FloatArray
 from cdcr.plotting import panels, plot_run_robot, space
 from cdcr.plotting.style import BLACK, StyledFigure, line_colors, style
-from cdcr.scenarios.figures.workspace import new_figure
+from cdcr.scenarios.figures.workspace import add_panels, new_figure
 from cdcr.scenarios.metrics import static_theta, swing_times
 
 if TYPE_CHECKING:
@@ -35,11 +35,10 @@ def run_figure(scenario: Scenario, run: Trajectory) -> StyledFigure:
     return figure
 
 
-def _draw_robot(figure: StyledFigure, run: Trajectory, times: NDArray[np.float64]) -> None:
+def _draw_robot(figure: StyledFigure, run: Trajectory, times: FloatArray) -> None:
     axes = space.add_axes(figure)
     plot_run_robot(run, times, ax=axes)
-    scale, _ = space.fit(axes, ROBOT_ROOM)
-    space.place(axes, scale, ROBOT_ROOM)
+    space.fill(axes, ROBOT_ROOM)
     handles, labels = axes.get_legend_handles_labels()
     beside = (ROBOT_ROOM[0] / SIZE[0], 0.5)
     figure.legend(handles, labels, loc="center left", bbox_to_anchor=beside, handlelength=1.4)
@@ -47,11 +46,8 @@ def _draw_robot(figure: StyledFigure, run: Trajectory, times: NDArray[np.float64
 
 def _draw_panels(figure: StyledFigure, run: Trajectory, wrenches: Sequence[Wrench]) -> None:
     plots = [panels.plot_theta, _plot_phi, panels.plot_tension]
-    grid = figure.add_gridspec(
-        3, 1, left=0.525, right=0.98, bottom=0.09, top=0.91, hspace=0.35, height_ratios=[2, 1, 1]
-    )
-    for row, plot in enumerate(plots):
-        axes = figure.add_subplot(grid[row])
+    charts = add_panels(figure, [2.0, 1.0, 1.0], left=0.525, top=0.91, hspace=0.35)
+    for axes, plot in zip(charts, plots, strict=True):
         plot(axes, run)
         if plot is panels.plot_theta:
             _mark_rest(axes, static_theta(run, wrenches))
@@ -59,7 +55,7 @@ def _draw_panels(figure: StyledFigure, run: Trajectory, wrenches: Sequence[Wrenc
     figure.align_ylabels()
 
 
-def _mark_rest(axes: Axes, rest: NDArray[np.float64] | None) -> None:
+def _mark_rest(axes: Axes, rest: FloatArray | None) -> None:
     """Draw the bending angles of rest (n,) [deg], where there are some."""
     if rest is None:
         return

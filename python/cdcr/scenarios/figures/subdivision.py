@@ -2,32 +2,26 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from matplotlib.axes import Axes
 
 from cdcr.plotting import panels
 from cdcr.plotting.style import BLACK, COLORS, GREY, StyledFigure, style
 from cdcr.scenarios.figures.drawing import legend_above, new_figure, note
-from cdcr.scenarios.studies.subdivision import (
-    COUNTS,
-    DAMPING,
-    SHOWN,
-    STEPS,
-    TENSION,
-    beam,
-    excess,
-    frequencies,
-    order,
-    responses,
-)
+from cdcr.scenarios.studies import subdivision as study
+
+if TYPE_CHECKING:
+    from cdcr.scenarios.scenario import Scenario
 
 MARKS = ("o", "s", "^")
 
 
-def subdivision_figure(title: str) -> StyledFigure:
+def plot(scenario: Scenario, run: None) -> StyledFigure:
     """Draw frequencies and their errors over the number of parts, and step responses."""
     with style():
-        figure = new_figure(title, (12.4, 7.6))
+        figure = new_figure(scenario.title, (12.4, 7.6))
         grid = figure.add_gridspec(2, 2, height_ratios=[1.15, 1.0])
         _draw_frequencies(figure.add_subplot(grid[0, 0]))
         _draw_convergence(figure.add_subplot(grid[0, 1]))
@@ -37,15 +31,15 @@ def subdivision_figure(title: str) -> StyledFigure:
 
 def _of_mode(mode: int) -> tuple[tuple[int, ...], list[float], list[float]]:
     """Return numbers of parts that have a mode, its frequencies [Hz] and their excess [%]."""
-    counts = COUNTS[mode:]
-    hertz = [frequencies(parts)[mode] / (2.0 * np.pi) for parts in counts]
-    return counts, hertz, [100.0 * excess(parts)[mode] for parts in counts]
+    counts = study.COUNTS[mode:]
+    hertz = [study.frequencies(parts)[mode] / (2.0 * np.pi) for parts in counts]
+    return counts, hertz, [100.0 * study.excess(parts)[mode] for parts in counts]
 
 
 def _draw_frequencies(axes: Axes) -> None:
-    for mode, (color, mark) in enumerate(zip(COLORS[:SHOWN], MARKS, strict=True)):
+    for mode, (color, mark) in enumerate(zip(COLORS[: study.SHOWN], MARKS, strict=True)):
         counts, hertz, _ = _of_mode(mode)
-        limit = beam()[mode] / (2.0 * np.pi)
+        limit = study.beam()[mode] / (2.0 * np.pi)
         axes.plot(counts, hertz, color=color, marker=mark, markersize=5)
         axes.axhline(limit, color=color, linestyle="--", linewidth=1.0)
         axes.annotate(
@@ -61,26 +55,26 @@ def _draw_frequencies(axes: Axes) -> None:
     ticks = [1, 2, 5, 10, 20, 50]
     axes.set_yticks(ticks, [str(tick) for tick in ticks])
     axes.minorticks_off()
-    axes.set_xticks(COUNTS)
+    axes.set_xticks(study.COUNTS)
     axes.set_xlabel("number of parts")
     axes.set_ylabel("natural frequency [Hz]")
     note(axes, "dashed: the beam")
 
 
 def _draw_convergence(axes: Axes) -> None:
-    for mode, (color, mark) in enumerate(zip(COLORS[:SHOWN], MARKS, strict=True)):
+    for mode, (color, mark) in enumerate(zip(COLORS[: study.SHOWN], MARKS, strict=True)):
         counts, _, percent = _of_mode(mode)
         axes.plot(counts, percent, color=color, marker=mark, markersize=5)
         axes.annotate(
-            f"mode {mode + 1}:\norder {order(mode):.2f}",
+            f"mode {mode + 1}:\norder {study.order(mode):.2f}",
             (counts[-1], percent[-1]),
             xytext=(8, 0),
             textcoords="offset points",
             va="center",
             color=color,
         )
-    start, end = COUNTS[1], COUNTS[-1]
-    first = 100.0 * excess(start)[0] / 2.0
+    start, end = study.COUNTS[1], study.COUNTS[-1]
+    first = 100.0 * study.excess(start)[0] / 2.0
     axes.plot([start, end], [first, first * (start / end) ** 2], color=GREY, linestyle=":")
     axes.annotate(
         "order 2",
@@ -92,7 +86,7 @@ def _draw_convergence(axes: Axes) -> None:
         color=GREY,
     )
     axes.set(xscale="log", yscale="log")
-    axes.set_xticks(COUNTS, [str(parts) for parts in COUNTS])
+    axes.set_xticks(study.COUNTS, [str(parts) for parts in study.COUNTS])
     ticks = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50]
     axes.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
     axes.minorticks_off()
@@ -102,12 +96,17 @@ def _draw_convergence(axes: Axes) -> None:
 
 
 def _draw_responses(axes: Axes) -> None:
-    runs = responses()
-    for (parts, run), color in zip(runs.items(), (*COLORS[1 : SHOWN + 1], BLACK), strict=True):
-        dashes = "--" if parts == STEPS[-1] else "-"
+    runs = study.responses()
+    for (parts, run), color in zip(
+        runs.items(), (*COLORS[1 : study.SHOWN + 1], BLACK), strict=True
+    ):
+        dashes = "--" if parts == study.STEPS[-1] else "-"
         label = f"{parts} part{'s' if parts > 1 else ''}"
         axes.plot(run.t, 1e3 * run.tip[:, 0], color=color, linestyle=dashes, label=label)
     legend_above(axes)
     axes.set_ylabel("tip displacement x [mm]")
-    note(axes, f"{TENSION:g} N on cable 1 from t = 0; damping {1e3 * DAMPING:g} mN m s/rad")
+    note(
+        axes,
+        f"{study.TENSION:g} N on cable 1 from t = 0; damping {1e3 * study.DAMPING:g} mN m s/rad",
+    )
     panels.show_time(axes, next(iter(runs.values())), named=True)

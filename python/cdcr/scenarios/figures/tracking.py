@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from matplotlib.axes import Axes
 
@@ -10,41 +12,47 @@ from cdcr.plotting.style import ALARM, BLACK, COLORS, StyledFigure, style
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.figures import workspace
 from cdcr.scenarios.figures.drawing import legend_above, note
-from cdcr.scenarios.studies.tracking import FINE_STEP, STEP, Sweep
+from cdcr.scenarios.studies.tracking import FINE_STEP, STEP, asked, error, fine_run, inverse
+
+if TYPE_CHECKING:
+    from cdcr.scenarios.scenario import Scenario
 
 SMALLEST = 1e-11  # error shown on the logarithmic axis [deg]
+NUM_SHAPES = 4  # of the robot, where it does not just go round
+SAME = 1e-9  # bending angles that differ by less are one [rad]
 
 
-def tracking_figure(title: str, sweep: Sweep, run: Trajectory, shapes: int) -> StyledFigure:
+def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
     """Draw a run that was fed with the tensions of inverse dynamics, and what was asked for."""
     with style():
-        figure = workspace.new_figure(title)
-        _draw_paths(figure, sweep, run, shapes)
+        figure = workspace.new_figure(scenario.title)
+        _draw_paths(figure, scenario, run)
         angles, tensions, errors = workspace.add_panels(figure, [1.0, 1.2, 1.0])
-        _draw_angles(angles, sweep, run)
-        _draw_tensions(tensions, sweep, run)
-        _draw_errors(errors, sweep, run)
+        _draw_angles(angles, scenario, run)
+        _draw_tensions(tensions, scenario, run)
+        _draw_errors(errors, scenario, run)
         for axes in (angles, tensions, errors):
             panels.show_time(axes, run, named=axes is errors)
         figure.align_ylabels([angles, tensions, errors])
     return figure
 
 
-def _draw_paths(figure: StyledFigure, sweep: Sweep, run: Trajectory, shapes: int) -> None:
-    asked = sweep.reference(run.t)
+def _draw_paths(figure: StyledFigure, scenario: Scenario, run: Trajectory) -> None:
+    motion = asked(scenario, run)
+    shapes = NUM_SHAPES if np.ptp(motion.theta) > SAME else 1
     chosen = np.linspace(0, len(run) - 1, shapes).astype(int)
-    axes = workspace.add_surface(figure, run.model, asked.q[chosen], float(asked.theta.max()))
-    wanted, reached = run.model.tips(asked.q), run.tip
+    axes = workspace.add_surface(figure, run.model, motion.q[chosen], float(motion.theta.max()))
+    wanted, reached = run.model.tips(motion.q), run.tip
     axes.plot(*wanted.T, color=ALARM, linewidth=4.0, alpha=0.35, zorder=20, label="path asked for")
     axes.plot(*reached.T, color=BLACK, linewidth=1.2, ls="--", zorder=21, label="path of the tip")
     workspace.finish_surface(figure, axes)
 
 
-def _draw_angles(axes: Axes, sweep: Sweep, run: Trajectory) -> None:
-    asked = sweep.reference(run.t)
+def _draw_angles(axes: Axes, scenario: Scenario, run: Trajectory) -> None:
+    motion = asked(scenario, run)
     for values, wanted, color, name in (
-        (run.theta[:, 0], asked.theta[:, 0], COLORS[0], r"$\theta$"),
-        (run.phi[:, 0], asked.phi[:, 0], COLORS[1], r"$\varphi$"),
+        (run.theta[:, 0], motion.theta[:, 0], COLORS[0], r"$\theta$"),
+        (run.phi[:, 0], motion.phi[:, 0], COLORS[1], r"$\varphi$"),
     ):
         axes.plot(run.t, np.rad2deg(wanted), color=color, linewidth=4.0, alpha=0.35)
         axes.plot(run.t, np.rad2deg(values), color=color, linestyle="--", label=name)
@@ -53,10 +61,8 @@ def _draw_angles(axes: Axes, sweep: Sweep, run: Trajectory) -> None:
     legend_above(axes)
 
 
-def _draw_tensions(axes: Axes, sweep: Sweep, run: Trajectory) -> None:
-    t_end = float(run.t[-1])
-    fine = sweep.inverse(run.model, t_end, FINE_STEP)
-    coarse = sweep.inverse(run.model, t_end, STEP)
+def _draw_tensions(axes: Axes, scenario: Scenario, run: Trajectory) -> None:
+    fine, coarse = (inverse(scenario, run, step) for step in (FINE_STEP, STEP))
     for j in range(run.model.num_cables):
         name = f"{j + 1}" if j else "cable 1"
         axes.plot(fine.t, fine.tension[:, j], color=COLORS[j], label=name)
@@ -66,13 +72,13 @@ def _draw_tensions(axes: Axes, sweep: Sweep, run: Trajectory) -> None:
     legend_above(axes)
 
 
-def _draw_errors(axes: Axes, sweep: Sweep, run: Trajectory) -> None:
+def _draw_errors(axes: Axes, scenario: Scenario, run: Trajectory) -> None:
     for other, step, color in (
         (run, STEP, COLORS[0]),
-        (sweep.fine_run(run), FINE_STEP, COLORS[1]),
+        (fine_run(scenario, run), FINE_STEP, COLORS[1]),
     ):
-        error = np.rad2deg(sweep.error(other))
-        axes.semilogy(other.t, np.maximum(error, SMALLEST), color=color, label=f"{step:g} s")
+        angle = np.rad2deg(error(scenario, other))
+        axes.semilogy(other.t, np.maximum(angle, SMALLEST), color=color, label=f"{step:g} s")
     axes.set_ylabel("path error [deg]")
     note(axes, "tensions fed back, lines between samples every")
     legend_above(axes)

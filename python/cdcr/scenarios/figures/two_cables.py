@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING
 
+import numpy as np
+
+from cdcr.base.arrays import FloatArray
 from cdcr.plotting import panels
 from cdcr.plotting.geometry import states_at
 from cdcr.plotting.style import BLACK, COLORS, StyledFigure, style
@@ -13,13 +15,16 @@ from cdcr.scenarios.figures import workspace
 from cdcr.scenarios.figures.drawing import legend_above, note
 from cdcr.scenarios.studies.two_cables import RESTS, settled
 
+if TYPE_CHECKING:
+    from cdcr.scenarios.scenario import Scenario
 
-def two_cables_figure(title: str, run: Trajectory) -> StyledFigure:
+
+def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
     """Draw the tip in space, and over time beside its settled positions."""
     rest = settled(run)
     tips = run.model.tips(rest)
     with style():
-        figure = workspace.new_figure(title)
+        figure = workspace.new_figure(scenario.title)
         _draw_paths(figure, run, tips)
         tension, *tip = workspace.add_panels(figure, [1.0, 1.0, 1.0, 1.0])
         panels.plot_tension(tension, run)
@@ -36,7 +41,7 @@ def two_cables_figure(title: str, run: Trajectory) -> StyledFigure:
     return figure
 
 
-def _draw_paths(figure: StyledFigure, run: Trajectory, settled_tips: NDArray[np.float64]) -> None:
+def _draw_paths(figure: StyledFigure, run: Trajectory, settled_tips: FloatArray) -> None:
     times = [time for time in RESTS.values() if time <= run.t[-1]]
     shown = states_at(run, np.array(times or [run.t[-1]]))
     axes = workspace.add_surface(figure, run.model, shown, float(run.theta.max()))

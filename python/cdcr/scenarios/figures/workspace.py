@@ -6,16 +6,14 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from numpy.typing import NDArray
 
 from cdcr._core import taylor_range
+from cdcr.base.arrays import FloatArray
 from cdcr.model.coordinates import bending
 from cdcr.model.model import Model
 from cdcr.plotting import space
 from cdcr.plotting.robot3d import RobotArtists, show_robot
 from cdcr.plotting.style import GREY, StyledFigure
-
-Array = NDArray[np.float64]
 
 SIZE = (12.4, 7.2)  # of the picture [in]
 ROOM = np.array([6.2, 6.5])  # of the surface, at the left [in]
@@ -32,7 +30,7 @@ def new_figure(title: str, size: tuple[float, float] = SIZE) -> StyledFigure:
     return figure
 
 
-def add_surface(figure: StyledFigure, model: Model, states: Array, largest: float) -> Any:
+def add_surface(figure: StyledFigure, model: Model, states: FloatArray, largest: float) -> Any:
     """Add Axes3D with the surface of tips well round a path that bends by up to `largest` [rad].
 
     The robot is drawn at `states` (M, 2) [rad], the earlier the fainter.
@@ -55,23 +53,14 @@ def add_surface(figure: StyledFigure, model: Model, states: Array, largest: floa
 
 def finish_surface(figure: StyledFigure, axes: Any) -> None:
     """Give the surface its place, and its legend below it."""
-    scale, _ = space.fit(axes, ROOM)
-    space.place(axes, scale, ROOM)
+    space.fill(axes, ROOM)
     middle = ROOM[0] / SIZE[0] / 2.0
     handles, labels = axes.get_legend_handles_labels()
     figure.legend(handles, labels, loc="upper center", bbox_to_anchor=(middle, 0.945), ncols=2)
 
 
-def add_panels(figure: StyledFigure, heights: list[float]) -> list[Axes]:
-    """Add panels over time at the right, one above the other."""
-    grid = figure.add_gridspec(
-        len(heights),
-        1,
-        left=0.555,
-        right=0.98,
-        bottom=0.09,
-        top=0.9,
-        hspace=0.4,
-        height_ratios=heights,
-    )
+def add_panels(figure: StyledFigure, heights: list[float], **place: float) -> list[Axes]:
+    """Add panels over time at the right, one above the other; `place` is of their grid."""
+    usual = {"left": 0.555, "right": 0.98, "bottom": 0.09, "top": 0.9, "hspace": 0.4}
+    grid = figure.add_gridspec(len(heights), 1, height_ratios=heights, **(usual | place))
     return [figure.add_subplot(grid[row]) for row in range(len(heights))]

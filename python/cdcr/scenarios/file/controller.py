@@ -22,12 +22,7 @@ from cdcr.model.coordinates import polar
 from cdcr.model.model import Model
 from cdcr.runs.pid import Pid
 from cdcr.runs.trajectory import Trajectory
-from cdcr.scenarios.file.values import (
-    bending_vector,
-    error_prefix,
-    length_errors,
-    rival_errors,
-)
+from cdcr.scenarios.file import values
 from cdcr.scenarios.metrics import Metric, run_metrics
 from cdcr.scenarios.scenario import Scenario
 
@@ -95,11 +90,11 @@ def read_controller(table: dict[str, Any], model: Model, file: Path) -> PidLoop:
     if "cables" in options:
         options["cables"] = _indices(options["cables"], model.num_cables, file)
     reference, at = table.get("reference", {}), f"{AT}.reference"
-    found = [*schema_errors(ReferenceTable, reference, at), *rival_errors(reference, at)]
+    found = [*schema_errors(ReferenceTable, reference, at), *values.rival_errors(reference, at)]
     refuse(str(file), found)
-    refuse(str(file), length_errors(reference, model.num_sections, at))
-    loop = PidLoop(options, bending_vector(reference, model.num_sections))
-    with error_prefix(f"{file}, [{AT}]"):
+    refuse(str(file), values.length_errors(reference, model.num_sections, at))
+    loop = PidLoop(options, values.bending_vector(reference, model.num_sections))
+    with values.error_prefix(f"{file}, [{AT}]"):
         loop(model)
     return loop
 

@@ -4,38 +4,47 @@
     t_end = 10.0                    # [s]
     tension = [5.0, 0.0, 0.0]       # of each cable [N]; or tables, see `cdcr new`
 
+    [integrator]
+    method = "dopri5"               # or "bdf", "adams", "rk4"
+
     [initial]                       # straight and at rest without it
     theta_deg = [45.0]              # of each section; or theta [rad], or q [rad]
     phi_deg = [0.0]
 
 In place of tension there may be a [trajectory] or a [controller], and tables [[wrenches]] beside
-any of them. ``cdcr new FILE`` writes a file
-that shows everything. Files named in it are found from the folder it is in.
+any of them. ``cdcr new FILE`` writes a file that shows everything, ``cdcr new FILE --from NAME``
+one of the package. Files named in it are found from the folder it is in.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from cdcr import robots
+import numpy as np
+
+from cdcr.base.arrays import FloatArray
 from cdcr.files.toml import read_toml, refuse, schema_errors
 from cdcr.model.model import Model
-from cdcr.robot.file import robot_from_table
-from cdcr.robot.robot import Robot
+from cdcr.runs.command import TensionTable
 from cdcr.scenarios.file.controller import read_controller
+from cdcr.scenarios.file.robot import read_robot
 from cdcr.scenarios.file.shapes import TensionShapes
+from cdcr.scenarios.file.start import read_start
 from cdcr.scenarios.file.tension import read_tension
+from cdcr.scenarios.file.tracking import TrackedMotion
 from cdcr.scenarios.file.trajectory import read_trajectory
-from cdcr.scenarios.file.values import bending_vector, error_prefix, length_errors, rival_errors
+from cdcr.scenarios.file.values import error_prefix
 from cdcr.scenarios.file.wrenches import read_wrenches
 from cdcr.scenarios.scenario import FILES, Scenario
 
 # Keys that a file has in common with Scenario.
-_COMMON = ("title", "description", "source", "formulation", "t_end", "num_samples", "method")
-_OPTIONS = ("rtol", "atol", "step", "max_step", "max_steps")
+_COMMON = ("title", "description", "source", "formulation", "t_end")
+# Keys that stood at the top once.
+_MOVED = dict.fromkeys(("method", "rtol", "atol", "step", "max_step", "max_steps"), "integrator")
+_MOVED["num_samples"] = "output"
 _INPUTS = ("tension", "trajectory", "controller")
 
 
@@ -49,24 +58,51 @@ def load_scenario(path: str | PathLike[str]) -> Scenario:
     ValueError
         Naming file, key and what is allowed, for everything else that is wrong with it.
     """
-    from cdcr.scenarios.file.schema import ScenarioTable
+    from cdcr.scenarios.file.schema import IntegratorTable, ScenarioTable
 
     file = Path(path)
     table = read_toml(file, "scenario file")
+    refuse(
+        str(file),
+        [f"{key} must stand in [{home}]" for key, home in _MOVED.items() if key in table],
+    )
     refuse(str(file), schema_errors(ScenarioTable, table))
+    integrator = table.get("integrator", {})
+    refuse(str(file), schema_errors(IntegratorTable, integrator, "integrator"))
     refuse(str(file), _input_errors(table))
-    robot = _robot(table["robot"], file)
+    robot = read_robot(table["robot"], file)
     with error_prefix(str(file)):
         model = Model(robot, formulation=table.get("formulation", "exact"))
     given: dict[str, Any] = {"title": file.stem, "description": "", "source": str(file)}
-    given |= {name: table[name] for name in (*_COMMON, *_OPTIONS) if name in table}
-    given |= _output(table.get("output", {}), table, file)
-    given |= _input(table, model, file)
+    given |= {name: table[name] for name in _COMMON if name in table}
+    given |= integrator | _output(table.get("output", {}), file) | _input(table, model, file)
     given["wrenches"] = read_wrenches(table.get("wrenches", ()), model, file)
     if "initial" in table or "q0" not in given:
-        q0, qd0 = initial_state(table.get("initial", {}), len(robot.sections), file)
+        command = _first_command(given)
+        q0, qd0 = read_start(table.get("initial", {}), model.num_sections, command, file)
         given |= {"q0": q0, "qd0": qd0}
     return Scenario(name=file.stem, robot=robot, **given)
+
+
+def _first_command(given: Mapping[str, Any]) -> Callable[[Model], FloatArray] | None:
+    """Return what gives the commands (num_cables,) at t = 0, None where a controller does."""
+    source, tension = given.get("input_source"), given.get("tension")
+    if isinstance(source, TrackedMotion):
+        return source.first_command
+    if isinstance(source, TensionShapes):
+        return lambda model: source(0.0)
+    if callable(tension):
+        return lambda model: _first_row(tension(model, given["t_end"]))
+    if isinstance(tension, TensionTable):
+        return lambda model: _first_row(tension)
+    return None if tension is None else lambda model: np.array(tension)
+
+
+def _first_row(table: TensionTable) -> FloatArray:
+    t, rows = np.asarray(table.t, dtype=np.float64), np.asarray(table.tension, dtype=np.float64)
+    if table.interpolation == "previous":
+        return np.asarray(rows[max(0, int(np.searchsorted(t, 0.0, side="right")) - 1)])
+    return np.array([np.interp(0.0, t, column) for column in rows.T])
 
 
 def _input_errors(table: Mapping[str, Any]) -> list[str]:
@@ -93,7 +129,7 @@ def _input(table: Mapping[str, Any], model: Model, file: Path) -> dict[str, Any]
         loop = read_controller(table["controller"], model, file)
         return {"controller": loop, "summarize": loop.summarize, "plot": loop.plot}
     if "trajectory" in table:
-        motion = read_trajectory(table["trajectory"], model.num_sections, table["t_end"], file)
+        motion = read_trajectory(table["trajectory"], model, table["t_end"], file)
         q0, qd0 = motion.start()
         fields = {
             "input_source": motion,
@@ -107,39 +143,12 @@ def _input(table: Mapping[str, Any], model: Model, file: Path) -> dict[str, Any]
     return {"input_source" if isinstance(tension, TensionShapes) else "tension": tension}
 
 
-def _output(output: Mapping[str, Any], table: Mapping[str, Any], file: Path) -> dict[str, Any]:
+def _output(output: Mapping[str, Any], file: Path) -> dict[str, Any]:
     from cdcr.scenarios.file.schema import OutputTable
 
-    found = schema_errors(OutputTable, output, "output")
-    if "num_samples" in output and "num_samples" in table:
-        found.append("num_samples must stand at the top or in [output], not in both")
-    refuse(str(file), found)
-    fields: dict[str, Any] = {}
-    if "num_samples" in output:
-        fields["num_samples"] = output["num_samples"]
+    refuse(str(file), schema_errors(OutputTable, output, "output"))
+    fields = {key: value for key, value in output.items() if key != "files"}
     if "files" in output:
         # In the order in which files are written, the picture first; one named twice is one file.
         fields["files"] = tuple(FILES[name] for name in FILES if name in output["files"])
     return fields
-
-
-def _robot(value: str | dict[str, Any], file: Path) -> Robot:
-    if isinstance(value, dict):
-        return robot_from_table(Robot, value, where=f"{file}, [robot]")
-    if value.endswith(".toml"):
-        return Robot.load(file.parent / value)
-    with error_prefix(f"{file}, robot"):
-        return robots.get(value)
-
-
-def initial_state(
-    table: Mapping[str, Any], num_sections: int, file: Path
-) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Return q0 and qd0 from an [initial] table."""
-    from cdcr.scenarios.file.schema import InitialTable
-
-    found = schema_errors(InitialTable, table, "initial") + rival_errors(table, "initial")
-    refuse(str(file), found)
-    refuse(str(file), length_errors(table, num_sections, "initial"))
-    qd = table.get("qd", [0.0] * (2 * num_sections))
-    return bending_vector(table, num_sections), tuple(map(float, qd))

@@ -2,28 +2,24 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, create_model
+from pydantic import BaseModel, Field, create_model
 
-_Finite = Annotated[float, Field(allow_inf_nan=False)]
-_Values = _Finite | list[_Finite]
-_Rows = list[_Finite] | list[list[_Finite]]
-_STRICT = ConfigDict(extra="forbid", strict=True)
+from cdcr.scenarios.file.schema import STRICT, Finite, optional
+
+_Values = Finite | list[Finite]
+_Rows = list[Finite] | list[list[Finite]]
 
 
 def _number(requirement: str, **limits: Any) -> Any:
     return Field(allow_inf_nan=False, description=requirement, **limits)
 
 
-def _optional(requirement: str, **limits: Any) -> Any:
-    return Field(default=None, description=requirement, **limits)
-
-
 class TensionShape(BaseModel):
     """What all [[tension]] tables have."""
 
-    model_config = _STRICT
+    model_config = STRICT
 
     cable: int = Field(ge=1, description="the number of a cable, from 1")
     shape: str = Field(description='"step", "ramp", "pulse" or "sine"')
@@ -51,8 +47,8 @@ class SineTable(TensionShape):
     mean: float = _number("a number [N]")
     amplitude: float = _number("a number >= 0 [N]", ge=0.0)
     frequency: float = _number("a number > 0 [Hz]", gt=0.0)
-    phase: float = _optional("a number [rad]", allow_inf_nan=False)
-    phase_deg: float = _optional("a number [deg]", allow_inf_nan=False)
+    phase: float = optional("a number [rad]", allow_inf_nan=False)
+    phase_deg: float = optional("a number [deg]", allow_inf_nan=False)
     start: float = _number("a number [s]", default=0.0)
 
 
@@ -77,19 +73,20 @@ TENSION_SHAPES: dict[str, type[BaseModel]] = {
 
 
 def _of_sections(unit: str) -> Any:
-    return _optional(f"a number [{unit}], or an array with one for each section")
+    return optional(f"a number [{unit}], or an array with one for each section")
 
 
 class _Tracking(BaseModel):
     """What all [trajectory] tables may have."""
 
-    model_config = _STRICT
+    model_config = STRICT
 
-    min_tension: float = _optional("a number >= 0 [N]", ge=0.0, allow_inf_nan=False)
-    max_tension: float = _optional("a number > 0 [N], or inf for no limit", gt=0.0)
-    infeasible: Literal["raise", "nearest"] = _optional('"raise" or "nearest"')
-    feed_back: bool = _optional("true or false")
-    step: float = _optional("a number > 0 [s]", gt=0.0, allow_inf_nan=False)
+    min_tension: float = optional("a number >= 0 [N]", ge=0.0, allow_inf_nan=False)
+    max_tension: float = optional("a number > 0 [N], or inf for no limit", gt=0.0)
+    infeasible: Literal["raise", "nearest"] = optional('"raise" or "nearest"')
+    feed_back: bool = optional("true or false")
+    shorter: float = optional("a number [m]", allow_inf_nan=False)
+    step: float = optional("a number > 0 [s]", gt=0.0, allow_inf_nan=False)
 
 
 class _Direction(_Tracking):
@@ -126,12 +123,13 @@ class SwingTable(_Direction):
 
 
 class MoveTable(_Direction):
-    """From straight to theta and phi, from rest to rest, and holding them after."""
+    """From straight to theta and phi, from rest to rest, holding them after or until `back`."""
 
     theta: _Values = _of_sections("rad")
     theta_deg: _Values = _of_sections("deg")
     start: float = _number("a number [s]", default=0.0)
     duration: float = _number("a number > 0 [s]", gt=0.0)
+    back: float = optional("a number [s], not before the end of the move", allow_inf_nan=False)
 
 
 TRAJECTORY_SHAPES: dict[str, type[BaseModel]] = {
@@ -143,14 +141,14 @@ TRAJECTORY_SHAPES: dict[str, type[BaseModel]] = {
 
 
 def _samples(unit: str) -> Any:
-    return _optional(f"an array with a number [{unit}] for each time, or a row of them")
+    return optional(f"an array with a number [{unit}] for each time, or a row of them")
 
 
 class TrajectorySamples(_Tracking):
     """A [trajectory] with its samples in the file."""
 
-    t: list[_Finite] = Field(description="an array of increasing times [s]")
-    q: list[list[_Finite]] = _optional("an array with one row [rad] for each time")
+    t: list[Finite] = Field(description="an array of increasing times [s]")
+    q: list[list[Finite]] = optional("an array with one row [rad] for each time")
     theta: _Rows = _samples("rad")
     theta_deg: _Rows = _samples("deg")
     phi: _Rows = _samples("rad")

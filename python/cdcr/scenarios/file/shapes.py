@@ -12,14 +12,13 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from cdcr.base.arrays import FloatArray
 from cdcr.model.model import Model
 from cdcr.runs.simulate import simulate, warn_beyond_taylor_range
 from cdcr.runs.stats import total
 from cdcr.runs.trajectory import Trajectory
-
-FloatArray = NDArray[np.float64]
 
 # Relative; what sums like 0.1 + 0.2 - 0.3 may lack of zero.
 _ROUNDING = 1e-12

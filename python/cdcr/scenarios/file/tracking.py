@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cdcr._core import Status
+from cdcr.base.arrays import FloatArray, even_times
 from cdcr.model.model import Model
 from cdcr.motion.inverse import Infeasible, InverseRun, inverse_run
 from cdcr.motion.reference import Reference
 from cdcr.motion.splines import Motion
+from cdcr.runs.command import Command, TensionTable
 from cdcr.runs.simulate import simulate
 from cdcr.runs.stats import total
 from cdcr.runs.trajectory import Trajectory
@@ -24,12 +26,15 @@ from cdcr.scenarios.scenario import Scenario
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-FloatArray = NDArray[np.float64]
+
+def driven_by_length(model: Model) -> bool:
+    """Return whether all cables are: then a motion gives lengths in place of tensions."""
+    return model.num_cables > 0 and all(cable.length_driven for cable in model.robot.all_cables)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class TrackedMotion:
-    """A motion to follow, by tensions from inverse dynamics.
+    """A motion to follow: by tensions from inverse dynamics, or by the lengths that cables have.
 
     Parameters
     ----------
@@ -44,8 +49,10 @@ class TrackedMotion:
     feed_back : bool
         Whether the tensions are then fed to the robot.
     step : float, optional
-        Time between the tensions fed, which lines connect [s]; by default they are found anew
+        Time between the commands fed, which lines connect [s]; by default they are found anew
         whenever the integrator asks.
+    shorter : float
+        How much shorter than along the motion cables driven by length are wound [m].
     derivative_error : tuple of float
         Of the rates and accelerations of samples [rad/s], [rad/s^2].
     """
@@ -57,6 +64,7 @@ class TrackedMotion:
     infeasible: Infeasible = "raise"
     feed_back: bool = False
     step: float | None = None
+    shorter: float = 0.0
     derivative_error: tuple[float, float] = (0.0, 0.0)
 
     @property
@@ -96,30 +104,51 @@ class TrackedMotion:
         t: FloatArray,
         **options: Any,
     ) -> Trajectory:
-        """Run the robot under the tensions needed, or return the motion itself with them."""
+        """Run the robot under the commands needed, or return the motion itself with them."""
+        if self.feed_back:
+            command = self.command(model, t)
+            with nullcontext() if driven_by_length(model) else warn_once():
+                return simulate(model, q0, qd0, t=t, command=command, **options)
         needed = self.inverse(model, t)
-        if not self.feed_back:
-            return Trajectory(
-                model=model,
-                t=needed.t,
-                q=needed.q,
-                qd=needed.reference.qd,
-                tension=needed.tension,
-                status=Status.ok,
-                message="",
-                stats=total(()),
-                method="inverse dynamics",
-            )
+        return Trajectory(
+            model=model,
+            t=needed.t,
+            q=needed.q,
+            qd=needed.reference.qd,
+            tension=needed.tension,
+            status=Status.ok,
+            message="",
+            stats=total(()),
+            method="inverse dynamics",
+        )
+
+    def command(self, model: Model, t: FloatArray) -> Command:
+        """Return what is fed to the robot in a run with output times (N,) from 0 on [s]."""
+        times = t if self.step is None else even_times(float(t[-1]), self.step)
+        if driven_by_length(model):
+            if self.step is None:
+                return lambda time: self._lengths(model, np.array([time]))[0]
+            return TensionTable(times, self._lengths(model, times))
+        needed = self.inverse(model, t)  # refuses what is out of reach at any output time
         if self.step is None:
-            with warn_once():
-                return simulate(model, q0, qd0, t=t, tension=needed.tension_at, **options)
-        intervals = max(1, round(float(t[-1] - t[0]) / self.step))
+            return needed.tension_at
         with warn_once():
-            table = self.inverse(model, np.linspace(t[0], t[-1], intervals + 1)).to_table()
-            return simulate(model, q0, qd0, t=t, tension=table, **options)
+            return self.inverse(model, times).to_table()
+
+    def first_command(self, model: Model) -> FloatArray:
+        """Return the commands (num_cables,) at t = 0."""
+        if driven_by_length(model):
+            return np.asarray(self._lengths(model, np.zeros(1))[0])
+        return np.asarray(self.inverse(model, np.array([0.0, 1e-3])).tension[0])
+
+    def _lengths(self, model: Model, t: FloatArray) -> FloatArray:
+        """Return the lengths of the cables along the motion, less `shorter` (M, num_cables) [m]."""
+        return np.asarray(model.cable_lengths(self.motion(t)[0]) - self.shorter)
 
     def summarize(self, scenario: Scenario, run: Trajectory) -> tuple[Metric, ...]:
         """Return what every run shows, the tensions needed, and how well they lead the robot."""
+        if driven_by_length(run.model):
+            return (*run_metrics(scenario, run), *self._errors(run))
         with warn_once():
             needed = self.inverse(run.model, run.t)
         found = [*run_metrics(scenario, run)]

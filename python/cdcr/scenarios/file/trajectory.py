@@ -14,27 +14,26 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cdcr.base.arrays import FloatArray
 from cdcr.base.check import nearest
 from cdcr.files.number_csv import Layout, read_numbers
 from cdcr.files.toml import format_toml, refuse, schema_errors
 from cdcr.model.coordinates import bending
+from cdcr.model.model import Model
 from cdcr.motion.reference import Reference
 from cdcr.motion.splines import Motion, bending_vectors
-from cdcr.scenarios.file.tracking import TrackedMotion
+from cdcr.scenarios.file.tracking import TrackedMotion, driven_by_length
 from cdcr.scenarios.file.values import count, error_prefix, of_sections, rival_errors
 
-FloatArray = NDArray[np.float64]
-
 AT = "trajectory"
-_COMMON = ("min_tension", "max_tension", "infeasible", "feed_back", "step")
+_LIMITS = ("min_tension", "max_tension", "infeasible")
+_COMMON = (*_LIMITS, "feed_back", "step", "shorter")
 
 
-def read_trajectory(
-    table: dict[str, Any], num_sections: int, t_end: float, file: Path
-) -> TrackedMotion:
+def read_trajectory(table: dict[str, Any], model: Model, t_end: float, file: Path) -> TrackedMotion:
     """Return the motion of a [trajectory] table, or refuse it with file, key and value."""
+    num_sections = model.num_sections
     from cdcr.scenarios.file.shape_schema import TrajectoryFile, TrajectorySamples
 
     given = [key for key in ("shape", "t", "file") if key in table]
@@ -54,10 +53,26 @@ def read_trajectory(
             reach = f"{reference.t[0]:g} to {reference.t[-1]:g} s"
             sentence = f"{AT} must reach over the run, 0 to {t_end:g} s, got {reach}"
             refuse(str(file), [sentence])
+    refuse(str(file), _drive_errors(table, model))
     if low > high:
         sentence = f"{AT}.max_tension must be at least min_tension, {low:g} N, got {high:g}"
         refuse(str(file), [sentence])
     return TrackedMotion(motion=motion, derivative_error=error, where=f"{file}, [{AT}]", **options)
+
+
+def _drive_errors(table: Mapping[str, Any], model: Model) -> list[str]:
+    """Return a sentence for each key that does not go with how the cables are driven."""
+    if not driven_by_length(model):
+        wrong = ["shorter"] if "shorter" in table else []
+        return [f"{AT}.{key} needs a robot whose cables are all driven by length" for key in wrong]
+    found = [
+        f"{AT}.{key} needs cables driven by tension; this robot's are driven by length"
+        for key in _LIMITS
+        if key in table
+    ]
+    if not table.get("feed_back", False):
+        found.append(f"{AT} of a robot driven by length needs feed_back = true")
+    return found
 
 
 def _shape(table: dict[str, Any], num_sections: int, file: Path) -> Motion:
@@ -128,18 +143,30 @@ def _swing(angles: _Angles) -> Motion:
 def _move(angles: _Angles) -> Motion:
     goal = bending(angles("theta"), angles("phi", 0.0))
     start, duration = angles.table.get("start", 0.0), angles.table["duration"]
+    back = angles.table.get("back")
+    if back is not None and back < start + duration:
+        end = start + duration
+        raise ValueError(f"{AT}.back must be {end:g} s, the end of the move, or more, got {back:g}")
 
     def motion(t: FloatArray) -> FloatArray:
-        # The quintic from 0 to 1 that starts and ends without speed or acceleration.
-        s = np.clip((t - start) / duration, 0.0, 1.0)
-        share = [
+        share = _rise(t - start, duration)
+        if back is not None:
+            share = share - _rise(t - back, duration)
+        return np.stack([np.outer(one, goal) for one in share])
+
+    return motion
+
+
+def _rise(t: FloatArray, duration: float) -> FloatArray:
+    """Return the quintic from 0 to 1 that starts and ends without speed or acceleration (3, M)."""
+    s = np.clip(t / duration, 0.0, 1.0)
+    return np.stack(
+        [
             s**3 * (10.0 - 15.0 * s + 6.0 * s**2),
             30.0 * s**2 * (1.0 - s) ** 2 / duration,
             60.0 * s * (1.0 - s) * (1.0 - 2.0 * s) / duration**2,
         ]
-        return np.stack([np.outer(one, goal) for one in share])
-
-    return motion
+    )
 
 
 _MOTIONS = {"circle": _circle, "line": _line, "swing": _swing, "move": _move}

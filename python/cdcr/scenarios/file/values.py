@@ -7,12 +7,10 @@ from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cdcr.base.arrays import FloatArray
 from cdcr.files.toml import format_toml, refuse
 from cdcr.model.coordinates import bending
-
-FloatArray = NDArray[np.float64]
 
 _ANGLES = ("theta", "theta_deg", "phi", "phi_deg")
 RIVALS = (("theta", "theta_deg"), ("phi", "phi_deg"), *(("q", angle) for angle in _ANGLES))

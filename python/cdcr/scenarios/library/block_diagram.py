@@ -1,30 +1,7 @@
 """How data flow through the library, in place of the paper's Simulink diagram (Fig. 11)."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 from cdcr.robots import amouri2020
-from cdcr.scenarios.metrics import Metric
 from cdcr.scenarios.scenario import Scenario, paper_source
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-
-def _summarize(scenario: Scenario, run: None) -> tuple[Metric, ...]:
-    model = scenario.model
-    return (
-        Metric("num_coordinates", "coordinates q", model.num_coordinates, ""),
-        Metric("num_cables", "cables", model.num_cables, ""),
-    )
-
-
-def _plot(scenario: Scenario, run: None) -> Figure:
-    from cdcr.scenarios.figures.block_diagram import diagram_figure
-
-    return diagram_figure(scenario.title)
-
 
 SCENARIO = Scenario(
     name="block-diagram",
@@ -35,8 +12,5 @@ SCENARIO = Scenario(
         "(inverse dynamics), and a controller closes the loop."
     ),
     source=paper_source("section 5.3 and Fig. 11") + "; diagram ours",
-    paper_figure=11,
     robot=amouri2020(),
-    summarize=_summarize,
-    plot=_plot,
 )

@@ -1,11 +1,10 @@
 """Rotation of the disks: H7 and H8 (Fig. 5)."""
 
-from cdcr.scenarios.library._factors import factor_scenario
+from cdcr.robots import amouri2020
+from cdcr.scenarios.scenario import Scenario, paper_source
 
-SCENARIO = factor_scenario(
+SCENARIO = Scenario(
     name="factors-disks-rotation",
-    number=5,
-    pair=("H7", "H8"),
     title="Rotation of the disks: H₇ and H₈",
     description=(
         "H7 belongs to thetad^2 and H8 to phid^2 in the disks' kinetic energy of rotation, "
@@ -13,5 +12,6 @@ SCENARIO = factor_scenario(
         "printed eq. (29) varies. Eq. (30) for H8 is correct, but cut after theta^4 it is wrong by "
         "half at 3 pi/5; the paper, too, says that H8 stands out."
     ),
-    remarks=r"eq. (29): $H_7$ is 77/20, the printed one varies",
+    source=paper_source("Fig. 5"),
+    robot=amouri2020(),
 )

@@ -1,46 +1,7 @@
 """One section cut into more and more parts: towards the beam it stands for."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
-import numpy as np
-
 from cdcr.robots import amouri2020
-from cdcr.scenarios.metrics import Metric
 from cdcr.scenarios.scenario import Scenario, paper_source
-from cdcr.scenarios.studies.subdivision import COUNTS, STEPS, beam, excess, order, responses
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-
-def _summarize(scenario: Scenario, run: None) -> tuple[Metric, ...]:
-    found = []
-    for mode, frequency in enumerate(beam()):
-        name = f"mode {mode + 1}"
-        found.append(
-            Metric(f"beam_{mode + 1}_rad_s", f"{name} of the beam", float(frequency), "rad/s")
-        )
-        for parts in COUNTS[mode:]:
-            percent = 100.0 * float(excess(parts)[mode])
-            label = f"{name}: too high with {parts} part{'s' if parts > 1 else ''}"
-            found.append(Metric(f"excess_{mode + 1}_of_{parts}", label, percent, "%"))
-        found.append(Metric(f"order_{mode + 1}", f"{name}: order of convergence", order(mode), ""))
-    finest = responses()[STEPS[-1]]
-    for parts, other in responses().items():
-        away = 1e3 * float(np.max(np.abs(other.tip - finest.tip)))
-        if parts != STEPS[-1]:
-            label = f"step: tip of {parts} from that of {STEPS[-1]} parts, at most"
-            found.append(Metric(f"step_{parts}_mm", label, away, "mm"))
-    return tuple(found)
-
-
-def _plot(scenario: Scenario, run: None) -> Figure:
-    from cdcr.scenarios.figures.subdivision import subdivision_figure
-
-    return subdivision_figure(scenario.title)
-
 
 SCENARIO = Scenario(
     name="subdivision",
@@ -54,6 +15,4 @@ SCENARIO = Scenario(
     ),
     source=paper_source("Table 1") + "; parts, damping and step ours",
     robot=amouri2020(),
-    summarize=_summarize,
-    plot=_plot,
 )

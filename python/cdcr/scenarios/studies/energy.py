@@ -5,21 +5,19 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cdcr.base.arrays import FloatArray
 from cdcr.runs.simulate import simulate
 from cdcr.runs.trajectory import Trajectory
 
 if TYPE_CHECKING:
     from cdcr.scenarios.scenario import Scenario
 
-Array = NDArray[np.float64]
-
 # A release wakes motions that damping ends within milliseconds: sampled finely up to here [s].
 JUMP, JUMP_STEP, STEP = 0.05, 5e-5, 1e-3
 
 
-def dissipated(run: Trajectory) -> Array:
+def dissipated(run: Trajectory) -> FloatArray:
     """Return the energy that damping has taken since the start (N,) [J].
 
     The integral of c |qd|^2 over all sections. Between samples the power is the cubic that has its
@@ -33,7 +31,7 @@ def dissipated(run: Trajectory) -> Array:
     return np.concatenate([[0.0], np.cumsum(steps)])
 
 
-def cable_work(run: Trajectory) -> Array:
+def cable_work(run: Trajectory) -> FloatArray:
     """Return the work that the cables have done on the robot since the start (N,) [J].
 
     For cables without friction under tensions that are linear between samples. The work of the
@@ -76,6 +74,6 @@ def fine_run(scenario: Scenario, run: Trajectory) -> Trajectory:
     )
 
 
-def integral(y: Array, x: Array) -> Any:
+def integral(y: FloatArray, x: FloatArray) -> Any:
     """Return the integral of samples y (N, ...) over x (N, ...) by the trapezoidal rule."""
     return 0.5 * np.sum((y[1:] + y[:-1]) * np.diff(x, axis=0), axis=0)

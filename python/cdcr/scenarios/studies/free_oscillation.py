@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cdcr.base.arrays import FloatArray
 from cdcr.model.model import Model
 from cdcr.robots import amouri2020
 from cdcr.runs.simulate import simulate
 from cdcr.runs.trajectory import Trajectory
+from cdcr.scenarios.metrics import Metric, run_metrics
 
-START = math.pi / 4.0  # theta at t = 0 [rad]
+if TYPE_CHECKING:
+    from cdcr.scenarios.scenario import Scenario
+
 SETTLED = 0.02  # share of the start
 PAPER_TIME = 37.68  # when the paper's robot settles [s]
 DAMPING = 9.12e-4  # with which this one does [N m s/rad]
@@ -34,26 +37,48 @@ def linear_settling_time(damping: float) -> float:
     return float(2.0 * inertia * math.log(1.0 / SETTLED) / damping)
 
 
-def amplitude(run: Trajectory) -> NDArray[np.float64]:
+def amplitude(run: Trajectory) -> FloatArray:
     """Return how far the robot would swing with its energy at each time (N,) [rad]."""
     stiffness = run.model.robot.sections[0].stiffness
-    reach: NDArray[np.float64] = np.sqrt(2.0 * run.energy / stiffness)
+    reach: FloatArray = np.sqrt(2.0 * run.energy / stiffness)
     return reach
 
 
 def settling_time(run: Trajectory) -> float:
     """Return when the amplitude falls below SETTLED of the start [s]; inf if it never does."""
-    outside = np.flatnonzero(amplitude(run) > SETTLED * START)
+    outside = np.flatnonzero(amplitude(run) > SETTLED * amplitude(run)[0])
     last = int(outside[-1])
     return float(run.t[last]) if last + 1 < len(run) else math.inf
 
 
 @lru_cache(maxsize=2)
-def variants(t_end: float) -> dict[str, Trajectory]:
+def variants(scenario: Scenario, t_end: float) -> dict[str, Trajectory]:
     """Return the damped run and those of LOOSE integrators, by name."""
+    q0, qd0 = scenario.start(scenario.model), scenario.qd0
     t = np.linspace(0.0, t_end, max(2, round(t_end / 0.02) + 1))
     damped, free = Model(amouri2020(damping=DAMPING)), Model(amouri2020())
-    runs = {"damped": simulate(damped, (START, 0.0), (0.0, 0.0), t=t, method="dopri5", rtol=1e-9)}
+    runs = {"damped": simulate(damped, q0, qd0, t=t, method="dopri5", rtol=1e-9)}
     for name, options in LOOSE.items():
-        runs[name] = simulate(free, (START, 0.0), (0.0, 0.0), t=t, **options)
+        runs[name] = simulate(free, q0, qd0, t=t, **options)
     return runs
+
+
+def summarize(scenario: Scenario, run: Trajectory) -> tuple[Metric, ...]:
+    """Return how the robot swings, and what damping and loose integrators make of it."""
+    others = variants(scenario, float(run.t[-1]))
+    start, end = np.rad2deg(amplitude(run)[[0, -1]])
+    linear = linear_settling_time(DAMPING)
+    found = [
+        *run_metrics(scenario, run),
+        Metric("amplitude_start_deg", "amplitude at the start", float(start), "deg"),
+        Metric("amplitude_end_deg", "amplitude at the end", float(end), "deg"),
+        Metric("settling_linear_s", "settles to 2 % with damping, linearised", linear, "s"),
+    ]
+    settled = settling_time(others["damped"])
+    if math.isfinite(settled):
+        found.append(Metric("settling_s", "settles to 2 % with damping", settled, "s"))
+    for name in LOOSE:
+        key = name.replace(", ", "_").replace(" ", "_")
+        left = float(np.rad2deg(amplitude(others[name])[-1]))
+        found.append(Metric(f"end_{key}_deg", f"amplitude at the end, {name}", left, "deg"))
+    return tuple(found)

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cdcr._core import taylor_range
+from cdcr.base.arrays import FloatArray
 from cdcr.paper import factors, inertia
 from cdcr.robot.robot import Robot
+from cdcr.scenarios.metrics import Metric
 from cdcr.scenarios.studies.factors import cut
 
-FloatArray = NDArray[np.float64]
+if TYPE_CHECKING:
+    from cdcr.scenarios.scenario import Scenario
 
 CLAIM = 0.05  # error that the paper gives for both [%]
 
@@ -47,3 +50,18 @@ def taylor_errors(theta: FloatArray, robot: Robot, way: str) -> FloatArray:
     """Return the errors of M11 and M22 (2, N) cut after theta^4 [%]."""
     whole, series = terms(theta, robot, way)
     return 100.0 * (series - whole) / whole
+
+
+def summarize(scenario: Scenario, run: None) -> tuple[Metric, ...]:
+    """Return M11 and M22 at the end of the range, and the errors of Taylor there."""
+    end, robot = np.array([taylor_range]), scenario.robot
+    found = []
+    for way in WAYS:
+        values, errors = terms(end, robot, way)[0], taylor_errors(end, robot, way)
+        for term, value, error in zip(("M11", "M22"), values, errors, strict=True):
+            key, label = f"{term}_{way}", f"{term}, {way}"
+            found += [
+                Metric(f"{key}_end", f"{label}, at 3 pi/5", 1e3 * float(value[0]), "1e-3 kg m^2"),
+                Metric(f"{key}_error", f"{label}: error of Taylor", float(error[0]), "%"),
+            ]
+    return tuple(found)

@@ -4,45 +4,27 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import lru_cache
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
-from cdcr.model.model import Model
-from cdcr.robot.robot import Robot
-from cdcr.robots import amouri2020
-from cdcr.runs.command import TensionTable
-from cdcr.runs.simulate import simulate
+from cdcr.base.arrays import FloatArray
 from cdcr.runs.trajectory import Trajectory
+from cdcr.scenarios.metrics import Metric
+from cdcr.scenarios.studies.energy import integral
 
-FloatArray = NDArray[np.float64]
+if TYPE_CHECKING:
+    from cdcr.scenarios.scenario import Scenario
 
-FRICTION = 0.25  # Coulomb's coefficient in all holes
-SLIDING_SPEED = 5e-6  # a thousandth of that of the pulled cable [m/s]
-DAMPING = 6e-3  # [N m s/rad]
 FULL = 15.0  # largest tension of cable 1 [N]
 RAMP = 20.0  # time to pull, and to release [s]
-CYCLES = 2
-END = 2 * RAMP * CYCLES  # [s]
-STEP = 0.01  # between samples [s]
-OPTIONS: dict[str, Any] = {"method": "bdf", "rtol": 1e-8, "atol": 1e-10}
-ROWS = 200  # of the table of tensions, in each ramp
 SLIDES = 0.95  # share of the friction at full sliding from which a cable counts as sliding
 
 
-def robot(friction: float) -> Robot:
-    """Return the robot of Table 1 with friction in the holes of its cables, and damping."""
-    plain = amouri2020(damping=DAMPING)
-    section = replace(plain.sections[0], cable_friction=friction)
-    return replace(plain, sections=(section,), sliding_speed=SLIDING_SPEED)
-
-
-def tension() -> TensionTable:
-    """Return the tensions: cable 1 is pulled and released smoothly, again and again."""
-    t = np.linspace(0.0, END, 2 * CYCLES * ROWS + 1)
-    pulled = FULL / 2.0 * (1.0 - np.cos(np.pi * t / RAMP))
-    return TensionTable(t, np.stack([pulled, 0.0 * t, 0.0 * t], axis=1))
+def coefficients(run: Trajectory) -> tuple[float, float]:
+    """Return Coulomb's coefficient in all holes, and the damping [N m s/rad]."""
+    (section,) = run.model.robot.sections
+    return section.cable_friction, section.damping
 
 
 def beyond(run: Trajectory) -> FloatArray:
@@ -62,11 +44,10 @@ def pulled(run: Trajectory) -> FloatArray:
 
 
 @lru_cache(maxsize=2)
-def frictionless(t_end: float) -> Trajectory:
+def frictionless(scenario: Scenario, t_end: float) -> Trajectory:
     """Return the run without friction."""
-    t = np.linspace(0.0, t_end, 1 + round(t_end / STEP))
-    rest = (0.0, 0.0)
-    return simulate(Model(robot(0.0)), rest, rest, t=t, tension=tension(), **OPTIONS)
+    sections = tuple(replace(one, cable_friction=0.0) for one in scenario.robot.sections)
+    return replace(scenario, robot=replace(scenario.robot, sections=sections)).simulate(t_end=t_end)
 
 
 def dead_band(run: Trajectory) -> tuple[float, float] | None:
@@ -74,10 +55,44 @@ def dead_band(run: Trajectory) -> tuple[float, float] | None:
 
     None where the run ends before that.
     """
+    full, _ = coefficients(run)
     with np.errstate(divide="ignore", invalid="ignore"):
-        friction = np.log(beyond(run) / run.tension[:, 0]) / (FRICTION * np.abs(run.theta[:, 0]))
+        friction = np.log(beyond(run) / run.tension[:, 0]) / (full * np.abs(run.theta[:, 0]))
     back = np.flatnonzero((run.t > RAMP) & (friction >= SLIDES))
     if not back.size:
         return None
     k = back[0]
     return FULL - float(run.tension[k, 0]), abs(float(run.theta[k, 0]))
+
+
+def summarize(scenario: Scenario, run: Trajectory) -> tuple[Metric, ...]:
+    """Return where the work of the cable goes, the dead band, and the capstan's ratio."""
+    friction, damping = coefficients(run)
+    loop = float(integral(run.tension[:, 0], pulled(run)))
+    damped = damping * float(integral(np.sum(run.qd**2, axis=1), run.t))
+    by_loop = loop - damped - float(run.energy[-1] - run.energy[0])
+    by_power = float(integral(friction_power(run), run.t))
+    found = [
+        Metric("loop_J", "work of the cable: area of the loops", loop, "J"),
+        Metric("damping_J", "of it, to damping", damped, "J"),
+        Metric("friction_loop_J", "to friction, by the loops", by_loop, "J"),
+        Metric("friction_power_J", "to friction, by its power over time", by_power, "J"),
+        Metric("difference", "relative difference of the two", by_power / by_loop - 1.0, ""),
+    ]
+    band = dead_band(run)
+    if band is not None:
+        fallen, theta = band
+        expected = FULL * -np.expm1(-friction * theta)
+        found += [
+            Metric("dead_band_N", "tension falls before the cable slides back", fallen, "N"),
+            Metric("dead_band_expected_N", "the same, F (1 - exp(-mu theta))", expected, "N"),
+        ]
+    if run.t[-1] >= RAMP / 2.0:
+        k = int(np.searchsorted(run.t, RAMP / 2.0))
+        ratio = float(beyond(run)[k] / run.tension[k, 0])
+        capstan = float(np.exp(-friction * run.theta[k, 0]))
+        found += [
+            Metric("ratio", "tension beyond the section over that at the base", ratio, ""),
+            Metric("capstan", "the same at full sliding, exp(-mu theta)", capstan, ""),
+        ]
+    return tuple(found)

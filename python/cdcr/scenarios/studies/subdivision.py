@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cdcr._core import max_sections
+from cdcr.base.arrays import FloatArray
 from cdcr.model.model import Model
 from cdcr.robots import amouri2020
 from cdcr.runs.simulate import simulate
 from cdcr.runs.trajectory import Trajectory
+from cdcr.scenarios.metrics import Metric
 
-FloatArray = NDArray[np.float64]
+if TYPE_CHECKING:
+    from cdcr.scenarios.scenario import Scenario
 
 COUNTS = tuple(range(1, 11))
 SHOWN = 3  # planar modes
@@ -74,3 +77,25 @@ def responses() -> dict[int, Trajectory]:
             model, rest, rest, t=t, tension=tension, method="bdf", rtol=1e-8, atol=1e-10
         )
     return runs
+
+
+def summarize(scenario: Scenario, run: None) -> tuple[Metric, ...]:
+    """Return frequencies, by how much parts miss them, and how responses come together."""
+    found = []
+    for mode, frequency in enumerate(beam()):
+        name = f"mode {mode + 1}"
+        found.append(
+            Metric(f"beam_{mode + 1}_rad_s", f"{name} of the beam", float(frequency), "rad/s")
+        )
+        for parts in COUNTS[mode:]:
+            percent = 100.0 * float(excess(parts)[mode])
+            label = f"{name}: too high with {parts} part{'s' if parts > 1 else ''}"
+            found.append(Metric(f"excess_{mode + 1}_of_{parts}", label, percent, "%"))
+        found.append(Metric(f"order_{mode + 1}", f"{name}: order of convergence", order(mode), ""))
+    finest = responses()[STEPS[-1]]
+    for parts, other in responses().items():
+        away = 1e3 * float(np.max(np.abs(other.tip - finest.tip)))
+        if parts != STEPS[-1]:
+            label = f"step: tip of {parts} from that of {STEPS[-1]} parts, at most"
+            found.append(Metric(f"step_{parts}_mm", label, away, "mm"))
+    return tuple(found)

@@ -1,13 +1,12 @@
-"""What the scenarios of several sections have in common."""
+"""A robot of several sections that swings to rest once it is let go or its payload falls off."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
-from cdcr.model.model import Model
+from cdcr.base.arrays import FloatArray
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.metrics import Metric
 from cdcr.scenarios.studies.energy import dissipated, energy_gap, fine_run
@@ -15,43 +14,46 @@ from cdcr.scenarios.studies.energy import dissipated, energy_gap, fine_run
 if TYPE_CHECKING:
     from cdcr.scenarios.scenario import Scenario
 
-Array = NDArray[np.float64]
-Vector = tuple[float, float, float]
-Rotation = tuple[Vector, Vector, Vector]
-
-# Base orientations, by rows. The straight robot points down, or along x with cable 1 on top.
-HANGING: Rotation = ((1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, -1.0))
-HORIZONTAL: Rotation = ((0.0, 0.0, 1.0), (0.0, -1.0, 0.0), (1.0, 0.0, 0.0))
-
 SETTLED = 0.02  # share of the first distance
 
 
-def holding(model: Model, q: Array) -> Array:
-    """Return the least-norm tensions (num_cables,) under which q (2n,) is at rest [N]."""
-    still = np.zeros_like(q)
-    return model.allocate(model.inverse_dynamics(q, still, still))
-
-
-def distance(run: Trajectory, q: Array) -> Array:
+def distance(run: Trajectory, q: FloatArray) -> FloatArray:
     """Return how far the tip is (N,) from where it is at q (2n,) [m]."""
-    away: Array = np.linalg.norm(run.tip - run.model.tip(q)[1], axis=1)
+    away: FloatArray = np.linalg.norm(run.tip - run.model.tip(q)[1], axis=1)
     return away
 
 
-def settling_time(t: Array, away: Array) -> float | None:
+def settling_time(t: FloatArray, away: FloatArray) -> float | None:
     """Return when `away` (N,) is last above SETTLED of its start, None if it is so at the end."""
     outside = np.flatnonzero(away > SETTLED * away[0])
     last = int(outside[-1]) if outside.size else 0
     return float(t[last]) if last + 1 < len(t) else None
 
 
-def release_metrics(scenario: Scenario, run: Trajectory, rest: Array) -> tuple[Metric, ...]:
-    """Return what is worth knowing of a robot that swings to rest at q = `rest` (2n,)."""
+def at_rest(run: Trajectory) -> FloatArray:
+    """Return q (2n,) where a run under constant tensions comes to rest [rad]."""
+    return run.model.equilibrium(run.command[0])
+
+
+def lift(run: Trajectory) -> float:
+    """Return the first acceleration of the tip upwards [m/s^2]."""
+    model = run.model
+    start = model.forward_dynamics(run.q[0], run.qd[0], run.tension[0])
+    return float((model.jacobian(run.q[0], model.num_sections - 1, 1.0) @ start)[2])
+
+
+def summarize(scenario: Scenario, run: Trajectory) -> tuple[Metric, ...]:
+    """Return how the tip leaves, swings and settles, and where the energy goes."""
+    rest = at_rest(run)
     away = distance(run, rest)
     x, _, z = run.model.tip(rest)[1]
     fine = fine_run(scenario, run)
     loss = float(dissipated(fine)[-1])
-    found = [
+    found = []
+    if run.tension.any():  # held until now, by the cables
+        label = "the tip's first acceleration upwards"
+        found.append(Metric("lift_m_s2", label, lift(run), "m/s^2"))
+    found += [
         Metric("start_distance_mm", "tip from where it comes to rest, start", 1e3 * away[0], "mm"),
         Metric("end_distance_mm", "the same, end", 1e3 * float(away[-1]), "mm"),
         Metric("rest_x_m", "tip at rest: x", float(x), "m"),
