@@ -162,7 +162,7 @@ build_wheel() {
   tests=$(sed -n 's/^CDCR_BUILD_TESTS:BOOL=//p' "$tree/CMakeCache.txt" 2>/dev/null || true)
   pip wheel --no-deps --no-index --no-build-isolation -w build/wheel -C build-dir="$tree" \
     -C build.targets=_core -C cmake.define.CDCR_BUILD_TESTS="${tests:-OFF}" \
-    -C cmake.define.CDCR_WARNINGS_AS_ERRORS="$1" .
+    -C cmake.define.CDCR_PRECOMPILE_HEADERS=ON -C cmake.define.CDCR_WARNINGS_AS_ERRORS="$1" .
 }
 
 # What the project's own compilers let pass may be a warning elsewhere: no reason to refuse a demo.
