@@ -55,4 +55,4 @@ types: setup-dev
 	@$(IN_VENV) python -m mypy.stubtest cdcr._core --allowlist tests/python/stubtest_allowlist.txt
 
 test-python: setup-dev
-	@$(IN_VENV) pytest --doctest-modules --pyargs cdcr tests/python
+	@$(IN_VENV) pytest -n auto --maxprocesses 4 --dist loadfile --doctest-modules --pyargs cdcr tests/python

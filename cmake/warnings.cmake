@@ -7,6 +7,7 @@ target_compile_options(
     -Wextra
     -Wpedantic
     -Wshadow
+    -Wredundant-decls
     -Wconversion
     -Wno-sign-conversion
     $<$<BOOL:${CDCR_WARNINGS_AS_ERRORS}>:-Werror>

@@ -11,6 +11,7 @@ goal=${1:-demo}
 python=${PYTHON:-python3}
 venv=${VENV:-.venv}
 log=build/setup.log
+tree=build/release
 case $goal in demo) steps=4 ;; *) steps=3 ;; esac
 
 step() { echo "[$1/$steps] $2"; }
@@ -154,6 +155,21 @@ up_to_date() {
       -newer "$stamp" ! -name '*.md' ! -path '*/__pycache__*' -print -quit)" ]
 }
 
+# The tree of preset release, so that nothing is compiled twice: the tests link the same library.
+# It keeps the tests it has, and builds the extension alone; a wheel of a developer's needs no more.
+# The tools are already in .venv, so this needs no network: a failure is the build's own.
+build_wheel() {
+  tests=$(sed -n 's/^CDCR_BUILD_TESTS:BOOL=//p' "$tree/CMakeCache.txt" 2>/dev/null || true)
+  pip wheel --no-deps --no-index --no-build-isolation -w build/wheel -C build-dir="$tree" \
+    -C build.targets=_core -C cmake.define.CDCR_BUILD_TESTS="${tests:-OFF}" \
+    -C cmake.define.CDCR_PRECOMPILE_HEADERS=ON -C cmake.define.CDCR_WARNINGS_AS_ERRORS="$1" .
+}
+
+# What the project's own compilers let pass may be a warning elsewhere: no reason to refuse a demo.
+build_demo() {
+  build_wheel ON || { grep -q '\[-Werror' "$log" && note "again, with warnings" && build_wheel OFF; }
+}
+
 build_failed() {
   grep -m 1 -A 5 -E 'error: |CMake Error' "$log" >&2 || true
   die "cdcr could not be built; the whole log is $log."
@@ -166,9 +182,7 @@ else
   note "building"
   rm -rf "$stamp" build/wheel
   : >build/started
-  # The tools are already in .venv, so this needs no network: a failure is the build's own.
-  pip wheel --no-deps --no-index --no-build-isolation -C build-dir=build/python \
-    -w build/wheel . || build_failed
+  case $goal in demo) build_demo ;; *) build_wheel ON ;; esac || build_failed
   note "installing with extras all"
   pip uninstall -y cdcr
   for wheel in build/wheel/cdcr-*.whl; do

@@ -5,7 +5,7 @@ HEADERS := $(wildcard cpp/include/cdcr/*.hpp cpp/src/*/*.hpp bindings/*.hpp)
 
 all: $(SOURCES:%=build/tidy/ok/%)
 
-build/tidy/ok/%: % $(HEADERS) .clang-tidy
+build/tidy/ok/%: % $(HEADERS) .clang-tidy bindings/.clang-tidy
 	@echo clang-tidy $<
 	@clang-tidy --quiet -p build/tidy $<
 	@mkdir -p $(@D)
