@@ -53,7 +53,7 @@ class Runs {
         name_(problem.name),
         model_(damped(problem.damping)),
         q0_(bending(problem.theta, 0.0)),
-        tension_(TensionInput::constant(problem.tension)),
+        tension_(CommandInput::constant(problem.tension)),
         times_(VectorXd::LinSpaced(num_times, 0.0, 10.0)),
         truth_(run(Method::dopri5, tolerance(1e-13))) {}
 
@@ -93,7 +93,7 @@ class Runs {
   std::string name_;
   Model model_;
   VectorXd q0_;
-  TensionInput tension_;
+  CommandInput tension_;
   VectorXd times_;
   Trajectory truth_;
 };

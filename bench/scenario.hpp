@@ -56,7 +56,7 @@ inline std::vector<State> swing(const Model& model) {
   const VectorXd times = VectorXd::LinSpaced(num_states, 0.0, 10.0);
   const VectorXd rate = bending(2.0, 2.0);
   const Trajectory run = simulate(model, bent().q, rate, times,
-                                  TensionInput::constant(VectorXd::Zero(model.num_cables())));
+                                  CommandInput::constant(VectorXd::Zero(model.num_cables())));
   std::vector<State> states;
   for (Index i = 0; i < num_states; ++i) {
     states.push_back({run.q.row(i).transpose(), run.qd.row(i).transpose()});

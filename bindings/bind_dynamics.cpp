@@ -92,7 +92,7 @@ void bind_dynamics(PyModel& model) {
           "linearize", &linearize_states, "q"_a, "qd"_a, "tension"_a, "wrenches"_a = py::tuple(),
           Doc("Derivatives A, B of d(q, qd)/dt by state and command, cpp/README.md eq. (19).\n\n"
               "Exact, at rest or moving, through cables and wrenches too. At the kinks of a cable\n"
-              "(just slack; rubbing at a straight section) one side is taken.",
+              "(just slack; friction at a straight section) one side is taken.",
               {docs::q, docs::qd, docs::tension, docs::wrenches},
               "A : (..., 2d, 2d) array\n"
               "    By the state (q, qd) [rad, rad/s], of its rate [rad/s, rad/s^2].\n"

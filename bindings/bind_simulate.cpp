@@ -17,11 +17,11 @@ namespace py = pybind11;
 using namespace py::literals;
 
 /// A Python callable as tension function: the slow path, one call of Python for each evaluation.
-TensionInput call_python(py::function function, Index num_cables,
+CommandInput call_python(py::function function, Index num_cables,
                          std::vector<double> break_points) {
   // Shared, because copying a Python object would need the GIL wherever the input is copied.
   const auto shared = std::make_shared<py::function>(std::move(function));
-  return TensionInput::function(
+  return CommandInput::function(
       [shared, num_cables](double t, const ConstVectorRef& q, const ConstVectorRef& qd,
                            VectorRef tension) {
         const py::gil_scoped_acquire locked;
@@ -32,11 +32,11 @@ TensionInput call_python(py::function function, Index num_cables,
       num_cables, std::move(break_points));
 }
 
-/// `source` is a const TensionInput or a Controller.
+/// `source` is a const CommandInput or a Controller.
 template <class Source>
 Trajectory run(const Model& model, const py::object& q0, const py::object& qd0, const py::object& t,
                Source& source, Method method, const Options& options, const py::object& progress,
-               const Loads& loads) {
+               const WrenchInput& loads) {
   const VectorXd q = *read_bending(model, q0, "q0");
   const VectorXd qd = *VectorArgument(qd0, "qd0", model.num_coordinates());
   const VectorXd times = *VectorArgument(t, "t", -1);
@@ -122,11 +122,11 @@ void bind_simulate(py::module_& m) {
                ", newton_failures=" + std::to_string(s.newton_failures) + ")";
       });
 
-  py::class_<TensionInput>(m, "TensionInput", "Commands of the cables as a function of time.")
+  py::class_<CommandInput>(m, "TensionInput", "Commands of the cables as a function of time.")
       .def_static(
           "constant",
           [](const Model& model, const py::object& tension) {
-            return TensionInput::constant(*read_tension(model, tension));
+            return CommandInput::constant(*read_tension(model, tension));
           },
           "model"_a, "tension"_a,
           Doc("The same commands at all times.", {docs::model, docs::one_tension}, an_input,
@@ -138,9 +138,9 @@ void bind_simulate(py::module_& m) {
             const Array rows =
                 read_array(tension, "the table's tension", {times.size(), model.num_cables()});
             const Eigen::Map<const RowMatrixXd> values(rows.data(), rows.shape(0), rows.shape(1));
-            return TensionInput::table(times, values,
-                                       linear ? TensionInput::Interpolation::linear
-                                              : TensionInput::Interpolation::previous);
+            return CommandInput::table(times, values,
+                                       linear ? CommandInput::Interpolation::linear
+                                              : CommandInput::Interpolation::previous);
           },
           "model"_a, "t"_a, "tension"_a, "linear"_a,
           Doc("Commands at given times.",
@@ -193,7 +193,7 @@ void bind_simulate(py::module_& m) {
       "progress : callable or None\n    Told the time reached [s] now and then.\n"
       "loads : Loads\n    Wrenches over time.\n";
   constexpr const char* a_run = "Trajectory\n    The samples up to the end, or to a failure.";
-  m.def("simulate", &run<const TensionInput>, "model"_a, "q0"_a, "qd0"_a, "t"_a, "input"_a,
+  m.def("simulate", &run<const CommandInput>, "model"_a, "q0"_a, "qd0"_a, "t"_a, "input"_a,
         "method"_a, "options"_a, "progress"_a, "loads"_a,
         Doc("A run under commands; see cdcr.simulate.",
             {docs::model, start, "input : TensionInput\n    Commands over time.\n", rest}, a_run,

@@ -46,13 +46,20 @@ void bind_simulator(py::module_& m) {
               docs::bad_argument))
       .def(
           "step",
-          [](Simulator& self, const py::object& tension, const py::object& wrenches) {
-            return self.step(*read_tension(self.model(), tension),
+          [](Simulator& self, const py::object& tension, const py::object& wrenches,
+             const py::object& command) {
+            if (tension.is_none() == command.is_none()) {
+              throw py::value_error(
+                  "give either tension or command, two names for one thing, not both or none");
+            }
+            return self.step(*read_tension(self.model(), tension.is_none() ? command : tension),
                              read_wrenches(self.model(), wrenches));
           },
-          "tension"_a, "wrenches"_a = py::tuple(),
+          "tension"_a = py::none(), "wrenches"_a = py::tuple(), py::kw_only(),
+          "command"_a = py::none(),
           Doc("Advance one period under constant commands and wrenches.",
-              {docs::one_tension, docs::wrenches},
+              {docs::one_tension, docs::wrenches,
+               "command : (num_cables,) array_like, optional\n    Another name for `tension`, [N] or [m].\n"},
               "Status\n    ``ok``, or why the state is still the one before.", docs::bad_argument))
       .def_property_readonly(
           "q", [](const Simulator& self) { return to_array(self.q()); },

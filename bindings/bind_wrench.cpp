@@ -5,7 +5,7 @@
 
 #include "arrays.hpp"
 #include "bind.hpp"
-#include "cdcr/loads.hpp"
+#include "cdcr/wrench_input.hpp"
 #include "docs.hpp"
 
 namespace cdcr::python {
@@ -68,15 +68,15 @@ void bind_wrench(py::module_& m) {
           "Moment (3,) about the point where the force acts [N m].");
 
   constexpr const char* base = "wrench : CoreWrench\n    The wrench where the factor is 1.\n";
-  py::class_<Loads>(m, "Loads", "Wrenches over time, as a run takes them; see cdcr.Wrench.")
+  py::class_<WrenchInput>(m, "Loads", "Wrenches over time, as a run takes them; see cdcr.Wrench.")
       .def(py::init<>(), Doc("Make loads without a wrench."))
       .def(
-          "add", [](Loads& self, const Wrench& wrench) { self.add(wrench); }, "wrench"_a,
+          "add", [](WrenchInput& self, const Wrench& wrench) { self.add(wrench); }, "wrench"_a,
           Doc("Add a constant wrench.", {base}))
       .def(
           "add_table",
-          [](Loads& self, const Wrench& wrench, const py::object& times, const py::object& factors,
-             bool linear) {
+          [](WrenchInput& self, const Wrench& wrench, const py::object& times,
+             const py::object& factors, bool linear) {
             const VectorArgument t(times, "the times of a wrench's profile", -1);
             const VectorArgument f(factors, "the factors of a wrench's profile", (*t).size());
             self.add(wrench, {to_list(*t), to_list(*f), linear, {}});
@@ -89,7 +89,7 @@ void bind_wrench(py::module_& m) {
               "", docs::bad_argument))
       .def(
           "add_function",
-          [](Loads& self, const Wrench& wrench, py::function function,
+          [](WrenchInput& self, const Wrench& wrench, py::function function,
              std::vector<double> break_points) {
             const auto shared = std::make_shared<py::function>(std::move(function));
             const auto call = [shared](double t) {
@@ -106,7 +106,7 @@ void bind_wrench(py::module_& m) {
                "break_points : sequence of float\n    Times at which it is not smooth [s].\n"}))
       .def(
           "at",
-          [](const Loads& self, double t) {
+          [](const WrenchInput& self, double t) {
             Wrenches now = self.wrenches();
             self.evaluate(t, t, now);
             return now;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double inf = std::numeric_limits<double>::infinity();
-using Interpolation = TensionInput::Interpolation;
+using Interpolation = CommandInput::Interpolation;
 
 void check_option(const std::function<void(Options&)>& change, const char* sentence) {
   Options options;
@@ -29,15 +29,15 @@ void check_option(const std::function<void(Options&)>& change, const char* sente
 }
 
 void check_run(const VectorXd& q, const VectorXd& qd, const VectorXd& times,
-               const TensionInput& input, const char* sentence) {
+               const CommandInput& input, const char* sentence) {
   const Model model(amouri2020());
   CHECK_THROWS_SENTENCE(simulate(model, q, qd, times, input), sentence);
 }
 
 const Eigen::Vector2d zero(0.0, 0.0);
 const Eigen::Vector2d second(0.0, 1.0);
-TensionInput none() {
-  return TensionInput::constant(VectorXd::Zero(3));
+CommandInput none() {
+  return CommandInput::constant(VectorXd::Zero(3));
 }
 
 TEST_SUITE_BEGIN("arguments");
@@ -92,52 +92,52 @@ TEST_CASE("times") {
 }
 
 TEST_CASE("constant tensions") {
-  CHECK_THROWS_SENTENCE(TensionInput::constant(Eigen::Vector3d(0.0, -5.0, 0.0)),
+  CHECK_THROWS_SENTENCE(CommandInput::constant(Eigen::Vector3d(0.0, -5.0, 0.0)),
                         "tension[1] must be finite and >= 0 N (a cable cannot push), got -5");
-  CHECK_THROWS_SENTENCE(TensionInput::constant(Eigen::Vector3d(nan, 0.0, 0.0)),
+  CHECK_THROWS_SENTENCE(CommandInput::constant(Eigen::Vector3d(nan, 0.0, 0.0)),
                         "tension[0] must be finite and >= 0 N (a cable cannot push), got nan");
-  CHECK_THROWS_SENTENCE(TensionInput::constant(Eigen::Vector3d(0.0, 0.0, inf)),
+  CHECK_THROWS_SENTENCE(CommandInput::constant(Eigen::Vector3d(0.0, 0.0, inf)),
                         "tension[2] must be finite and >= 0 N (a cable cannot push), got inf");
-  check_run(zero, zero, second, TensionInput::constant(VectorXd::Zero(2)),
+  check_run(zero, zero, second, CommandInput::constant(VectorXd::Zero(2)),
             "tension must have one value for each of the 3 cables, got 2");
 }
 
 TEST_CASE("tables of tension") {
   const MatrixXd ones = MatrixXd::Ones(2, 3);
   CHECK_THROWS_SENTENCE(
-      TensionInput::table(VectorXd::Zero(3), ones, Interpolation::linear),
+      CommandInput::table(VectorXd::Zero(3), ones, Interpolation::linear),
       "a tension table needs one row of values for each time, got 3 times and 2 rows");
   CHECK_THROWS_SENTENCE(
-      TensionInput::table(VectorXd(0), MatrixXd(0, 3), Interpolation::linear),
+      CommandInput::table(VectorXd(0), MatrixXd(0, 3), Interpolation::linear),
       "a tension table needs one row of values for each time, got 0 times and 0 rows");
   CHECK_THROWS_SENTENCE(
-      TensionInput::table(Eigen::Vector2d(1.0, 1.0), ones, Interpolation::previous),
+      CommandInput::table(Eigen::Vector2d(1.0, 1.0), ones, Interpolation::previous),
       "the times of a tension table must be finite and strictly increasing, got 1 s at index 1 "
       "after 1 s");
   CHECK_THROWS_SENTENCE(
-      TensionInput::table(Eigen::Vector2d(nan, 1.0), ones, Interpolation::previous),
+      CommandInput::table(Eigen::Vector2d(nan, 1.0), ones, Interpolation::previous),
       "the times of a tension table must be finite and strictly increasing, got nan s at index 0");
   MatrixXd pushing = ones;
   pushing(1, 2) = -0.5;
-  CHECK_THROWS_SENTENCE(TensionInput::table(second, pushing, Interpolation::linear),
+  CHECK_THROWS_SENTENCE(CommandInput::table(second, pushing, Interpolation::linear),
                         "tension[1, 2] must be finite and >= 0 N (a cable cannot push), got -0.5");
   check_run(zero, zero, second,
-            TensionInput::table(second, MatrixXd::Ones(2, 4), Interpolation::linear),
+            CommandInput::table(second, MatrixXd::Ones(2, 4), Interpolation::linear),
             "tension must have one value for each of the 3 cables, got 4");
 }
 
 TEST_CASE("functions of tension") {
   const auto law = [](double, const ConstVectorRef&, const ConstVectorRef&, VectorRef) {};
-  CHECK_THROWS_SENTENCE(TensionInput::function(nullptr, 3), "the tension function is empty");
-  CHECK_THROWS_SENTENCE(TensionInput::function(law, 3, {0.5, 0.25}),
+  CHECK_THROWS_SENTENCE(CommandInput::function(nullptr, 3), "the tension function is empty");
+  CHECK_THROWS_SENTENCE(CommandInput::function(law, 3, {0.5, 0.25}),
                         "break_points must be finite and strictly increasing, got 0.25 s at index "
                         "1 after 0.5 s");
-  check_run(zero, zero, second, TensionInput::function(law, 1),
+  check_run(zero, zero, second, CommandInput::function(law, 1),
             "tension must have one value for each of the 3 cables, got 1");
 }
 
 TEST_CASE("segments of an input") {
-  const TensionInput table = TensionInput::table(Eigen::Vector3d(0.0, 1.0, 2.0),
+  const CommandInput table = CommandInput::table(Eigen::Vector3d(0.0, 1.0, 2.0),
                                                  MatrixXd::Ones(3, 1), Interpolation::previous);
   CHECK(table.num_cables() == 1);
   CHECK(table.break_points().size() == 3);

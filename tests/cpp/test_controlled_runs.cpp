@@ -94,14 +94,14 @@ TEST_CASE("a controlled run is the run under the table of its tensions") {
       if (k + 1 == periods) break;
       const Trajectory stretch =
           simulate(model, q, qd, Eigen::Vector2d(instants[k], instants[k + 1]),
-                   TensionInput::constant(tension), method,
+                   CommandInput::constant(tension), method,
                    method == Method::rk4 ? fixed_step(1e-3) : tightest());
       q = stretch.q.row(1).transpose();
       qd = stretch.qd.row(1).transpose();
     }
     const Trajectory tabled =
         simulate(model, q_start, qd_start, times,
-                 TensionInput::table(instants, rows, TensionInput::Interpolation::previous), method,
+                 CommandInput::table(instants, rows, CommandInput::Interpolation::previous), method,
                  method == Method::rk4 ? fixed_step(1e-3) : tightest());
     REQUIRE(tabled.status == Status::ok);
     CHECK(controlled.q == tabled.q);

@@ -23,22 +23,22 @@ Model damped_upright() {
 }
 
 /// One period of a pulse that jumps at times that are no multiple of any step.
-TensionInput pulse() {
+CommandInput pulse() {
   Eigen::MatrixXd rows = MatrixXd::Zero(3, 3);
   rows(1, 0) = 5.0;
-  return TensionInput::table(Eigen::Vector3d(0.0, 0.123456789, 0.6180339), rows,
-                             TensionInput::Interpolation::previous);
+  return CommandInput::table(Eigen::Vector3d(0.0, 0.123456789, 0.6180339), rows,
+                             CommandInput::Interpolation::previous);
 }
 
-TensionInput ramp() {
+CommandInput ramp() {
   Eigen::MatrixXd rows = MatrixXd::Zero(3, 3);
   rows(1, 1) = 5.0;
-  return TensionInput::table(Eigen::Vector3d(0.1, 0.123456789, 0.6180339), rows,
-                             TensionInput::Interpolation::linear);
+  return CommandInput::table(Eigen::Vector3d(0.1, 0.123456789, 0.6180339), rows,
+                             CommandInput::Interpolation::linear);
 }
 
 /// Largest error of q over the output times against the tightest Dormand-Prince.
-double error_of(const Model& model, const TensionInput& input, const VectorXd& times, Method method,
+double error_of(const Model& model, const CommandInput& input, const VectorXd& times, Method method,
                 const Options& options) {
   const Trajectory run = simulate(model, q_start, qd_start, times, input, method, options);
   const Trajectory best =
@@ -81,7 +81,7 @@ TEST_CASE("Runge-Kutta is of order 4") {
 
 TEST_CASE("Runge-Kutta keeps order 4 across the jumps and kinks of a table") {
   const Model model = damped_upright();
-  for (const TensionInput& input : {pulse(), ramp()}) {
+  for (const CommandInput& input : {pulse(), ramp()}) {
     const double fitted = order(0.02, 5, [&](double step) {
       return error_of(model, input, even_times(0.0, end, 2), Method::rk4, fixed_step(step));
     });
@@ -123,7 +123,7 @@ TEST_CASE("Dormand-Prince between its steps is of order 4 at least") {
 
 TEST_CASE("the error of Dormand-Prince follows its tolerance") {
   const Model model = damped_upright();
-  for (const TensionInput& input : {no_tension(model), pulse(), ramp()}) {
+  for (const CommandInput& input : {no_tension(model), pulse(), ramp()}) {
     std::vector<double> tolerance, error;
     for (const double rtol : {1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11}) {
       tolerance.push_back(rtol);

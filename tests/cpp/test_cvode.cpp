@@ -20,8 +20,8 @@ TEST_CASE("agrees with Dormand-Prince under damping, gravity and tables with jum
   MatrixXd tension(4, 3);
   tension << 2.0, 0.0, 1.0, 0.0, 6.0, 0.5, 8.0, 0.0, 0.0, 0.0, 0.0, 3.0;
   for (const auto kind :
-       {TensionInput::Interpolation::previous, TensionInput::Interpolation::linear}) {
-    const TensionInput input = TensionInput::table(t, tension, kind);
+       {CommandInput::Interpolation::previous, CommandInput::Interpolation::linear}) {
+    const CommandInput input = CommandInput::table(t, tension, kind);
     const VectorXd y = state(0.4, -0.3, 1.0, 2.0);
     const Trajectory truth = reference(model, input, y, times);
     for (const Method method : cvode_methods) {
@@ -84,7 +84,7 @@ TEST_CASE("a tighter tolerance is a smaller error") {
 
 TEST_CASE("stops exactly where asked, however short the way") {
   const Model model(amouri2020());
-  const TensionInput input = pull(5.0);
+  const CommandInput input = pull(5.0);
   RobotOde ode(model, input);
   for (const Method method : cvode_methods) {
     CAPTURE(label(method));
@@ -109,7 +109,7 @@ TEST_CASE("the output grid changes neither steps nor solution, bit for bit") {
   const Model model(heavy_robot());
   const VectorXd t = Eigen::Vector2d(0.25, 1.1);
   const MatrixXd tension = Eigen::Matrix<double, 2, 3>{{4.0, 0.0, 0.0}, {0.0, 5.0, 1.0}};
-  const TensionInput input = TensionInput::table(t, tension, TensionInput::Interpolation::previous);
+  const CommandInput input = CommandInput::table(t, tension, CommandInput::Interpolation::previous);
   for (const Method method : cvode_methods) {
     CAPTURE(label(method));
     const VectorXd y = state(0.0, 0.0);
@@ -130,7 +130,7 @@ TEST_CASE("the output grid changes neither steps nor solution, bit for bit") {
 
 TEST_CASE("interpolates within the last step only, and its ends are the states") {
   const Model model(amouri2020());
-  const TensionInput input = pull(5.0);
+  const CommandInput input = pull(5.0);
   RobotOde ode(model, input);
   for (const Method method : cvode_methods) {
     CAPTURE(label(method));
@@ -154,7 +154,7 @@ TEST_CASE("interpolates within the last step only, and its ends are the states")
 
 TEST_CASE("the stop time changes nothing long before it, not even the first step") {
   const Model model(amouri2020());
-  const TensionInput input = pull(5.0);
+  const CommandInput input = pull(5.0);
   RobotOde ode(model, input);
   for (const Method method : cvode_methods) {
     CAPTURE(label(method));
@@ -188,10 +188,10 @@ TEST_CASE("sets out from rest in the straight configuration") {
   const Model model(amouri2020());
   const VectorXd times = even_times(0.0, 1.0, 101), rest = state(0.0, 0.0);
   // Tension that grows from zero leaves even the acceleration zero at the start.
-  const TensionInput growing = TensionInput::table(
+  const CommandInput growing = CommandInput::table(
       Eigen::Vector2d(0.0, 1.0), Eigen::Matrix<double, 2, 3>{{0.0, 0.0, 0.0}, {5.0, 0.0, 2.0}},
-      TensionInput::Interpolation::linear);
-  for (const TensionInput& input : {pull(3.0, 4.0), growing}) {
+      CommandInput::Interpolation::linear);
+  for (const CommandInput& input : {pull(3.0, 4.0), growing}) {
     const Trajectory truth = reference(model, input, rest, times);
     for (const Method method : cvode_methods) {
       CAPTURE(label(method));
@@ -204,10 +204,10 @@ TEST_CASE("sets out from rest in the straight configuration") {
 TEST_CASE("a jump of the tension function between break points is passed") {
   const Model model(amouri2020());
   const VectorXd times = even_times(0.0, 2.0, 51), rest = state(0.0, 0.5);
-  const TensionInput jump = pull_by([](double t, double) { return t < 0.777 ? 1.0 : 20.0; });
-  const TensionInput table = TensionInput::table(
+  const CommandInput jump = pull_by([](double t, double) { return t < 0.777 ? 1.0 : 20.0; });
+  const CommandInput table = CommandInput::table(
       Eigen::Vector2d(0.0, 0.777), Eigen::Matrix<double, 2, 3>{{1.0, 0.0, 0.0}, {20.0, 0.0, 0.0}},
-      TensionInput::Interpolation::previous);
+      CommandInput::Interpolation::previous);
   const Trajectory truth = reference(model, table, rest, times);
   for (const Method method : cvode_methods) {
     CAPTURE(label(method));

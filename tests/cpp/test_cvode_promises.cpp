@@ -53,7 +53,7 @@ TEST_SUITE_BEGIN("cvode_promises");
 TEST_CASE("an exception of the tension function comes through and a restart recovers") {
   const Model model(amouri2020());
   bool armed = true;
-  const TensionInput input = pull_by([&armed](double t, double) {
+  const CommandInput input = pull_by([&armed](double t, double) {
     if (armed && t > 0.05) throw std::domain_error("no tension here");
     return 5.0 + std::sin(3.0 * t);
   });
@@ -90,7 +90,7 @@ TEST_CASE("each failure has its status, keeps the last good state, and prints no
   const Model model(amouri2020());
   struct Failure {
     Status status;
-    TensionInput input;
+    CommandInput input;
     double latest;  // [s]
   };
   int calls = 0;
@@ -129,7 +129,7 @@ TEST_CASE("each failure has its status, keeps the last good state, and prints no
       CHECK(integrator->state() == last);
     }
 
-    const TensionInput none = pull(0.0), overflowing = pull(1e308);
+    const CommandInput none = pull(0.0), overflowing = pull(1e308);
     RobotOde ode(model, none), strong(model, overflowing);
     const auto integrator = make_cvode_integrator(ode, method, {});
     CHECK(integrator->step() == Status::not_started);
@@ -142,7 +142,7 @@ TEST_CASE("each failure has its status, keeps the last good state, and prints no
           Status::non_finite_state);
 
     // Slopes that are finite, though their squares are not.
-    const TensionInput violent = pull(1e300);
+    const CommandInput violent = pull(1e300);
     RobotOde wild(model, violent);
     const auto helpless = make_cvode_integrator(wild, method, {});
     REQUIRE(helpless->restart(0.0, state(0.1, 0.0), 1.0) == Status::ok);
@@ -161,7 +161,7 @@ TEST_CASE("each failure has its status, keeps the last good state, and prints no
 TEST_CASE("counts what it does, over restarts too") {
   const Model model(amouri2020());
   long calls = 0;
-  const TensionInput input = pull_by([&calls](double t, double) {
+  const CommandInput input = pull_by([&calls](double t, double) {
     ++calls;
     return std::fmod(t, 0.2) < 0.1 ? 0.0 : 5.0;
   });
@@ -196,7 +196,7 @@ TEST_CASE("counts what it does, over restarts too") {
 
 TEST_CASE("max_step limits the steps") {
   const Model model(amouri2020());
-  const TensionInput input = pull(0.0);
+  const CommandInput input = pull(0.0);
   RobotOde ode(model, input);
   Options options = tolerances(1e-4, 1e-6);
   options.max_step = 1e-3;
@@ -213,7 +213,7 @@ TEST_CASE("max_step limits the steps") {
 
 TEST_CASE("allocates nothing after the first step") {
   const Model model(heavy_robot());
-  const TensionInput input = pull(5.0);
+  const CommandInput input = pull(5.0);
   RobotOde ode(model, input);
   const VectorXd start = state(0.3, 0.1);
   for (const Method method : cvode_methods) {
@@ -243,7 +243,7 @@ TEST_CASE("allocates nothing after the first step") {
 
 TEST_CASE("makes every method, and refuses bad options and restarts") {
   const Model model(amouri2020());
-  const TensionInput input = pull(5.0);
+  const CommandInput input = pull(5.0);
   RobotOde ode(model, input);
   for (const Method method : {Method::rk4, Method::dopri5, Method::bdf, Method::adams}) {
     const auto integrator = make_cvode_integrator(ode, method, {});

@@ -48,7 +48,7 @@ double power(const Model& model, const VectorXd& qd, const VectorXd& tension) {
 }
 
 /// Change of the energy along a run against the integral of the power.
-void check_balance(const Model& model, const TensionInput& input, double end) {
+void check_balance(const Model& model, const CommandInput& input, double end) {
   constexpr int count = 40;
   const Trajectory run = simulate(model, q_start, qd_start, gauss_times(end, count), input,
                                   Method::dopri5, tolerances(1e-12, 1e-14));
@@ -97,15 +97,15 @@ TEST_CASE("undamped energy over 1000 s, Runge-Kutta with steps of 1 ms") {
 }
 
 TEST_CASE("power balance under constant tensions") {
-  check_balance(damped_tilted(), TensionInput::constant(Eigen::Vector3d(5.0, 1.0, 0.0)), 2.0);
+  check_balance(damped_tilted(), CommandInput::constant(Eigen::Vector3d(5.0, 1.0, 0.0)), 2.0);
 }
 
 TEST_CASE("power balance along ramps") {
   MatrixXd rows(3, 3);
   rows << 0.0, 1.0, 2.0, 6.0, 0.0, 1.0, 0.0, 3.0, 0.0;
   check_balance(damped_tilted(),
-                TensionInput::table(Eigen::Vector3d(0.0, 1.0, 2.0), rows,
-                                    TensionInput::Interpolation::linear),
+                CommandInput::table(Eigen::Vector3d(0.0, 1.0, 2.0), rows,
+                                    CommandInput::Interpolation::linear),
                 2.0);
 }
 
@@ -114,7 +114,7 @@ TEST_CASE("power balance of a feedback law") {
                       VectorRef tension) {
     tension << 2.0 + std::sin(q[0]) + 0.1 * std::cos(qd[0]), 1.0, 2.0 + std::cos(q[1]);
   };
-  check_balance(damped_tilted(), TensionInput::function(law, 3), 2.0);
+  check_balance(damped_tilted(), CommandInput::function(law, 3), 2.0);
 }
 
 TEST_CASE("damping alone only ever takes energy") {

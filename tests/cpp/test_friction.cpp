@@ -101,7 +101,7 @@ TEST_CASE("friction never gives work") {
   CHECK(taking > states / 2);
 }
 
-TEST_CASE("without friction the cables pull as if there were no holes, to the last bit") {
+TEST_CASE("without friction the cables pull as if there were no holes") {
   Random random;
   INFO(random);
   for (int n = 1; n <= 5; ++n) {
@@ -123,7 +123,8 @@ TEST_CASE("without friction the cables pull as if there were no holes, to the la
       const VectorXd tension = tensions_of(smooth, q, qd, command);
       actuation_force(smooth, tension, plain);
       const VectorXd force = cable_force_of(smooth, q, qd, command);
-      CHECK(force == plain);
+      const double scale = largest(smooth.actuation_matrix().cwiseAbs() * tension);
+      CHECK(residual(force, plain, scale) <= tolerance::rounding);
       CHECK(cable_force_of(rough, q, qd, command) == force);
       CHECK(std::abs(friction_power(smooth, q, qd, command)) <=
             power_rounding * power_scale(smooth, qd, tension));
@@ -275,7 +276,7 @@ TEST_CASE("energy changes by the work of the cables less damping and friction") 
   qd0 << 1.0, -2.0, 0.5, 1.5, -1.0, 3.0;
   F << 6.0, 1.0, 3.0, 2.0, 8.0, 0.0, 4.0, 5.0, 1.0;
   const Trajectory run =
-      simulate(model, q0, qd0, even_times(0.0, 2.0, 20001), TensionInput::constant(F),
+      simulate(model, q0, qd0, even_times(0.0, 2.0, 20001), CommandInput::constant(F),
                Method::dopri5, tolerances(1e-12, 1e-14));
   REQUIRE(run.status == Status::ok);
   const Work work = work_of(model, run);
@@ -310,7 +311,7 @@ Loop pull_and_release(double mu) {
   MatrixXd tension(3, 1);
   tension << 0.0, 40.0, 0.0;
   const auto input =
-      TensionInput::table(Vector3d(0.0, 10.0, 20.0), tension, TensionInput::Interpolation::linear);
+      CommandInput::table(Vector3d(0.0, 10.0, 20.0), tension, CommandInput::Interpolation::linear);
   const Trajectory run =
       simulate(model, VectorXd::Zero(2), VectorXd::Zero(2), even_times(0.0, 21.0, 42001), input,
                Method::dopri5, tolerances(1e-8, 1e-10));

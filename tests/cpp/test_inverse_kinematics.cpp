@@ -114,7 +114,7 @@ TEST_CASE("a point out of reach gives a point where nothing leads nearer, limits
         INFO(random, ", n = ", n, ", max_theta = ", max_theta, ", p = ", p.transpose());
         const InverseKinematics answer = inverse_kinematics(model, p, {}, {}, options);
         check_consistent(model, p, answer, max_theta);
-        CHECK(answer.reach == Reach::too_far);
+        CHECK(answer.reach == IkStatus::too_far);
         for (Index k = 0; k < n; ++k) {
           const Pull towards = pull(model, answer, p, k);
           CHECK(residual(towards.across, 0.0, length * p.norm()) <= at_rest);
@@ -176,7 +176,7 @@ TEST_CASE("the orientation weight tells position and orientation apart") {
   CHECK(aligned.angle < 0.1 * near.angle);
   CHECK(residual(aligned.residual, std::hypot(aligned.distance, 10.0 * aligned.angle)) <=
         tolerance::rounding);
-  CHECK(near.reach == Reach::too_few_sections);
+  CHECK(near.reach == IkStatus::too_few_sections);
 }
 
 TEST_CASE("any finite point gives finite bending vectors, the same each time") {
@@ -288,7 +288,7 @@ TEST_CASE("a solver's solve allocates nothing and says what is not finite") {
     CHECK(allocations_of([&] { static_cast<void>(solver.solve(at.p, R, q)); }) == 0);
     CHECK(allocations_of([&] { static_cast<void>(solver.solve(far, R)); }) == 0);
     const InverseKinematics& answer = solver.solve({nan, 0.0, 0.0});
-    CHECK(answer.reach == Reach::not_finite);
+    CHECK(answer.reach == IkStatus::not_finite);
     CHECK(answer.q == VectorXd::Zero(2 * n));
     CHECK(solver.message() == "p, R and q0 must be finite");
   }

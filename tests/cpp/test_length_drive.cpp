@@ -36,7 +36,7 @@ std::string label(Method method) {
 }
 
 Trajectory go(const Model& model, const VectorXd& q0, const VectorXd& qd0, const VectorXd& times,
-              const TensionInput& input, Method method, const Options& options) {
+              const CommandInput& input, Method method, const Options& options) {
   Trajectory run = simulate(model, q0, qd0, times, input, method, options, make_cvode_integrator);
   CAPTURE(run.message);
   REQUIRE(run.status == Status::ok);
@@ -92,7 +92,7 @@ TEST_CASE("undamped, motion and springs keep their energy while cables fall slac
         Row{Method::bdf, 1e-10, kept_by_bdf}}) {
     const Trajectory run =
         go(model, q0, VectorXd::Zero(6), even_times(0.0, 10.0, 101),
-           TensionInput::constant(command), method, tolerances(rtol, 1e-2 * rtol));
+           CommandInput::constant(command), method, tolerances(rtol, 1e-2 * rtol));
     const VectorXd energy = energy_of(run);
     const double drift = (energy.array() - energy[0]).abs().maxCoeff() / std::abs(energy[0]);
     MESSAGE(label(method) << ", rtol " << rtol << ": energy off by " << drift << " of " << energy[0]
@@ -148,7 +148,7 @@ TEST_CASE("small swings: the cable is slack for half a swing of the backbone alo
     CAPTURE(label(method));
     const Trajectory run =
         go(model, Eigen::Vector2d(start, 0.0), VectorXd::Zero(2), Eigen::Vector2d(0.0, 10.0),
-           TensionInput::constant(rest_command_of(model)), method, tolerances(1e-12, 1e-19));
+           CommandInput::constant(rest_command_of(model)), method, tolerances(1e-12, 1e-19));
     REQUIRE(run.slack_events.size() >= 6);
     double expected = 0.5 * taut, worst = 0.0;
     bool turns_slack = true;
@@ -166,7 +166,7 @@ TEST_CASE("small swings: the cable is slack for half a swing of the backbone alo
 }
 
 /// Time of the first change of sign of cable 0's pull after t, by bisection on runs of dopri5.
-double next_turn(const Model& model, const TensionInput& input, double& t, VectorXd& q,
+double next_turn(const Model& model, const CommandInput& input, double& t, VectorXd& q,
                  VectorXd& qd) {
   const double pace = 2e-3;
   const auto pull_after = [&](double h, VectorXd& q_there, VectorXd& qd_there) {
@@ -204,7 +204,7 @@ TEST_CASE("events of a large swing are the roots of the pull") {
   const Model model(robot);
   const VectorXd q0 = Eigen::Vector2d(0.4, 0.3), qd0 = Eigen::Vector2d(-2.0, 1.0);
   const VectorXd command = rest_command_of(model).array() - 2e-3;
-  const TensionInput input = TensionInput::constant(command);
+  const CommandInput input = CommandInput::constant(command);
   std::vector<double> roots;
   VectorXd q = q0, qd = qd0;
   double t = 0.0;
@@ -240,8 +240,8 @@ TEST_CASE("a jump of the command that frees or grips a cable is an event at that
   MatrixXd commands(3, 1);
   const double straight = model.straight_lengths()[0];
   commands << straight - 5e-3, straight + 0.1, straight - 0.1;
-  const auto input = TensionInput::table(Vector3d(0.0, 0.5, 0.75), commands,
-                                         TensionInput::Interpolation::previous);
+  const auto input = CommandInput::table(Vector3d(0.0, 0.5, 0.75), commands,
+                                         CommandInput::Interpolation::previous);
   for (const Method method : {Method::bdf, Method::adams}) {
     const Trajectory run = go(model, Eigen::Vector2d(0.1, 0.0), VectorXd::Zero(2),
                               Eigen::Vector2d(0.0, 0.8), input, method, {});
@@ -265,7 +265,7 @@ TEST_CASE("flags alternate and end as the pulls do, through hundreds of events")
     const VectorXd command = lengths_of(model, random_bending(2, 0.5, random));
     const VectorXd q0 = random_bending(2, 1.0, random), qd0 = random.vector(4, 5.0);
     const Trajectory run =
-        go(model, q0, qd0, even_times(0.0, 2.0, 3), TensionInput::constant(command), Method::bdf,
+        go(model, q0, qd0, even_times(0.0, 2.0, 3), CommandInput::constant(command), Method::bdf,
            tolerances(1e-8, 1e-10));
     CHECK(run.slack_events.size() > 10);
     CHECK(alternate(run.slack_events, model.num_cables()));
@@ -296,7 +296,7 @@ TEST_CASE("a straight robot under its command for rest stays at rest") {
       options.step = 1e-4;
       const Trajectory run =
           go(model, VectorXd::Zero(10), VectorXd::Zero(10), even_times(0.0, 0.5, 6),
-             TensionInput::constant(rest_command_of(model)), method, options);
+             CommandInput::constant(rest_command_of(model)), method, options);
       CHECK(run.q == RowMatrixXd::Zero(6, 10));
       CHECK(run.qd == RowMatrixXd::Zero(6, 10));
       CHECK(run.slack_events.empty());
@@ -315,7 +315,7 @@ Trajectory stiff_run(double stiffness, double damping, Method method, const Opti
   command.row(0) = rest_command_of(model).array() - 20.0 / stiffness;
   command.row(1) = lengths_of(model, shape).array() - 20.0 / stiffness;
   const auto input =
-      TensionInput::table(Eigen::Vector2d(0.0, 0.2), command, TensionInput::Interpolation::linear);
+      CommandInput::table(Eigen::Vector2d(0.0, 0.2), command, CommandInput::Interpolation::linear);
   return go(model, VectorXd::Zero(10), VectorXd::Zero(10), even_times(0.0, 0.5, 11), input, method,
             options);
 }

@@ -56,26 +56,26 @@ Options options_for(Method method) {
 }
 
 Trajectory go(const Model& model, const VectorXd& q, const VectorXd& qd, const VectorXd& times,
-              const Loads& loads, Method method) {
+              const WrenchInput& loads, Method method) {
   Trajectory run = simulate(model, q, qd, times, no_tension(model), method, options_for(method),
                             make_integrator, {}, loads);
   REQUIRE(run.status == Status::ok);
   return run;
 }
 
-Loads with_profile(const Wrench& wrench, Profile profile) {
-  Loads loads;
+WrenchInput with_profile(const Wrench& wrench, Profile profile) {
+  WrenchInput loads;
   loads.add(wrench, std::move(profile));
   return loads;
 }
 
-Loads scaled(Wrench wrench, double factor) {
+WrenchInput scaled(Wrench wrench, double factor) {
   wrench.force *= factor;
   wrench.moment *= factor;
-  return Loads({wrench});
+  return WrenchInput({wrench});
 }
 
-double factor_at(const Loads& loads, double t, double start) {
+double factor_at(const WrenchInput& loads, double t, double start) {
   Wrenches now = loads.wrenches();
   loads.evaluate(t, start, now);
   return now[0].force[0] / loads.wrenches()[0].force[0];
@@ -90,8 +90,10 @@ void check_same(const Trajectory& run, const Trajectory& other, double tolerance
 TEST_SUITE_BEGIN("loads");
 
 TEST_CASE("a table is held or connected, and its ends hold outside") {
-  const Loads held = with_profile(side_force(), {{1.0, 2.0, 4.0}, {3.0, -1.0, 2.0}, false, {}});
-  const Loads linear = with_profile(side_force(), {{1.0, 2.0, 4.0}, {3.0, -1.0, 2.0}, true, {}});
+  const WrenchInput held =
+      with_profile(side_force(), {{1.0, 2.0, 4.0}, {3.0, -1.0, 2.0}, false, {}});
+  const WrenchInput linear =
+      with_profile(side_force(), {{1.0, 2.0, 4.0}, {3.0, -1.0, 2.0}, true, {}});
   CHECK(held.hold());
   CHECK(!linear.hold());
   CHECK(held.break_points() == std::vector<double>{1.0, 2.0, 4.0});
@@ -108,14 +110,14 @@ TEST_CASE("a table is held or connected, and its ends hold outside") {
   CHECK(residual(factor_at(linear, 2.0, 1.0), -1.0) <= rounding);
   CHECK(residual(factor_at(linear, 3.0, 2.0), 0.5) <= rounding);
   CHECK(residual(factor_at(linear, 9.0, 4.0), 2.0) <= rounding);
-  CHECK(factor_at(Loads({side_force()}), 5.0, 0.0) == 1.0);
+  CHECK(factor_at(WrenchInput({side_force()}), 5.0, 0.0) == 1.0);
 }
 
 TEST_CASE("a function does not see the far side of its break points") {
   Profile profile;
   profile.times = {1.0};
   profile.function = [](double t) { return t < 1.0 ? 2.0 : -3.0; };
-  const Loads loads = with_profile(side_force(), profile);
+  const WrenchInput loads = with_profile(side_force(), profile);
   const double rounding = tolerance::rounding;
   CHECK(!loads.hold());
   CHECK(residual(factor_at(loads, 1.0, 0.0), 2.0) <= rounding);
@@ -124,7 +126,7 @@ TEST_CASE("a function does not see the far side of its break points") {
 }
 
 TEST_CASE("break points of several wrenches are sorted, each once") {
-  Loads loads;
+  WrenchInput loads;
   loads.add(side_force(), {{0.5, 2.0}, {1.0, 0.0}, false, {}});
   loads.add(side_force());
   loads.add(side_force(), {{0.25, 0.5}, {1.0, 0.0}, true, {}});
@@ -152,9 +154,9 @@ TEST_CASE("a run across jumps is that of its pieces, glued by hand") {
       qd = piece.qd.row(1).transpose();
     }
     const VectorXd span = Eigen::Vector2d(0.0, 1.0);
-    const Loads table = with_profile(side_force(), {times, factors, false, {}});
+    const WrenchInput table = with_profile(side_force(), {times, factors, false, {}});
     check_same(go(model, start_q(), start_qd(), span, table, method), piece, glued);
-    const Loads function = with_profile(side_force(), as_function);
+    const WrenchInput function = with_profile(side_force(), as_function);
     check_same(go(model, start_q(), start_qd(), span, function, method), piece, glued);
   }
 }
@@ -170,7 +172,7 @@ TEST_CASE("a linear table is the function of the same slope, in pieces") {
   };
   for (const Method method : both_methods) {
     const VectorXd span = Eigen::Vector2d(0.0, 1.0);
-    const Loads table = with_profile(side_force(), {times, factors, true, {}});
+    const WrenchInput table = with_profile(side_force(), {times, factors, true, {}});
     check_same(go(model, start_q(), start_qd(), span, table, method),
                go(model, start_q(), start_qd(), span, with_profile(side_force(), function), method),
                glued);
@@ -179,7 +181,7 @@ TEST_CASE("a linear table is the function of the same slope, in pieces") {
 
 TEST_CASE("switched on and off: nothing before, the free motion after") {
   const Model model(two_sections());
-  Loads loads = with_profile(side_force(), {{0.0, 0.25, 0.5}, {0.0, 1.0, 0.0}, false, {}});
+  WrenchInput loads = with_profile(side_force(), {{0.0, 0.25, 0.5}, {0.0, 1.0, 0.0}, false, {}});
   const VectorXd times = even_times(0.0, 1.0, 9);
   const Trajectory run = go(model, start_q(), start_qd(), times, loads, Method::dopri5);
   const Trajectory free = go(model, start_q(), start_qd(), times, {}, Method::dopri5);
@@ -194,14 +196,14 @@ TEST_CASE("a local wrench is the base one that turns with the backbone at every 
   const Model model(two_sections());
   Wrench local = side_force();
   local.frame = Wrench::Frame::local;
-  const Trajectory run =
-      go(model, start_q(), start_qd(), even_times(0.0, 1.0, 11), Loads({local}), Method::dopri5);
+  const Trajectory run = go(model, start_q(), start_qd(), even_times(0.0, 1.0, 11),
+                            WrenchInput({local}), Method::dopri5);
   // The slope of the run's own rates, by differences over samples 1e-4 s apart.
   Data data(model);
   for (Index i = 1; i < 10; ++i) {
     const double h = 1e-4;
     const Trajectory near = go(model, run.q.row(i).transpose(), run.qd.row(i).transpose(),
-                               even_times(0.0, 4.0 * h, 5), Loads({local}), Method::dopri5);
+                               even_times(0.0, 4.0 * h, 5), WrenchInput({local}), Method::dopri5);
     const VectorXd slope =
         (8.0 * (near.qd.row(3) - near.qd.row(1)) - (near.qd.row(4) - near.qd.row(0))).transpose() /
         (12.0 * h);
@@ -223,8 +225,8 @@ TEST_CASE("energy less the work of a dead force is conserved") {
   const Model model(robot);
   Wrench dead = side_force();
   dead.moment.setZero();
-  const Trajectory run =
-      go(model, start_q(), start_qd(), even_times(0.0, 10.0, 101), Loads({dead}), Method::dopri5);
+  const Trajectory run = go(model, start_q(), start_qd(), even_times(0.0, 10.0, 101),
+                            WrenchInput({dead}), Method::dopri5);
   VectorXd energy = total_energies(model, run);
   double work = 0.0;
   for (Index i = 0; i < energy.size(); ++i) {
@@ -243,7 +245,7 @@ TEST_CASE("an impulse changes the momentum by its moment") {
   const Model model(two_sections());
   Data data(model);
   for (const double span : {1e-5, 1e-6}) {
-    const Loads blow = scaled(side_force(), 0.1 / span);
+    const WrenchInput blow = scaled(side_force(), 0.1 / span);
     const VectorXd zero = VectorXd::Zero(4), q = start_q();
     const Trajectory run = go(model, q, zero, Eigen::Vector2d(0.0, span), blow, Method::dopri5);
     MatrixXd M(4, 4);
@@ -260,7 +262,8 @@ TEST_CASE("a controller and wrenches in one run") {
   PidOptions options;
   options.kp = 0.2;
   options.period = 1.0 / 64.0;
-  const Loads loads = with_profile(side_force(), {{0.0, 0.3, 0.6}, {0.0, 1.0, 0.5}, false, {}});
+  const WrenchInput loads =
+      with_profile(side_force(), {{0.0, 0.3, 0.6}, {0.0, 1.0, 0.5}, false, {}});
   for (const Method method : both_methods) {
     Pid pid(model, options);
     const Trajectory run = simulate(model, start_q(), start_qd(), Eigen::Vector2d(0.0, 1.0), pid,
@@ -273,7 +276,7 @@ TEST_CASE("a controller and wrenches in one run") {
       const double t = k / 64.0, end = (k + 1) / 64.0;
       REQUIRE(other.update(t, q, qd, tension) == Status::ok);
       const Trajectory piece =
-          simulate(model, q, qd, Eigen::Vector2d(t, end), TensionInput::constant(tension), method,
+          simulate(model, q, qd, Eigen::Vector2d(t, end), CommandInput::constant(tension), method,
                    options_for(method), make_integrator, {}, loads);
       q = piece.q.row(1).transpose();
       qd = piece.qd.row(1).transpose();
@@ -297,8 +300,8 @@ TEST_CASE("the simulator's steps under wrenches, springs and friction are those 
   Simulator sim(model, period, 4);
   sim.reset(q0, qd0);
   const Trajectory run =
-      simulate(model, q0, qd0, even_times(0.0, 0.125, 129), TensionInput::constant(command),
-               Method::rk4, fixed_step(period / 4), make_integrator, {}, Loads(wrenches));
+      simulate(model, q0, qd0, even_times(0.0, 0.125, 129), CommandInput::constant(command),
+               Method::rk4, fixed_step(period / 4), make_integrator, {}, WrenchInput(wrenches));
   REQUIRE(run.status == Status::ok);
   for (Index i = 1; i <= 128; ++i) {
     REQUIRE(sim.step(command, wrenches) == Status::ok);
@@ -309,7 +312,7 @@ TEST_CASE("the simulator's steps under wrenches, springs and friction are those 
 
 TEST_CASE("wrong profiles and wrenches are refused with a sentence") {
   const Wrench wrench = side_force();
-  Loads loads;
+  WrenchInput loads;
   CHECK_THROWS_SENTENCE(
       loads.add(wrench, {{0.0, 1.0}, {1.0}, false, {}}),
       "a wrench's profile needs one row of values for each time, got 2 times and 1 rows");
@@ -327,11 +330,11 @@ TEST_CASE("wrong profiles and wrenches are refused with a sentence") {
   const Model model(two_sections());
   Wrench beyond = wrench;
   beyond.section = 2;
-  const auto run_with = [&](const Loads& some) {
+  const auto run_with = [&](const WrenchInput& some) {
     return simulate(model, start_q(), start_qd(), Eigen::Vector2d(0.0, 0.1), no_tension(model),
                     Method::dopri5, {}, make_integrator, {}, some);
   };
-  CHECK_THROWS_SENTENCE(run_with(Loads({wrench, beyond})),
+  CHECK_THROWS_SENTENCE(run_with(WrenchInput({wrench, beyond})),
                         "wrenches[1].section must be 0 to 1, got 2");
   Profile bad;
   bad.function = [](double t) { return t > 0.05 ? nan : 1.0; };
@@ -339,7 +342,7 @@ TEST_CASE("wrong profiles and wrenches are refused with a sentence") {
   bad.function = [](double) -> double { throw std::logic_error("no idea"); };
   CHECK_THROWS_WITH_AS(static_cast<void>(run_with(with_profile(wrench, bad))), "no idea",
                        std::logic_error);
-  CHECK(run_with(Loads({wrench})).status == Status::ok);
+  CHECK(run_with(WrenchInput({wrench})).status == Status::ok);
 }
 
 TEST_SUITE_END();

@@ -135,9 +135,9 @@ TEST_CASE("a simulator's step allocates nothing, not even the first or a failing
 TEST_CASE("tables and constants are evaluated without allocating") {
   VectorXd F(3);
   const Eigen::Vector2d q(0.1, 0.2);
-  const TensionInput table = TensionInput::table(Eigen::Vector2d(0.0, 1.0), MatrixXd::Ones(2, 3),
-                                                 TensionInput::Interpolation::linear);
-  const TensionInput constant = TensionInput::constant(Eigen::Vector3d(1.0, 2.0, 3.0));
+  const CommandInput table = CommandInput::table(Eigen::Vector2d(0.0, 1.0), MatrixXd::Ones(2, 3),
+                                                 CommandInput::Interpolation::linear);
+  const CommandInput constant = CommandInput::constant(Eigen::Vector3d(1.0, 2.0, 3.0));
   CHECK(allocations_of([&] { table.evaluate(0.5, table.segment(0.5), q, q, F); }) == 0);
   CHECK(allocations_of([&] { constant.evaluate(0.5, 0, q, q, F); }) == 0);
 }

@@ -132,7 +132,7 @@ TEST_CASE("a simulator's step with all of it allocates nothing, not even when it
 TEST_CASE("wrenches over time are evaluated without allocating") {
   Rig rig;
   Random random;
-  Loads loads;
+  WrenchInput loads;
   for (const Wrench& wrench : random_wrenches(rig.model, 2, random)) {
     loads.add(wrench, {{0.0, 1.0, 2.0}, {0.0, 1.0, 0.5}, true, {}});
     loads.add(wrench, {{0.0, 1.5}, {1.0, 0.0}, false, {}});

@@ -92,7 +92,7 @@ TEST_CASE("damped and pulled, the energy is the work of cables less what damping
     const VectorXd tension = Eigen::Vector3d(0.02, 0.005, 0.0);
     const Trajectory run =
         simulate(model, start(model, {0.7, 0.2}), start(model, {-0.1, 0.3}), gauss_times(),
-                 TensionInput::constant(tension), Method::dopri5, tolerances(1e-10, 1e-12));
+                 CommandInput::constant(tension), Method::dopri5, tolerances(1e-10, 1e-12));
     REQUIRE(run.status == Status::ok);
     const VectorXd energies = total_energies(model, run);
     double work = 0.0, activity = 0.0, lost = 0.0, worst = 0.0;

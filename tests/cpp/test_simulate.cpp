@@ -14,7 +14,7 @@
 namespace cdcr::test {
 namespace {
 
-using Interpolation = TensionInput::Interpolation;
+using Interpolation = CommandInput::Interpolation;
 
 const Eigen::Vector2d q_start(0.5, -0.2), qd_start(0.0, 1.0);
 const std::vector<Method> own_methods = {Method::dopri5, Method::rk4};
@@ -25,7 +25,7 @@ Model upright() {
   return Model(robot);
 }
 
-Trajectory run_of(const Model& model, const VectorXd& times, const TensionInput& input,
+Trajectory run_of(const Model& model, const VectorXd& times, const CommandInput& input,
                   Method method, const Options& options = {}) {
   const Trajectory run = simulate(model, q_start, qd_start, times, input, method, options);
   REQUIRE(run.status == Status::ok);
@@ -54,8 +54,8 @@ TEST_CASE("a run does not depend on where it is sampled, to the last bit") {
   const Model model = upright();
   MatrixXd rows = MatrixXd::Zero(2, 3);
   rows(1, 2) = 4.0;
-  const TensionInput table =
-      TensionInput::table(Eigen::Vector2d(0.0, 0.7071), rows, Interpolation::previous);
+  const CommandInput table =
+      CommandInput::table(Eigen::Vector2d(0.0, 0.7071), rows, Interpolation::previous);
   for (const Method method : own_methods) {
     const Trajectory coarse = run_of(model, even_times(0.0, 2.0, 5), table, method);
     const Trajectory fine = run_of(model, even_times(0.0, 2.0, 4001), table, method);
@@ -84,15 +84,15 @@ TEST_CASE("a jump in a table is hit exactly: the run goes on as one that starts 
   const double jump = 0.31830988;
   MatrixXd rows(2, 3);
   rows << 3.0, 0.0, 1.0, 0.0, 6.0, 0.0;
-  const TensionInput table =
-      TensionInput::table(Eigen::Vector2d(0.0, jump), rows, Interpolation::previous);
+  const CommandInput table =
+      CommandInput::table(Eigen::Vector2d(0.0, jump), rows, Interpolation::previous);
   for (const Method method : own_methods) {
     const Trajectory whole = run_of(model, Eigen::Vector3d(0.0, jump, 1.0), table, method);
     const Trajectory before =
-        run_of(model, Eigen::Vector2d(0.0, jump), TensionInput::constant(rows.row(0)), method);
+        run_of(model, Eigen::Vector2d(0.0, jump), CommandInput::constant(rows.row(0)), method);
     const Trajectory after =
         simulate(model, last_row(before.q), last_row(before.qd), Eigen::Vector2d(jump, 1.0),
-                 TensionInput::constant(rows.row(1)), method);
+                 CommandInput::constant(rows.row(1)), method);
     CHECK(whole.q.row(1) == before.q.row(1));
     CHECK(whole.q.row(2) == after.q.row(1));
     CHECK(whole.qd.row(2) == after.qd.row(1));
@@ -106,11 +106,11 @@ TEST_CASE("before its first time a table holds its first row, after its last its
   MatrixXd rows(2, 3);
   rows << 2.0, 0.0, 0.0, 2.0, 0.0, 0.0;
   for (const Interpolation interpolation : {Interpolation::previous, Interpolation::linear}) {
-    const TensionInput table = TensionInput::table(Eigen::Vector2d(0.25, 0.5), rows, interpolation);
+    const CommandInput table = CommandInput::table(Eigen::Vector2d(0.25, 0.5), rows, interpolation);
     const Trajectory run =
         run_of(model, even_times(0.0, 1.0, 9), table, Method::dopri5, tightest());
     const Trajectory constant =
-        run_of(model, even_times(0.0, 1.0, 9), TensionInput::constant(rows.row(0)), Method::dopri5,
+        run_of(model, even_times(0.0, 1.0, 9), CommandInput::constant(rows.row(0)), Method::dopri5,
                tightest());
     CHECK(residual(run.q, constant.q) <= tolerance::run);
     CHECK(run.tension == constant.tension);
@@ -124,9 +124,9 @@ TEST_CASE("tables give the tensions they say") {
   const VectorXd times = even_times(0.0, 1.0, 5);
   const Eigen::Vector2d breaks(0.0, 1.0);
   const Trajectory held = run_of(
-      model, times, TensionInput::table(breaks, rows, Interpolation::previous), Method::dopri5);
+      model, times, CommandInput::table(breaks, rows, Interpolation::previous), Method::dopri5);
   const Trajectory ramp = run_of(
-      model, times, TensionInput::table(breaks, rows, Interpolation::linear), Method::dopri5);
+      model, times, CommandInput::table(breaks, rows, Interpolation::linear), Method::dopri5);
   for (Index i = 0; i < 5; ++i) {
     CHECK(held.tension.row(i) == rows.row(i < 4 ? 0 : 1));
     const double share = 0.25 * static_cast<double>(i);
@@ -148,9 +148,9 @@ TEST_CASE("a linear table equals the function it draws") {
   };
   const VectorXd times = even_times(0.0, 1.2, 25);
   const Trajectory table =
-      run_of(model, times, TensionInput::table(breaks, rows, Interpolation::linear), Method::dopri5,
+      run_of(model, times, CommandInput::table(breaks, rows, Interpolation::linear), Method::dopri5,
              tightest());
-  const Trajectory function = run_of(model, times, TensionInput::function(tent, 3, {0.1, 0.4, 0.9}),
+  const Trajectory function = run_of(model, times, CommandInput::function(tent, 3, {0.1, 0.4, 0.9}),
                                      Method::dopri5, tightest());
   CHECK(residual(function.q, table.q) <= tolerance::run);
 }
@@ -168,8 +168,8 @@ TEST_CASE("a function of time and state drives the robot, feedback included") {
   };
   for (const Method method : own_methods) {
     const VectorXd times = even_times(0.0, 0.5, 6);
-    const Trajectory plain = run_of(model, times, TensionInput::constant(constant), method);
-    const Trajectory called = run_of(model, times, TensionInput::function(recorded, 3), method);
+    const Trajectory plain = run_of(model, times, CommandInput::constant(constant), method);
+    const Trajectory called = run_of(model, times, CommandInput::function(recorded, 3), method);
     CHECK(called.q == plain.q);
     CHECK(last_time == 0.5);
   }
@@ -180,7 +180,7 @@ TEST_CASE("a function of time and state drives the robot, feedback included") {
   };
   const VectorXd times = even_times(0.0, 10.0, 101);
   const Trajectory controlled =
-      run_of(model, times, TensionInput::function(law, 3), Method::dopri5);
+      run_of(model, times, CommandInput::function(law, 3), Method::dopri5);
   const Trajectory free = run_of(model, times, no_tension(model), Method::dopri5);
   CHECK(controlled.q.col(0).tail(20).cwiseAbs().maxCoeff() <
         0.1 * free.q.col(0).tail(20).cwiseAbs().maxCoeff());
@@ -194,7 +194,7 @@ TEST_CASE("what a tension function throws reaches the caller") {
   };
   for (const Method method : own_methods) {
     CHECK_THROWS_WITH_AS(simulate(model, q_start, qd_start, even_times(0.0, 1.0, 11),
-                                  TensionInput::function(failing, 3), method),
+                                  CommandInput::function(failing, 3), method),
                          "load cell lost", std::runtime_error);
   }
 }

@@ -46,7 +46,7 @@ TEST_CASE("steps equal those of simulate with rk4, to the last bit") {
     Simulator sim(model, period, substeps);
     sim.reset(q_start, qd_start);
     const Trajectory run =
-        simulate(model, q_start, qd_start, even_times(0.0, 1.0, 1025), TensionInput::constant(pull),
+        simulate(model, q_start, qd_start, even_times(0.0, 1.0, 1025), CommandInput::constant(pull),
                  Method::rk4, fixed_step(period / substeps));
     REQUIRE(run.status == Status::ok);
     for (Index i = 1; i <= 1024; ++i) {
@@ -71,7 +71,7 @@ TEST_CASE("tensions may change every period") {
   for (Index i = 0; i <= count; ++i) times[i] = static_cast<double>(i) * period;
   const Trajectory run =
       simulate(model, q_start, qd_start, times,
-               TensionInput::table(times.head(count), rows, TensionInput::Interpolation::previous),
+               CommandInput::table(times.head(count), rows, CommandInput::Interpolation::previous),
                Method::rk4, fixed_step(period));
   for (Index i = 0; i < count; ++i) {
     REQUIRE(sim.step(rows.row(i).transpose()) == Status::ok);

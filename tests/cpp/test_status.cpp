@@ -104,7 +104,7 @@ TEST_CASE("interrupted") {
 
 TEST_CASE("bending_limit") {
   const Model model(amouri2020());
-  const TensionInput hard = TensionInput::constant(Eigen::Vector3d(300.0, 0.0, 0.0));
+  const CommandInput hard = CommandInput::constant(Eigen::Vector3d(300.0, 0.0, 0.0));
   for (const Method method : own_methods) {
     const Trajectory run =
         simulate(model, q_start, at_rest, even_times(0.0, 10.0, 10001), hard, method);
@@ -133,7 +133,7 @@ TEST_CASE("step_too_small") {
   };
   const Trajectory run =
       simulate(model, q_start, at_rest, even_times(0.0, 1.0, 101),
-               TensionInput::function(flicker, 3), Method::dopri5, tolerances(1e-14, 1e-18));
+               CommandInput::function(flicker, 3), Method::dopri5, tolerances(1e-14, 1e-18));
   check_stopped(run, Status::step_too_small, 101);
   CHECK(run.t[run.t.size() - 1] <= 0.1);
 }
@@ -165,10 +165,10 @@ TEST_CASE("a negative or non-finite tension from a function is refused with a se
   };
   for (const Method method : own_methods) {
     CHECK_THROWS_AS(simulate(model, q_start, at_rest, even_times(0.0, 1.0, 11),
-                             TensionInput::function(pushing, 3), method),
+                             CommandInput::function(pushing, 3), method),
                     std::invalid_argument);
     CHECK_THROWS_SENTENCE(simulate(model, q_start, at_rest, even_times(0.0, 1.0, 11),
-                                   TensionInput::function(broken, 3), method),
+                                   CommandInput::function(broken, 3), method),
                           "the tension function must give finite values >= 0 N (a cable cannot "
                           "push), got [nan nan nan] at t = 0 s");
   }

@@ -84,7 +84,7 @@ TEST_CASE("starting straight at rest with cables 1 and 2 pulled") {
   const Eigen::Vector3d tension(5.0, 5.0, 0.0);
   const VectorXd times = even_times(0.0, 3.0, 301);
   const Trajectory run = simulate(model, VectorXd::Zero(2), VectorXd::Zero(2), times,
-                                  TensionInput::constant(tension), Method::dopri5, tightest());
+                                  CommandInput::constant(tension), Method::dopri5, tightest());
   REQUIRE(run.status == Status::ok);
   CHECK(run.q.allFinite());
   // Equal pulls at 0 and 120 degrees bend it towards 60 degrees, as one pull of 5 N would.
@@ -92,7 +92,7 @@ TEST_CASE("starting straight at rest with cables 1 and 2 pulled") {
   CHECK(residual(run.q * across, VectorXd::Zero(301), 1.0) <= tolerance::run);
   const Trajectory single =
       simulate(model, VectorXd::Zero(2), VectorXd::Zero(2), times,
-               TensionInput::constant(Eigen::Vector3d(5.0, 0.0, 0.0)), Method::dopri5, tightest());
+               CommandInput::constant(Eigen::Vector3d(5.0, 0.0, 0.0)), Method::dopri5, tightest());
   CHECK(residual(run.q * along, single.q.col(0), 1.0) <= tolerance::run);
   // An undamped step response swings to about twice the static angle and back to straight.
   const double theta_static = 5.0 * 0.019 / model.stiffness()[0];

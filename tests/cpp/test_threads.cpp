@@ -20,7 +20,7 @@ struct Answers {
 Answers compute(const Model& model) {
   const Eigen::Vector2d q(0.4, -0.2), qd(1.0, 3.0);
   const VectorXd times = even_times(0.0, 20.0, 201);
-  const TensionInput input = TensionInput::constant(Eigen::Vector3d(2.0, 1.0, 0.0));
+  const CommandInput input = CommandInput::constant(Eigen::Vector3d(2.0, 1.0, 0.0));
   return {simulate(model, q, qd, times, input, Method::dopri5),
           simulate(model, q, qd, times, input, Method::rk4),
           equilibrium(model, Eigen::Vector3d(2.0, 1.0, 0.0))};

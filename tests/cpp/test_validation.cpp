@@ -38,7 +38,7 @@ void check_section(const std::function<void(Section&)>& change, const std::strin
 }
 
 void check_section(const std::function<void(Section&)>& change, const std::string& sentence) {
-  check_section(change, sentence, "sections[0]." + sentence);
+  check_section(change, sentence, "section 1: " + sentence);
 }
 
 void check_robot(const std::function<void(Robot&)>& change, const std::string& sentence) {
@@ -103,14 +103,13 @@ TEST_CASE("cable fields that must not be negative") {
 }
 
 TEST_CASE("disks one by one") {
-  check_section(
-      [](Section& s) { s.disk_masses.assign(3, 0.01); },
-      "the number of disk_masses must be 0 or the number of disks, 10, got 3",
-      "the number of sections[0].disk_masses must be 0 or the number of disks, 10, got 3");
+  check_section([](Section& s) { s.disk_masses.assign(3, 0.01); },
+                "the number of disk_masses must be 0 or the number of disks, 10, got 3",
+                "section 1: the number of disk_masses must be 0 or the number of disks, 10, got 3");
   check_section(
       [](Section& s) { s.disk_diameters.assign(1, 0.01); },
       "the number of disk_diameters must be 0 or the number of disks, 10, got 1",
-      "the number of sections[0].disk_diameters must be 0 or the number of disks, 10, got 1");
+      "section 1: the number of disk_diameters must be 0 or the number of disks, 10, got 1");
   check_section([](Section& s) { s.disk_positions = {0.0, 0.5, 1.0}; },
                 "num_disks must be 0 or the number of disk_positions, 3, got 10");
   check_section(
@@ -119,7 +118,7 @@ TEST_CASE("disks one by one") {
         s.disk_positions.assign(65, 0.5);
       },
       "the number of disk_positions must be 0 to 64, got 65",
-      "the number of sections[0].disk_positions must be 0 to 64, got 65");
+      "section 1: the number of disk_positions must be 0 to 64, got 65");
   for (const double wrong : {-1e-12, 1.5, nan, inf}) {
     Section section = amouri2020().sections[0];
     section.num_disks = 2;
@@ -147,7 +146,7 @@ TEST_CASE("counts") {
   check_section([](Section& s) { s.num_disks = 65; }, "num_disks must be 0 to 64, got 65");
   check_section([](Section& s) { s.cable_angles.assign(17, 0.0); },
                 "the number of cable_angles must be 0 to 16, got 17",
-                "the number of sections[0].cable_angles must be 0 to 16, got 17");
+                "section 1: the number of cable_angles must be 0 to 16, got 17");
   check_robot([](Robot& r) { r.sections.clear(); },
               "the number of sections must be 1 to 32, got 0");
   check_robot([](Robot& r) { r.sections.resize(33, r.sections[0]); },
@@ -164,7 +163,7 @@ TEST_CASE("fields that must be finite") {
 TEST_CASE("the robot's own fields") {
   check_robot([](Robot& r) { r.payload = -1.0; }, "payload must be >= 0 kg and finite, got -1");
   check_robot([](Robot& r) { r.sections.push_back(r.sections[0]), r.sections[1].damping = -1.0; },
-              "sections[1].damping must be >= 0 N m s/rad and finite, got -1");
+              "section 2: damping must be >= 0 N m s/rad and finite, got -1");
 }
 
 TEST_CASE("cables of the robot") {
@@ -175,7 +174,7 @@ TEST_CASE("cables of the robot") {
           r.cables = {good, good};
           change(r.cables[1]);
         },
-        "cables[1]." + sentence);
+        "cable 2 of cables: " + sentence);
   };
   check([](Cable& c) { c.radius = 0.0; }, "radius must be > 0 m and finite, got 0");
   check([](Cable& c) { c.angle = inf; }, "angle must be a finite number of rad, got inf");
@@ -192,7 +191,7 @@ TEST_CASE("cables of the robot") {
         r.cables = {good};
         r.cables[0].end_section = 2;
       },
-      "cables[0].end_section must be 0 to 1, got 2");
+      "cable 1 of cables: end_section must be 0 to 1, got 2");
 }
 
 TEST_CASE("base orientation") {
@@ -265,10 +264,10 @@ TEST_CASE("every violation has its own sentence, one a line") {
   robot.sections[0].cable_angles = {0.0};
   robot.payload = -1.0;
   CHECK_THROWS_SENTENCE(validate(robot),
-                        "sections[0].length must be > 0 m and finite, got 0\n"
-                        "sections[0].backbone_diameter must be > 0 m and finite, got 0\n"
-                        "sections[0].youngs_modulus must be > 0 Pa and finite, got 0\n"
-                        "sections[0].cable_radius must be > 0 m and finite, got 0\n"
+                        "section 1: length must be > 0 m and finite, got 0\n"
+                        "section 1: backbone_diameter must be > 0 m and finite, got 0\n"
+                        "section 1: youngs_modulus must be > 0 Pa and finite, got 0\n"
+                        "section 1: cable_radius must be > 0 m and finite, got 0\n"
                         "payload must be >= 0 kg and finite, got -1");
 }
 
@@ -294,7 +293,7 @@ TEST_CASE("a robot without inertia has no dynamics") {
   CHECK_FALSE(model.has_inertia());
   CHECK_THROWS_SENTENCE(simulate(model, VectorXd::Zero(2), VectorXd::Zero(2),
                                  even_times(0.0, 1.0, 2), no_tension(model)),
-                        "the robot has no dynamics, because sections[0] can bend without moving "
+                        "the robot has no dynamics, because section 1 can bend without moving "
                         "any mass: give it a backbone_mass or disks with a disk_mass, or the robot "
                         "a payload");
   robot.payload = 0.1;

@@ -125,3 +125,16 @@ def test_bad_periods_are_refused(model: cdcr.Model) -> None:
         cdcr.Simulator(model, step=math.nan)
     with refuses("substeps must be at least 1, got 0"):
         cdcr.Simulator(model, substeps=0)
+
+
+def test_tension_and_command_are_two_names_for_one_argument() -> None:
+    model = cdcr.Model(cdcr.robots.amouri2020())
+    one, other = cdcr.Simulator(model), cdcr.Simulator(model)
+    for sim in (one, other):
+        sim.reset([0.1, 0.2], [0.0, 0.0])
+    assert one.step(tension=PULL) is other.step(command=PULL) is cdcr.Status.ok
+    assert np.array_equal(one.qd, other.qd)
+    sentence = "give either tension or command, two names for one thing, not both or none"
+    for arguments in ({}, {"tension": PULL, "command": PULL}):
+        with pytest.raises(ValueError, match=sentence):
+            one.step(**arguments)

@@ -6,9 +6,9 @@ namespace cdcr {
 
 /// All four methods: bdf and adams by CVODE, the others by make_integrator. In target cdcr::cvode.
 ///
-/// bdf, of order 1 to 5, takes any damping in its stride. adams, of order 1 to 12, needs fewer and
-/// dearer steps, and is the more accurate of the two where the robot swings freely. Both solve
-/// each step by Newton's method with the exact Jacobian, and start from a first step of their
+/// bdf, of order 1 to 5, keeps its large steps under any damping. adams, of order 1 to 12, needs
+/// fewer and dearer steps, and is the more accurate of the two where the robot swings freely. Both
+/// solve each step by Newton's method with the exact Jacobian, and start from a first step of their
 /// own, so a run does not depend on where it is sampled; both go by the error of one step, and
 /// the errors of many steps add up to far more than rtol.
 ///

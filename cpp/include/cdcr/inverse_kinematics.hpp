@@ -21,7 +21,7 @@ struct InverseKinematicsOptions {
 };
 
 /// How a search for bending vectors ended.
-enum class Reach {
+enum class IkStatus {
   reached,           ///< the tip is where it should be
   too_far,           ///< the point is farther from the base than the robot is long
   at_limit,          ///< a section stands at max_theta
@@ -30,6 +30,7 @@ enum class Reach {
   not_found,         ///< no start came near enough; the point may be out of reach or not
   not_finite         ///< what was asked for is infinite or not a number
 };
+using Reach = IkStatus;  ///< its earlier name
 
 /// Bending vectors that bring the tip to where it should be, or as near as was found.
 struct InverseKinematics {
@@ -40,7 +41,7 @@ struct InverseKinematics {
   double angle = 0.0;      ///< of that orientation from the one asked for, 0 without [rad]
   double residual = 0.0;   ///< sqrt(distance^2 + (orientation_weight angle)^2) [m]
   bool reachable = false;  ///< the residual is within the tolerance
-  Reach reach = Reach::not_finite;
+  IkStatus reach = IkStatus::not_finite;
   int seeds = 0;        ///< starts tried; 0: closed form
   int iterations = 0;   ///< steps tried, from all starts together
   std::string message;  ///< why not, in one sentence; empty when reachable
@@ -69,7 +70,7 @@ class InverseSolver {
 
   void set_target(const Vector3d& p, const std::optional<Matrix3d>& R) noexcept;
   void conclude() noexcept;
-  [[nodiscard]] Reach why() const noexcept;
+  [[nodiscard]] IkStatus why() const noexcept;
 
   void search(const ConstVectorRef& q0) noexcept;
   void place_start(int seed) noexcept;

@@ -10,7 +10,7 @@ namespace cdcr {
 ///
 /// A (2d, 2d) and B (2d, num_cables) are the exact derivatives of forward_dynamics
 /// (cpp/README.md eq. (19)), at any state, at rest or moving, through cables and wrenches too. At
-/// the kinks of a cable (just slack; rubbing at a straight section) one side is taken. Real-time
+/// the kinks of a cable (just slack; friction at a straight section) one side is taken. Real-time
 /// safe.
 void linearize(const Model& model, Data& data, const ConstVectorRef& q, const ConstVectorRef& qd,
                const ConstVectorRef& command, const Wrenches& wrenches, MatrixRef A,

@@ -8,7 +8,7 @@ namespace cdcr {
 /// Small vibrations about a shape, cpp/several-sections.md eqs. (44), (45).
 struct Modes {
   VectorXd q;                    ///< the shape (d) [rad]
-  VectorXd squared_frequency;    ///< w^2, increasing (d) [rad^2/s^2]; negative: falls away
+  VectorXd squared_frequency;    ///< w^2, increasing (d) [rad^2/s^2]; negative: unstable
   VectorXd frequency;            ///< w of the undamped robot (d) [rad/s]; 0 where w^2 <= 0
   MatrixXd shape;                ///< a column for each, phi^T M phi = 1 (d, d) [rad/(m sqrt(kg))]
   VectorXd damping_ratio;        ///< phi^T C phi/(2 w), 1 is critical (d); 0 where w^2 <= 0

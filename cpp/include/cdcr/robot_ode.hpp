@@ -2,11 +2,11 @@
 
 #include <vector>
 
+#include "cdcr/command_input.hpp"
 #include "cdcr/controller.hpp"
-#include "cdcr/loads.hpp"
 #include "cdcr/model.hpp"
 #include "cdcr/status.hpp"
-#include "cdcr/tension_input.hpp"
+#include "cdcr/wrench_input.hpp"
 
 namespace cdcr {
 
@@ -18,9 +18,9 @@ class RobotOde {
  public:
   /// Throws std::invalid_argument when the robot has no inertia, the input's cables differ or a
   /// wrench is out of range.
-  RobotOde(const Model& model, const TensionInput& input, const Loads& loads = no_loads());
+  RobotOde(const Model& model, const CommandInput& input, const WrenchInput& loads = no_loads());
   /// Under a controller, sampled at its own period with zero-order hold.
-  RobotOde(const Model& model, Controller& controller, const Loads& loads = no_loads());
+  RobotOde(const Model& model, Controller& controller, const WrenchInput& loads = no_loads());
 
   [[nodiscard]] const Model& model() const noexcept { return *model_; }
   [[nodiscard]] Index num_states() const noexcept { return 2 * model_->num_coordinates(); }
@@ -49,16 +49,16 @@ class RobotOde {
   [[nodiscard]] Status check(const double* y) const noexcept;
 
  private:
-  RobotOde(const Model& model, const TensionInput* input, Controller* controller,
-           const Loads& loads, Index num_cables);
+  RobotOde(const Model& model, const CommandInput* input, Controller* controller,
+           const WrenchInput& loads, Index num_cables);
   /// Bring command_ and wrenches_ up to date.
   void update_command(double t, const ConstVectorRef& q, const ConstVectorRef& qd);
   void update_wrenches(double t);
 
   const Model* model_;
-  const TensionInput* input_;  // one of the two
+  const CommandInput* input_;  // one of the two
   Controller* controller_;
-  const Loads* loads_;
+  const WrenchInput* loads_;
   Data data_;
   VectorXd command_, force_;
   Wrenches wrenches_;

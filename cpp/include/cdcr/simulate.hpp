@@ -29,16 +29,16 @@ using Progress = std::function<bool(double t)>;
 /// Throws std::invalid_argument for arguments out of range, and whatever the input throws.
 /// `factory` is make_integrator, or make_cvode_integrator of cdcr/cvode.hpp.
 [[nodiscard]] Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
-                                  const VectorXd& times, const TensionInput& input,
+                                  const VectorXd& times, const CommandInput& input,
                                   Method method = Method::dopri5, const Options& options = {},
                                   IntegratorFactory factory = make_integrator,
-                                  const Progress& progress = {}, const Loads& loads = {});
+                                  const Progress& progress = {}, const WrenchInput& loads = {});
 
 /// The same under a controller, which is reset, then asked at times[0] and each period after.
 [[nodiscard]] Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
                                   const VectorXd& times, Controller& controller,
                                   Method method = Method::dopri5, const Options& options = {},
                                   IntegratorFactory factory = make_integrator,
-                                  const Progress& progress = {}, const Loads& loads = {});
+                                  const Progress& progress = {}, const WrenchInput& loads = {});
 
 }  // namespace cdcr

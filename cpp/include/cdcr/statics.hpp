@@ -31,9 +31,9 @@ struct Equilibrium {
 /// empty; if that fails, the load grows from nothing step by step, then other starts are tried.
 /// A robot that buckles is an answer; none within max_bending is a status.
 ///
-/// Loads without an energy make the stiffness unsymmetric. Its eigenvalues then tell divergence
-/// alone; for flutter see modes(). Throws std::invalid_argument for wrong sizes, a negative or a
-/// non-finite command, and wrenches that validate() refuses.
+/// WrenchInput without an energy make the stiffness unsymmetric. Its eigenvalues then tell
+/// divergence alone; for flutter see modes(). Throws std::invalid_argument for wrong sizes, a
+/// negative or a non-finite command, and wrenches that validate() refuses.
 [[nodiscard]] Equilibrium equilibrium(const Model& model, const VectorXd& command,
                                       const VectorXd& q0 = {},
                                       const Wrenches& wrenches = no_wrenches());

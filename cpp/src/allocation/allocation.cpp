@@ -106,14 +106,14 @@ bool Allocator::solve_triple(const Triple& triple, const Eigen::Vector2d& force)
   return true;
 }
 
-/// Cables pull on all sections alike, so those that end at a section owe what the next does not
-/// get.
+/// Cables pull on all sections alike, so those that end at a section give what the next ones do
+/// not.
 bool Allocator::solve_in_closed_form() noexcept {
   for (std::size_t k = 0; k < triples_.size(); ++k) {
     const Triple& triple = triples_[k];
-    Eigen::Vector2d owed = Q_.segment<2>(triple.first);
-    if (k + 1 < triples_.size()) owed -= Q_.segment<2>(triples_[k + 1].first);
-    if (!solve_triple(triple, owed)) return false;
+    Eigen::Vector2d own = Q_.segment<2>(triple.first);
+    if (k + 1 < triples_.size()) own -= Q_.segment<2>(triples_[k + 1].first);
+    if (!solve_triple(triple, own)) return false;
   }
   return !triples_.empty();
 }
@@ -247,8 +247,8 @@ Allocation allocate(const Model& model, const VectorXd& force, const TensionLimi
     const double wanted = model.actuation_matrix().col(j).dot(missing);
     const double tension = result.tension[j];
     const bool lower = tension == limits.min_tension, upper = tension == limits.max_tension;
-    const double noise = indifferent * model.actuation_matrix().col(j).norm() * result.distance;
-    if (!(lower && wanted < -noise) && !(upper && wanted > noise)) continue;
+    const double least = indifferent * model.actuation_matrix().col(j).norm() * result.distance;
+    if (!(lower && wanted < -least) && !(upper && wanted > least)) continue;
     result.limiting.push_back(j);
     result.limits.push_back(detail::sentence(cable_name(model, j), " at ", tension, " N (",
                                              wanted < 0.0 ? "min" : "max", ")"));

@@ -38,7 +38,7 @@ void forward_dynamics(const Chain& chain, const ChainState<Section>& state, cons
   };
   const Index n = chain.num_sections();
   std::array<Solved, max_sections> solved;
-  Articulated<S> rest = articulated_payload(chain.payload, state.tip);
+  Articulated<S> outboard = articulated_payload(chain.payload, state.tip);
   // Eliminates q of section i; `carries` is false where no mass lies beyond it.
   const auto eliminate = [&](Index i, auto carries) {
     const Section& section = state.sections[i];
@@ -49,11 +49,15 @@ void forward_dynamics(const Chain& chain, const ChainState<Section>& state, cons
     Matrix3m F, T;
     if constexpr (carries) {
       // What the rest of the chain asks of this tip: its own share, and that of q.
-      f_tip = rest.force + rest.G.transpose() * section.tip_angular_bias +
-              rest.M * section.tip_linear_bias;
-      m_tip = rest.moment + rest.J * section.tip_angular_bias + rest.G * section.tip_linear_bias;
-      F = rest.G.transpose() * section.J_omega + rest.M * section.J_v;
-      T = rest.J * section.J_omega + rest.G * section.J_v;
+      const Matrix3<S> Gt = outboard.G.transpose();
+      const Vector3<S>&alpha = section.tip_angular_bias, &a = section.tip_linear_bias;
+      f_tip = outboard.force + Gt * alpha + outboard.M * a;
+      m_tip = outboard.moment + outboard.J * alpha + outboard.G * a;
+      for (Index k = 0; k < F.cols(); ++k) {
+        const Vector3<S> w = section.J_omega.col(k), v = section.J_v.col(k);
+        F.col(k) = sum_of_products(Gt, w, outboard.M, v);
+        T.col(k) = sum_of_products(outboard.J, w, outboard.G, v);
+      }
       D += section.J_omega.transpose() * T + section.J_v.transpose() * F;
       b += section.J_omega.transpose() * m_tip + section.J_v.transpose() * f_tip;
       s.U_v = F + section.linear_coupling();
@@ -67,21 +71,25 @@ void forward_dynamics(const Chain& chain, const ChainState<Section>& state, cons
     if constexpr (carries) {
       for (Index k = 0; k < F.cols(); ++k) T.col(k) += section.r.cross(F.col(k));
       s.U_omega = T + section.angular_coupling();
-      shift(rest, section.r);
+      shift(outboard, section.r);
     } else {
       s.U_omega = section.angular_coupling();
     }
-    add_section(rest, chain.sections[i].mass, section);
+    add_section(outboard, chain.sections[i].mass, section);
     const Matrix3m UD = s.U_omega * s.inverse, VD = s.U_v * s.inverse;
-    rest.J -= UD * s.U_omega.transpose();
-    rest.G -= UD * s.U_v.transpose();
-    rest.M -= VD * s.U_v.transpose();
+    for (int k = 0; k < 3; ++k) {
+      for (Index l = 0; l < UD.cols(); ++l) {
+        outboard.J.col(k) -= UD.col(l) * s.U_omega(k, l);
+        outboard.G.col(k) -= UD.col(l) * s.U_v(k, l);
+        outboard.M.col(k) -= VD.col(l) * s.U_v(k, l);
+      }
+    }
     if constexpr (carries) {
-      rest.force = f_tip + section.force - s.U_v * s.u;
-      rest.moment = m_tip + section.r.cross(f_tip) + section.moment - s.U_omega * s.u;
+      outboard.force = f_tip + section.force - s.U_v * s.u;
+      outboard.moment = m_tip + section.r.cross(f_tip) + section.moment - s.U_omega * s.u;
     } else {
-      rest.force = section.force - s.U_v * s.u;
-      rest.moment = section.moment - s.U_omega * s.u;
+      outboard.force = section.force - s.U_v * s.u;
+      outboard.moment = section.moment - s.U_omega * s.u;
     }
   };
   Index last = n - 1;

@@ -19,6 +19,15 @@ template <class S>
   return m;
 }
 
+/// A x + B y as one sum of columns: Eigen's products go by rows, which vector registers do not
+/// hold.
+template <class S>
+[[nodiscard]] Vector3<S> sum_of_products(const Matrix3<S>& A, const Vector3<S>& x,
+                                         const Matrix3<S>& B, const Vector3<S>& y) {
+  return A.col(0) * x[0] + A.col(1) * x[1] + A.col(2) * x[2] + B.col(0) * y[0] + B.col(1) * y[1] +
+         B.col(2) * y[2];
+}
+
 /// The payload as a rigid body on the tip.
 template <class S>
 [[nodiscard]] Articulated<S> articulated_payload(const Payload& payload, const FrameState<S>& tip) {

@@ -12,13 +12,18 @@ void composite_mass(const Chain& chain, const ChainState<Section>& state, Matrix
   using Matrix3m = typename Section::Matrix3m;
   using Vectorm = typename Section::Vectorm;
   constexpr int m = Section::m;
-  Articulated<S> beyond = articulated_payload(chain.payload, state.tip);
+  Articulated<S> outboard = articulated_payload(chain.payload, state.tip);
   for (Index i = chain.num_sections() - 1; i >= 0; --i) {
     const Section& section = state.sections[i];
     const Index at = chain.first[i], size = chain.first[i + 1] - at;
     // What moves beyond this tip as one piece, and what it takes to move it with q.
-    Matrix3m F = beyond.G.transpose() * section.J_omega + beyond.M * section.J_v;
-    Matrix3m T = beyond.J * section.J_omega + beyond.G * section.J_v;
+    const Matrix3<S> Gt = outboard.G.transpose();
+    Matrix3m F, T;
+    for (Index k = 0; k < F.cols(); ++k) {
+      const Vector3<S> w = section.J_omega.col(k), v = section.J_v.col(k);
+      F.col(k) = sum_of_products(Gt, w, outboard.M, v);
+      T.col(k) = sum_of_products(outboard.J, w, outboard.G, v);
+    }
     auto own = M.template block<m, m>(at, at, size, size);
     own = section.own_mass() + section.J_omega.transpose() * T + section.J_v.transpose() * F;
     own.template triangularView<Eigen::StrictlyLower>() = own.transpose();
@@ -38,8 +43,8 @@ void composite_mass(const Chain& chain, const ChainState<Section>& state, Matrix
         }
       }
     }
-    shift(beyond, section.r);
-    add_section(beyond, chain.sections[i].mass, section);
+    shift(outboard, section.r);
+    add_section(outboard, chain.sections[i].mass, section);
   }
 }
 

@@ -26,7 +26,7 @@ std::string indexed(const std::string& item, std::size_t k) {
   return item + "[" + std::to_string(k) + "]";
 }
 
-/// Collects sentences of the form "sections[0].length must be > 0 m and finite, got -1".
+/// Collects sentences of the form "section 1: length must be > 0 m and finite, got -1".
 class Check {
  public:
   void positive(const std::string& item, double value, const char* unit) {
@@ -63,13 +63,13 @@ class Check {
   }
 };
 
-/// The disks of a section; `in` is "sections[0]." or empty, as below.
+/// The disks of a section; `in` is "section 1: " or empty, as below.
 void check_disks(const Section& s, const std::string& in, Check& check) {
   check.not_negative(in + "disk_mass", s.disk_mass, "kg");
   check.not_negative(in + "disk_diameter", s.disk_diameter, "m");
   check.count(in + "num_disks", s.num_disks, 0, max_disks);
   const auto num_positions = static_cast<long long>(s.disk_positions.size());
-  check.count("the number of " + in + "disk_positions", num_positions, 0, max_disks);
+  check.count(in + "the number of disk_positions", num_positions, 0, max_disks);
   if (num_positions > 0 && s.num_disks != 0 && s.num_disks != num_positions) {
     check.refuse(in + "num_disks",
                  "0 or the number of disk_positions, " + std::to_string(num_positions),
@@ -78,7 +78,7 @@ void check_disks(const Section& s, const std::string& in, Check& check) {
   const long long num_disks = num_positions > 0 ? num_positions : s.num_disks;
   const auto one_each = [&](const char* name, std::size_t size) {
     if (size != 0 && static_cast<long long>(size) != num_disks) {
-      check.refuse("the number of " + in + name,
+      check.refuse(in + "the number of " + name,
                    "0 or the number of disks, " + std::to_string(num_disks), size);
     }
   };
@@ -97,7 +97,7 @@ void check_disks(const Section& s, const std::string& in, Check& check) {
 
 void check_section_cables(const Section& s, const std::string& in, Check& check) {
   const auto num_cables = static_cast<long long>(s.cable_angles.size());
-  check.count("the number of " + in + "cable_angles", num_cables, 0, max_section_cables);
+  check.count(in + "the number of cable_angles", num_cables, 0, max_section_cables);
   if (num_cables > 0) {
     check.positive(in + "cable_radius", s.cable_radius, "m");
   } else {
@@ -197,11 +197,12 @@ std::vector<std::string> violations(const Robot& robot) {
   const auto num_sections = static_cast<long long>(robot.sections.size());
   check.count("the number of sections", num_sections, 1, max_sections);
   for (std::size_t i = 0; i < robot.sections.size(); ++i) {
-    check_section(robot.sections[i], indexed("sections", i) + ".", check);
+    check_section(robot.sections[i], "section " + std::to_string(i + 1) + ": ", check);
   }
   check.count("the number of cables", static_cast<long long>(robot.cables.size()), 0, max_cables);
   for (std::size_t j = 0; j < robot.cables.size(); ++j) {
-    check_cable(robot.cables[j], indexed("cables", j) + ".", num_sections - 1, check);
+    check_cable(robot.cables[j],
+                "cable " + std::to_string(j + 1) + " of cables: ", num_sections - 1, check);
   }
   check_vector("gravity", robot.gravity, "m/s^2", check);
   check_payload(robot, check);

@@ -95,8 +95,8 @@ class Cvode final : public Integrator {
   bool at_event_ = false;   // the last step ended where a cable turned slack or taut
   VectorXd pulls_, signs_;  // of length-driven cables; the signs at the last event or restart
   std::vector<SlackEvent> slack_events_;
-  Status obstacle_ = Status::ok;  // why a derivative wanted for the step at hand does not exist
-  std::exception_ptr exception_;  // thrown during a call of CVODE
+  Status rhs_status_ = Status::ok;  // why a derivative wanted for the step at hand does not exist
+  std::exception_ptr exception_;    // thrown during a call of CVODE
   Stats stats_;  // without the failures that CVODE has counted since the last restart
 };
 
@@ -150,7 +150,7 @@ int Cvode::derivative(double t, N_Vector y, N_Vector dydt, void* self) noexcept 
   return me.guarded([&] {
     Eigen::Map<VectorXd> slope(NV_DATA_S(dydt), NV_LENGTH_S(dydt));
     const Status status = me.evaluate(t, NV_DATA_S(y), slope);
-    if (status != Status::ok) me.obstacle_ = status;
+    if (status != Status::ok) me.rhs_status_ = status;
     return status == Status::ok;
   });
 }
@@ -254,7 +254,7 @@ Status Cvode::step() {
 
 Status Cvode::advance() {
   double t = time_;
-  obstacle_ = Status::ok;
+  rhs_status_ = Status::ok;
   if (at_event_) {
     // Tensions bend there, so what the method remembers would mislead it.
     const Status status = evaluate(time_, state_.data(), slope_);
@@ -262,7 +262,7 @@ Status Cvode::advance() {
     reinitialise();
   }
   const auto too_small = [this] {  // with the cause, where it is known
-    return obstacle_ == Status::ok ? Status::step_too_small : obstacle_;
+    return rhs_status_ == Status::ok ? Status::step_too_small : rhs_status_;
   };
   switch (CVode(cvode_.get(), stop_, trial_.get(), &t, CV_ONE_STEP)) {
     case CV_SUCCESS:

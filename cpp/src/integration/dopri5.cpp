@@ -125,7 +125,7 @@ Status Dopri5::step() {
   for (bool rejected = false;; rejected = true) {
     double h = options_.max_step > 0.0 ? std::min(h_, options_.max_step) : h_;
     const double left = stop_ - t_;
-    const bool last = 1.01 * h >= left;  // rather a slightly longer step than a crumb after it
+    const bool last = 1.01 * h >= left;  // rather a slightly longer step than a tiny one after it
     if (last) h = left;
     if (!last && h < smallest) return failure_status();
 

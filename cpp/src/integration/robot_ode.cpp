@@ -10,8 +10,8 @@
 
 namespace cdcr {
 
-RobotOde::RobotOde(const Model& model, const TensionInput* input, Controller* controller,
-                   const Loads& loads, Index num_cables)
+RobotOde::RobotOde(const Model& model, const CommandInput* input, Controller* controller,
+                   const WrenchInput& loads, Index num_cables)
     : model_(&model),
       input_(input),
       controller_(controller),
@@ -29,10 +29,10 @@ RobotOde::RobotOde(const Model& model, const TensionInput* input, Controller* co
   }
 }
 
-RobotOde::RobotOde(const Model& model, const TensionInput& input, const Loads& loads)
+RobotOde::RobotOde(const Model& model, const CommandInput& input, const WrenchInput& loads)
     : RobotOde(model, &input, nullptr, loads, input.num_cables()) {}
 
-RobotOde::RobotOde(const Model& model, Controller& controller, const Loads& loads)
+RobotOde::RobotOde(const Model& model, Controller& controller, const WrenchInput& loads)
     : RobotOde(model, nullptr, &controller, loads, controller.num_cables()) {
   segment_ = -1;
 }

@@ -127,9 +127,9 @@ void check_arguments(const Model& model, const VectorXd& q0, const VectorXd& qd0
 }  // namespace
 
 Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
-                    const VectorXd& times, const TensionInput& input, Method method,
+                    const VectorXd& times, const CommandInput& input, Method method,
                     const Options& options, IntegratorFactory factory, const Progress& progress,
-                    const Loads& loads) {
+                    const WrenchInput& loads) {
   check_arguments(model, q0, qd0, times);
   RobotOde ode(model, input, loads);
   return run(ode, q0, qd0, times, *factory(ode, method, options), options, progress);
@@ -138,7 +138,7 @@ Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
 Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
                     const VectorXd& times, Controller& controller, Method method,
                     const Options& options, IntegratorFactory factory, const Progress& progress,
-                    const Loads& loads) {
+                    const WrenchInput& loads) {
   check_arguments(model, q0, qd0, times);
   RobotOde ode(model, controller, loads);
   controller.reset();

@@ -171,15 +171,15 @@ void InverseSolver::conclude() noexcept {
   answer_.reach = why();
 }
 
-Reach InverseSolver::why() const noexcept {
-  if (!finite_) return Reach::not_finite;
-  if (answer_.reachable) return Reach::reached;
-  if (length_of(p_) > length_ + tolerance_) return Reach::too_far;
+IkStatus InverseSolver::why() const noexcept {
+  if (!finite_) return IkStatus::not_finite;
+  if (answer_.reachable) return IkStatus::reached;
+  if (length_of(p_) > length_ + tolerance_) return IkStatus::too_far;
   for (Index i = 0; i < max_theta_.size(); ++i) {
-    if (stands_at_limit(best_, i)) return Reach::at_limit;
+    if (stands_at_limit(best_, i)) return IkStatus::at_limit;
   }
-  if (with_rotation_ && model_->num_sections() < 3) return Reach::too_few_sections;
-  return model_->num_sections() == 1 ? Reach::off_surface : Reach::not_found;
+  if (with_rotation_ && model_->num_sections() < 3) return IkStatus::too_few_sections;
+  return model_->num_sections() == 1 ? IkStatus::off_surface : IkStatus::not_found;
 }
 
 std::string InverseSolver::message() const {
@@ -187,15 +187,15 @@ std::string InverseSolver::message() const {
   const Index n = model_->num_sections();
   std::string limited;
   switch (answer_.reach) {
-    case Reach::reached:
+    case IkStatus::reached:
       return "";
-    case Reach::not_finite:
+    case IkStatus::not_finite:
       return "p, R and q0 must be finite";
-    case Reach::too_far:
+    case IkStatus::too_far:
       text << "p is " << length_of(p_) << " m from the base, farther than the robot's " << length_
            << " m";
       break;
-    case Reach::at_limit:
+    case IkStatus::at_limit:
       for (Index i = 0; i < n; ++i) {
         if (!stands_at_limit(best_, i)) continue;
         text << (limited.empty() ? "section " : " and section ") << i + 1
@@ -203,14 +203,14 @@ std::string InverseSolver::message() const {
         limited = text.str();
       }
       break;
-    case Reach::off_surface:
+    case IkStatus::off_surface:
       text << "the tip of one section moves on a surface, and p is not on it";
       break;
-    case Reach::too_few_sections:
+    case IkStatus::too_few_sections:
       text << n << (n == 1 ? " section has " : " sections have ") << model_->num_coordinates()
            << " coordinates, too few for the 6 of a position and an orientation";
       break;
-    case Reach::not_found:
+    case IkStatus::not_found:
       text << "none of " << answer_.seeds << " starts led there, more seeds may";
       break;
   }

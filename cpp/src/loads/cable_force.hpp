@@ -119,17 +119,19 @@ void add_capstan_force(const Model& model, Index j, const S* q, const S* qd, S t
   }
 }
 
-/// Q = B F, cable by cable: for so few numbers a general matrix product costs more than the
-/// dynamics. A cable reaches no further than the section it ends on.
+/// Q = B F. A cable pulls alike on every section that it runs through, so each pulls on the one it
+/// ends on, and what a section feels is passed on to the one before.
 template <class S>
 void actuation_force(const Model& model, const S* tension, S* force) {
   const double* column = model.actuation_matrix().data();
-  const Index m = model.num_coordinates();
-  for (Index i = 0; i < m; ++i) force[i] = S(0.0);
-  for (Index j = 0; j < model.num_cables(); ++j, column += m) {
+  const Index d = model.num_coordinates();
+  const Index m = model.first_coordinate(1);
+  for (Index i = 0; i < d; ++i) force[i] = S(0.0);
+  for (Index j = 0; j < model.num_cables(); ++j, column += d) {
     const Index rows = model.cable_rows()[static_cast<std::size_t>(j)];
-    for (Index i = 0; i < rows; ++i) force[i] += column[i] * tension[j];
+    for (Index i = rows - m; i < rows; ++i) force[i] += column[i] * tension[j];
   }
+  for (Index i = d - m - 1; i >= 0; --i) force[i] += force[i + m];
 }
 
 /// Q = B F of one section, whose sums stay in registers.

@@ -1,8 +1,9 @@
+#include "cdcr/command_input.hpp"
+
 #include <cmath>
 #include <utility>
 
 #include "base/arguments.hpp"
-#include "cdcr/tension_input.hpp"
 
 namespace cdcr {
 namespace {
@@ -15,16 +16,16 @@ void require_pulling(double value, const Item& item) {
 
 }  // namespace
 
-TensionInput TensionInput::constant(const VectorXd& tension) {
+CommandInput CommandInput::constant(const VectorXd& tension) {
   for (Index j = 0; j < tension.size(); ++j) {
     require_pulling(tension[j], detail::sentence("tension[", j, "]"));
   }
-  return TensionInput(Signal::constant(tension));
+  return CommandInput(Signal::constant(tension));
 }
 
-TensionInput TensionInput::table(const VectorXd& times, const MatrixXd& tensions,
+CommandInput CommandInput::table(const VectorXd& times, const MatrixXd& tensions,
                                  Interpolation interpolation) {
-  TensionInput input(Signal::table("a tension table", times, tensions, interpolation));
+  CommandInput input(Signal::table("a tension table", times, tensions, interpolation));
   for (Index i = 0; i < tensions.rows(); ++i) {
     for (Index j = 0; j < tensions.cols(); ++j) {
       require_pulling(tensions(i, j), detail::sentence("tension[", i, ", ", j, "]"));
@@ -33,9 +34,9 @@ TensionInput TensionInput::table(const VectorXd& times, const MatrixXd& tensions
   return input;
 }
 
-TensionInput TensionInput::function(Function function, Index num_cables,
+CommandInput CommandInput::function(Function function, Index num_cables,
                                     std::vector<double> break_points) {
-  return TensionInput(Signal::function("the tension function", std::move(function), num_cables,
+  return CommandInput(Signal::function("the tension function", std::move(function), num_cables,
                                        std::move(break_points)));
 }
 

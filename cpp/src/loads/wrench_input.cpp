@@ -1,9 +1,10 @@
+#include "cdcr/wrench_input.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "base/arguments.hpp"
-#include "cdcr/loads.hpp"
 
 namespace cdcr {
 namespace {
@@ -40,11 +41,11 @@ Signal signal_of(Profile profile) {
 
 }  // namespace
 
-Loads::Loads(Wrenches wrenches)
+WrenchInput::WrenchInput(Wrenches wrenches)
     : wrenches_(std::move(wrenches)),
       factors_(wrenches_.size(), Signal::constant(VectorXd::Ones(1))) {}
 
-void Loads::add(const Wrench& wrench, Profile profile) {
+void WrenchInput::add(const Wrench& wrench, Profile profile) {
   Signal factor = signal_of(std::move(profile));
   const std::vector<double>& times = factor.break_points();
   for (Index k = 0; k <= static_cast<Index>(times.size()); ++k) {
@@ -57,7 +58,7 @@ void Loads::add(const Wrench& wrench, Profile profile) {
   factors_.push_back(std::move(factor));
 }
 
-void Loads::evaluate(double t, double start, Wrenches& now) const {
+void WrenchInput::evaluate(double t, double start, Wrenches& now) const {
   const VectorXd no_state;
   Eigen::Matrix<double, 1, 1> factor;
   for (std::size_t i = 0; i < wrenches_.size(); ++i) {
@@ -68,8 +69,8 @@ void Loads::evaluate(double t, double start, Wrenches& now) const {
   }
 }
 
-const Loads& no_loads() noexcept {
-  static const Loads none;
+const WrenchInput& no_loads() noexcept {
+  static const WrenchInput none;
   return none;
 }
 

@@ -39,18 +39,19 @@ template <int N>
 class PolynomialTable {
  public:
   using Values = Eigen::Array<double, N, 1>;
+  static_assert(N % 2 == 0, "rows must begin where two doubles are loaded at once");
 
   /// From power series about sigma = 0. A pair (d, f) says that function d, whose series is empty,
   /// is the derivative of f; that of a derivative stands after it.
   PolynomialTable(const std::vector<Series>& functions,
                   std::initializer_list<std::pair<int, int>> derivatives)
-      : coefficients_(static_cast<std::size_t>(num_pieces * block)) {
+      : coefficients_(num_pieces * block) {
     std::vector<Series> c(N);
     for (int piece = 0; piece < num_pieces; ++piece) {
       for (std::size_t f = 0; f < N; ++f) {
         if (functions[f].empty()) continue;
         // Two more than the table keeps, for second derivatives.
-        c[f] = recentred(functions[f], piece_centre(piece), half_width, num_powers + 2);
+        c[f] = taylor_shift(functions[f], piece_centre(piece), half_width, num_powers + 2);
       }
       for (const auto& [d, f] : derivatives) c[d] = derivative(c[f], half_width);
       double* to = coefficients_.data() + piece * block;
@@ -70,6 +71,8 @@ class PolynomialTable {
     const double* c = find(sigma, t);
     if constexpr (N == 4) {
       read_four(c, t, values);
+    } else if constexpr (N <= 8) {
+      read_few(c, t, values);
     } else {
       read_many(c, t, values);
     }
@@ -84,7 +87,6 @@ class PolynomialTable {
     }
     double t = 0.0;
     const double* c = find(sigma, t);
-    using Row = Eigen::Map<const Values>;
     values = Row(c + last_row);
     slopes.setZero();
     for (std::ptrdiff_t row = last_row - N; row >= 0; row -= N) {
@@ -95,6 +97,8 @@ class PolynomialTable {
   }
 
  private:
+  using Row = Eigen::Map<const Values, Eigen::Aligned16>;
+
   /// Powers 0 to 3 modulo 4 apart: four short dependency chains in place of one long one.
   static void read_four(const double* c, double t, Values& values) noexcept {
     using Sixteen = Eigen::Array<double, 16, 1>;
@@ -106,19 +110,28 @@ class PolynomialTable {
              t * (sums.template segment<4>(4) + u * sums.template segment<4>(12));
   }
 
-  /// So few at a time that their sums stay in registers through all powers.
-  static void read_many(const double* c, double t, Values& values) noexcept {
-    constexpr int width = N % 14 == 0 ? 14 : N % 8 == 0 ? 8 : N;
-    using Few = Eigen::Array<double, width, 1>;
-    for (int first = 0; first < N; first += width) {
-      const double* row = c + last_row + first;
-      Few sum = Eigen::Map<const Few>(row);
-      for (int k = 1; k < num_powers; ++k) {
-        row -= N;
-        sum = sum * t + Eigen::Map<const Few>(row);
-      }
-      values.template segment<width>(first) = sum;
+  /// Even and odd powers apart: two short dependency chains in place of one long one.
+  static void read_few(const double* c, double t, Values& values) noexcept {
+    const double u = t * t;
+    const double* row = c + last_row;
+    Values odd = Row(row), even = Row(row - N);
+    for (int k = 2; k < num_powers; k += 2) {
+      row -= 2 * N;
+      odd = odd * u + Row(row);
+      even = even * u + Row(row - N);
     }
+    values = even + t * odd;
+  }
+
+  /// Enough side by side to hide the latency of each, and still in registers.
+  static void read_many(const double* c, double t, Values& values) noexcept {
+    const double* row = c + last_row;
+    Values sum = Row(row);
+    for (int k = 1; k < num_powers; ++k) {
+      row -= N;
+      sum = sum * t + Row(row);
+    }
+    values = sum;
   }
 
   static constexpr std::ptrdiff_t block = std::ptrdiff_t{num_powers} * N;
@@ -129,7 +142,7 @@ class PolynomialTable {
     return coefficients_.data() + find_piece(sigma, t) * block;
   }
 
-  std::vector<double> coefficients_;  // [piece][power][function]
+  Eigen::ArrayXd coefficients_;  // [piece][power][function]
 };
 
 }  // namespace cdcr::detail

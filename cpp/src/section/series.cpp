@@ -64,7 +64,7 @@ Series constant(long double value) {
 }
 
 /// By repeated synthetic division.
-Series recentred(Series f, long double centre, long double half_width, std::size_t kept) {
+Series taylor_shift(Series f, long double centre, long double half_width, std::size_t kept) {
   if (f.size() < kept) f.resize(kept, 0.0L);  // a cut series is short
   // Near the straight robot a few terms are all there is.
   std::size_t terms = kept;

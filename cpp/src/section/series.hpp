@@ -28,7 +28,7 @@ inline constexpr int num_terms = 46;
 [[nodiscard]] Series derivative(const Series& f, long double unit = 1.0L);
 
 /// Coefficients in t of f(centre + half_width t): as many as are kept.
-[[nodiscard]] Series recentred(Series f, long double centre, long double half_width,
-                               std::size_t kept);
+[[nodiscard]] Series taylor_shift(Series f, long double centre, long double half_width,
+                                  std::size_t kept);
 
 }  // namespace cdcr::detail

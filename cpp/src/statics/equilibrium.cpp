@@ -58,8 +58,8 @@ class NewtonSolver {
     }
     // A search stalled by rounding has converged as far as the arithmetic allows; loads that
     // overflow when squared have no scale to tell.
-    const double noise = problem_.rounding_bound(q);
-    return std::isfinite(noise) && size(r_) <= stalled * noise;
+    const double bound = problem_.rounding_bound(q);
+    return std::isfinite(bound) && size(r_) <= stalled * bound;
   }
 
   [[nodiscard]] int iterations() const { return iterations_; }
@@ -97,7 +97,7 @@ class NewtonSolver {
   }
 
   /// Goes along the step as far as the merit falls, by Armijo's rule; near the end differences
-  /// drown in rounding, so there a smaller unbalanced moment counts as progress too.
+  /// are rounding error, so there a smaller unbalanced moment counts as progress too.
   bool move(VectorXd& q, const VectorXd& step, double& merit) {
     const bool near = size(r_) <= stalled * problem_.rounding_bound(q);
     const double slope = problem_.has_energy() ? r_.dot(step) : r_.dot(K_ * step);

@@ -5,7 +5,7 @@
 
 int main() {
   const cdcr::Model model(cdcr::amouri2020());
-  const cdcr::TensionInput pull = cdcr::TensionInput::constant(cdcr::Vector3d(5.0, 0.0, 0.0));
+  const cdcr::CommandInput pull = cdcr::CommandInput::constant(cdcr::Vector3d(5.0, 0.0, 0.0));
   const cdcr::VectorXd zero = cdcr::VectorXd::Zero(2);
   const cdcr::VectorXd times = cdcr::VectorXd::LinSpaced(101, 0.0, 1.0);
 

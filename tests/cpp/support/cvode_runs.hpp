@@ -43,14 +43,14 @@ inline VectorXd state(double q_x, double q_y, double qd_x = 0.0, double qd_y = 0
   return Eigen::Vector4d(q_x, q_y, qd_x, qd_y);
 }
 
-inline TensionInput pull(double first, double second = 0.0) {
-  return TensionInput::constant(Eigen::Vector3d(first, second, 0.0));
+inline CommandInput pull(double first, double second = 0.0) {
+  return CommandInput::constant(Eigen::Vector3d(first, second, 0.0));
 }
 
 /// Tension of cable 1 as a function of time and q_x; the others are slack.
 template <typename Function>
-TensionInput pull_by(Function function) {
-  return TensionInput::function(
+CommandInput pull_by(Function function) {
+  return CommandInput::function(
       [function](double t, const ConstVectorRef& q, const ConstVectorRef&, VectorRef tension) {
         tension.setZero();
         tension[0] = function(t, q[0]);
@@ -58,13 +58,13 @@ TensionInput pull_by(Function function) {
       3);
 }
 
-inline Trajectory run(const Model& model, const TensionInput& input, const VectorXd& y,
+inline Trajectory run(const Model& model, const CommandInput& input, const VectorXd& y,
                       const VectorXd& times, Method method, const Options& options = {}) {
   return simulate(model, y.head(2), y.tail(2), times, input, method, options,
                   make_cvode_integrator);
 }
 
-inline Trajectory reference(const Model& model, const TensionInput& input, const VectorXd& y,
+inline Trajectory reference(const Model& model, const CommandInput& input, const VectorXd& y,
                             const VectorXd& times) {
   return run(model, input, y, times, Method::dopri5, tightest());
 }

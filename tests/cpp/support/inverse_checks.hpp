@@ -30,7 +30,7 @@ inline void check_consistent(const Model& model, const Vector3d& p, const Invers
   CHECK(answer.rotation == at.R);
   CHECK(residual(answer.distance, (at.p - p).norm(), scale) <= tolerance::rounding);
   CHECK(answer.residual >= answer.distance);
-  CHECK(answer.reachable == (answer.reach == Reach::reached));
+  CHECK(answer.reachable == (answer.reach == IkStatus::reached));
   CHECK(answer.reachable == answer.message.empty());
   for (Index i = 0; i < model.num_sections(); ++i) {
     CHECK(answer.q.segment<2>(2 * i).norm() <= max_theta);

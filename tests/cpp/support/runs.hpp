@@ -14,8 +14,8 @@ inline VectorXd even_times(double start, double end, Index count) {
   return VectorXd::LinSpaced(count, start, end);
 }
 
-inline TensionInput no_tension(const Model& model) {
-  return TensionInput::constant(VectorXd::Zero(model.num_cables()));
+inline CommandInput no_tension(const Model& model) {
+  return CommandInput::constant(VectorXd::Zero(model.num_cables()));
 }
 
 inline Options tolerances(double rtol, double atol) {

@@ -22,11 +22,11 @@ struct Profile {
 
 /// Wrenches on the robot as a function of time. Set up throws std::invalid_argument; evaluate is
 /// real-time safe but for a function that is not.
-class Loads {
+class WrenchInput {
  public:
-  Loads() = default;
+  WrenchInput() = default;
   /// Constant wrenches.
-  explicit Loads(Wrenches wrenches);
+  explicit WrenchInput(Wrenches wrenches);
 
   /// Adds a wrench that follows a profile.
   void add(const Wrench& wrench, Profile profile = {});
@@ -50,6 +50,8 @@ class Loads {
   bool hold_ = true;
 };
 
-[[nodiscard]] const Loads& no_loads() noexcept;
+[[nodiscard]] const WrenchInput& no_loads() noexcept;
+
+using Loads = WrenchInput;  ///< its earlier name
 
 }  // namespace cdcr

@@ -6,23 +6,25 @@ namespace cdcr {
 
 /// Commands of the cables over time: tensions [N], lengths [m] where driven by length; see Signal.
 /// All set up throws std::invalid_argument.
-class TensionInput : public Signal {
+class CommandInput : public Signal {
  public:
   /// The same commands at all times (num_cables), finite and >= 0.
-  [[nodiscard]] static TensionInput constant(const VectorXd& tension);
+  [[nodiscard]] static CommandInput constant(const VectorXd& tension);
 
   /// Commands at given times: `tensions` (N, num_cables), finite and >= 0.
-  [[nodiscard]] static TensionInput table(const VectorXd& times, const MatrixXd& tensions,
+  [[nodiscard]] static CommandInput table(const VectorXd& times, const MatrixXd& tensions,
                                           Interpolation interpolation);
 
   /// Any function. What it gives is checked at each call.
-  [[nodiscard]] static TensionInput function(Function function, Index num_cables,
+  [[nodiscard]] static CommandInput function(Function function, Index num_cables,
                                              std::vector<double> break_points = {});
 
   [[nodiscard]] Index num_cables() const noexcept { return size(); }
 
  private:
-  explicit TensionInput(Signal signal) : Signal(std::move(signal)) {}
+  explicit CommandInput(Signal signal) : Signal(std::move(signal)) {}
 };
+
+using TensionInput = CommandInput;  ///< its earlier name
 
 }  // namespace cdcr
