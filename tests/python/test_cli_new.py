@@ -73,7 +73,7 @@ def test_it_runs_with_each_comment_switched_on(tmp_path: Path, i: int) -> None:
     assert told["t_end"] == 10.0
     if "[trajectory]" in BLOCKS[i]:
         errors = [value for key, value in told["findings"].items() if key == "path_error_rad"]
-        assert len(errors) == ("feed_back = true\n" in BLOCKS[i] + "\n")
+        assert len(errors) == ("simulate = true\n" in BLOCKS[i] + "\n")
         # Cables driven by length give a little.
         assert all(error < (0.05 if "shorter" in BLOCKS[i] else 1e-8) for error in errors)
 

@@ -242,7 +242,7 @@ class Scenario:
         if self.input_source:
             if named and not self.input_source.integrates:
                 raise ValueError(
-                    "nothing is integrated along a trajectory without feed_back = true, so it "
+                    "nothing is integrated along a trajectory without simulate = true, so it "
                     f"takes no {', '.join(named)}"
                 )
             return self.input_source.run(model, q0, self.qd0, t, **options)

@@ -23,7 +23,7 @@ SAME = 1e-9  # bending angles that differ by less are one [rad]
 
 
 def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
-    """Draw a run that was fed with the tensions of inverse dynamics, and what was asked for."""
+    """Draw a run under the tensions of inverse dynamics, and what was asked for."""
     with style():
         figure = workspace.new_figure(scenario.title)
         _draw_paths(figure, scenario, run)
@@ -80,5 +80,5 @@ def _draw_errors(axes: Axes, scenario: Scenario, run: Trajectory) -> None:
         angle = np.rad2deg(error(scenario, other))
         axes.semilogy(other.t, np.maximum(angle, SMALLEST), color=color, label=f"{step:g} s")
     axes.set_ylabel("path error [deg]")
-    note(axes, "tensions fed back, lines between samples every")
+    note(axes, "under these tensions, lines between samples every")
     legend_above(axes)

@@ -28,7 +28,7 @@ from cdcr.scenarios.file.values import count, error_prefix, of_sections, rival_e
 
 AT = "trajectory"
 _LIMITS = ("min_tension", "max_tension", "infeasible")
-_COMMON = (*_LIMITS, "feed_back", "step", "shorter")
+_COMMON = (*_LIMITS, "simulate", "step", "shorter")
 
 
 def read_trajectory(table: dict[str, Any], model: Model, t_end: float, file: Path) -> TrackedMotion:
@@ -70,8 +70,8 @@ def _drive_errors(table: Mapping[str, Any], model: Model) -> list[str]:
         for key in _LIMITS
         if key in table
     ]
-    if not table.get("feed_back", False):
-        found.append(f"{AT} of a robot driven by length needs feed_back = true")
+    if not table.get("simulate", False):
+        found.append(f"{AT} of a robot driven by length needs simulate = true")
     return found
 
 
