@@ -17,6 +17,8 @@ from cdcr.robot.cable import Cable
 from cdcr.robot.section import Section
 
 if TYPE_CHECKING:
+    from pydantic import BaseModel
+
     from cdcr.robot.robot import Robot
 
 _HEAD = """\
@@ -46,11 +48,11 @@ def robot_from_table(kind: type[Robot], table: Mapping[str, Any], where: str) ->
     refuse(where, schema_errors(table_of(kind), table))  # type: ignore[arg-type]
     found: list[str] = []
     for i, section in enumerate(table["sections"]):
-        found += _table_errors(Section, section, entry("sections", i), "cable_angles")
+        found += _table_errors(table_of(Section), section, entry("sections", i), "cable_angles")
     num_sections = len(table["sections"])
     for j, cable in enumerate(table.get("cables", [])):
         at = entry("cables", j)
-        wrong = _table_errors(Cable, cable, at, "angle")
+        wrong = _table_errors(table_of(Cable), cable, at, "angle")
         if not wrong and cable["end_section"] > num_sections:
             requirement = f"the number of a section, 1 to {num_sections}"
             end = format_toml(cable["end_section"])
@@ -75,13 +77,11 @@ def robot_from_table(kind: type[Robot], table: Mapping[str, Any], where: str) ->
     return kind(**robot | described)
 
 
-def _table_errors(kind: type[Any], table: Any, at: str, angle: str) -> list[str]:
+def _table_errors(schema: type[BaseModel], table: Any, at: str, angle: str) -> list[str]:
     """Return a sentence for each thing that is wrong with the table of a section or a cable."""
-    from cdcr.robot.schema import table_of
-
     if not isinstance(table, dict):
         return [f"{at} must be a table, got {format_toml(table)}"]
-    wrong = [f"{at}: {sentence}" for sentence in schema_errors(table_of(kind), table)]
+    wrong = [f"{at}: {sentence}" for sentence in schema_errors(schema, table)]
     return wrong + doubled(table, at, angle)
 
 
