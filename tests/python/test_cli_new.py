@@ -206,14 +206,14 @@ def test_a_scenario_written_out_is_the_same_run(tmp_path: Path, name: str) -> No
     assert (out / "my.csv").read_bytes() == (out / f"{name}.csv").read_bytes()
 
 
-def test_only_scenarios_that_are_files_can_be_written_out(tmp_path: Path) -> None:
+def test_only_scenarios_that_run_can_be_written_out(tmp_path: Path) -> None:
     path, known = tmp_path / "my.toml", ", ".join(file_scenarios())
     assert refused(cdcr_("new", path, "--from", "step-tensoin")) == (
         f"there is no scenario 'step-tensoin'. Did you mean 'step-tension'? Known: {known}"
     )
     assert refused(cdcr_("new", path, "--from", "gravity-ratio")) == (
-        "the scenario 'gravity-ratio' is no file: it is a picture of the model alone, made in "
-        f"Python. Files: {known}"
+        "nothing runs in the scenario 'gravity-ratio': it is a picture of the model alone. "
+        f"Scenarios in which something runs: {known}"
     )
     assert everything_in(tmp_path) == []
     path.write_text("mine")

@@ -33,11 +33,6 @@ def _figure(scenario: Scenario, run: Trajectory) -> Figure:
     return run_figure(scenario, run)
 
 
-def paper_source(where: str) -> str:
-    """Return the citation of a place in the origin paper."""
-    return f"Amouri, Mahfoudi, Zaatri (2020), {where}, doi 10.46604/ijeti.2020.4422"
-
-
 class InputSource(Protocol):
     """Something that takes the robot through a run on its own."""
 
