@@ -35,6 +35,11 @@ def require_known(noun: str, name: str, known: Collection[str]) -> None:
         raise ValueError(f"{told} Known: {', '.join(known)}")
 
 
+def count(number: int, noun: str) -> str:
+    """Return a number with its noun: '1 section', '2 sections'."""
+    return f"{number} {noun}" + ("" if number == 1 else "s")
+
+
 def entry(item: str, i: int) -> str:
     """Name a section or a cable of a robot from 1: 'section 1', 'cable 1 of cables'."""
     return f"{item.removesuffix('s')} {i + 1}" + ("" if item == "sections" else f" of {item}")

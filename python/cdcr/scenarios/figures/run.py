@@ -71,6 +71,4 @@ def _plot_phi(axes: Axes, run: Trajectory) -> None:
     for i, color in enumerate(line_colors(run.model.num_sections)):
         axes.plot(run.t, phi[:, i], color=color)
     axes.set_ylabel(r"orientation $\varphi$ [deg]")
-    shown = phi[np.isfinite(phi)]
-    if shown.size and np.ptp(shown) < MIN_SPAN:
-        axes.set_ylim(shown.min() - MIN_SPAN / 2, shown.max() + MIN_SPAN / 2)
+    panels.keep_span(axes, MIN_SPAN)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.axes import Axes
 
+from cdcr.base.check import count
 from cdcr.plotting import panels
 from cdcr.plotting.style import BLACK, COLORS, GREY, StyledFigure, style
 from cdcr.scenarios.figures.drawing import name_point, new_figure, note
@@ -80,8 +81,8 @@ def _draw_responses(axes: Axes) -> None:
         runs.items(), (*COLORS[1 : study.SHOWN + 1], BLACK), strict=True
     ):
         dashes = "--" if parts == study.STEPS[-1] else "-"
-        label = f"{parts} part{'s' if parts > 1 else ''}"
-        axes.plot(run.t, 1e3 * run.tip[:, 0], color=color, linestyle=dashes, label=label)
+        name, x = count(parts, "part"), 1e3 * run.tip[:, 0]
+        axes.plot(run.t, x, color=color, linestyle=dashes, label=name)
     panels.legend_above(axes)
     axes.set_ylabel("tip displacement x [mm]")
     note(
