@@ -25,6 +25,9 @@ app = typer.Typer(
 )
 
 
+Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace files that are there.")]
+
+
 def _end(code: int, sentence: object) -> NoReturn:
     """Say why on stderr, and end with an exit code."""
     typer.echo(f"cdcr: {sentence}", err=True)
@@ -120,9 +123,7 @@ def run_command(
         int | None,
         typer.Option(metavar="NUMBER", help="Internal steps after which the run is given up."),
     ] = None,
-    overwrite: Annotated[
-        bool, typer.Option("--overwrite", help="Replace files of an earlier run.")
-    ] = False,
+    overwrite: Overwrite = False,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print one JSON object in place of tables.")
     ] = False,
@@ -159,9 +160,7 @@ def new_command(
         str | None,
         typer.Option("--from", metavar="NAME", help="The scenario of `cdcr list` to start from."),
     ] = None,
-    overwrite: Annotated[
-        bool, typer.Option("--overwrite", help="Replace a file that is there.")
-    ] = False,
+    overwrite: Overwrite = False,
 ) -> None:
     """Write a scenario file that `run` takes as it is, with every option in a comment.
 
@@ -196,9 +195,7 @@ def figures_command(
     out: Annotated[Path, typer.Option(help="Folder for the files; made where missing.")] = Path(
         "figures"
     ),
-    overwrite: Annotated[
-        bool, typer.Option("--overwrite", help="Replace files of an earlier call.")
-    ] = False,
+    overwrite: Overwrite = False,
 ) -> None:
     """Redraw all figures of the origin paper (.png, .svg); write index.html, which shows them.
 
