@@ -2,27 +2,22 @@
 
 import enum
 from collections.abc import Callable, Sequence
-from typing import Any, TypeAlias, final, type_check_only
+from typing import Any, TypeAlias, final
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from cdcr._core_robot import Cable as Cable
 from cdcr._core_robot import CoreWrench as CoreWrench
 from cdcr._core_robot import Loads as Loads
 from cdcr._core_robot import Robot as Robot
 from cdcr._core_robot import Section as Section
+from cdcr._core_robot import _Bound, _FloatArray
 from cdcr._core_statics import Allocation as Allocation
 from cdcr._core_statics import CoreModes as CoreModes
 from cdcr._core_statics import Equilibrium as Equilibrium
 from cdcr.model.wrench import Wrench
 
-_FloatArray = NDArray[np.float64]
 _FloatOrArray: TypeAlias = Any  # a float for one state, else an array
-
-@type_check_only
-class _Bound(type):
-    """Metaclass of classes bound by pybind11."""
 
 __version__: str
 max_bending: float

@@ -1,17 +1,12 @@
 """Types of the compiled core that hold answers of statics; `_core.pyi` hands them on."""
 
-from typing import final, type_check_only
+from typing import final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cdcr._core import Status
-
-_FloatArray = NDArray[np.float64]
-
-@type_check_only
-class _Bound(type):
-    """Metaclass of classes bound by pybind11."""
+from cdcr._core_robot import _Bound, _FloatArray
 
 @final
 class Equilibrium(metaclass=_Bound):

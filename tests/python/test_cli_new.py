@@ -73,7 +73,7 @@ def test_it_runs_with_each_comment_switched_on(tmp_path: Path, i: int) -> None:
     assert told["t_end"] == 10.0
     if "[trajectory]" in BLOCKS[i]:
         errors = [value for key, value in told["findings"].items() if key == "path_error_rad"]
-        assert len(errors) == ("feed_back = true\n" in BLOCKS[i] + "\n")
+        assert len(errors) == ("simulate = true\n" in BLOCKS[i] + "\n")
         # Cables driven by length give a little.
         assert all(error < (0.05 if "shorter" in BLOCKS[i] else 1e-8) for error in errors)
 
@@ -206,14 +206,14 @@ def test_a_scenario_written_out_is_the_same_run(tmp_path: Path, name: str) -> No
     assert (out / "my.csv").read_bytes() == (out / f"{name}.csv").read_bytes()
 
 
-def test_only_scenarios_that_are_files_can_be_written_out(tmp_path: Path) -> None:
+def test_only_scenarios_that_run_can_be_written_out(tmp_path: Path) -> None:
     path, known = tmp_path / "my.toml", ", ".join(file_scenarios())
     assert refused(cdcr_("new", path, "--from", "step-tensoin")) == (
         f"there is no scenario 'step-tensoin'. Did you mean 'step-tension'? Known: {known}"
     )
     assert refused(cdcr_("new", path, "--from", "gravity-ratio")) == (
-        "the scenario 'gravity-ratio' is no file: it is a picture of the model alone, made in "
-        f"Python. Files: {known}"
+        "nothing runs in the scenario 'gravity-ratio': it is a picture of the model alone. "
+        f"Scenarios in which something runs: {known}"
     )
     assert everything_in(tmp_path) == []
     path.write_text("mine")

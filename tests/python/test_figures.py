@@ -166,9 +166,12 @@ def test_progress_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> No
 
 
 @pytest.mark.usefixtures("quick")
-def test_the_bar_is_on_the_console_it_is_given(tmp_path: Path) -> None:
+def test_the_bar_is_on_the_console_it_is_given(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     from io import StringIO
 
+    monkeypatch.setattr("cdcr.cli.run.BAR_DELAY", 0.0)
     stream = StringIO()
     console = Console(file=stream, force_terminal=True, width=80)
     files = figures.figures(tmp_path, overwrite=False, console=console)

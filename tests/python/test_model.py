@@ -208,7 +208,7 @@ def test_no_equilibrium_within_the_bending_limit() -> None:
 
 
 NO_INERTIA = (
-    "the robot has no dynamics, because sections[0] can bend without moving any mass: give it a "
+    "the robot has no dynamics, because section 1 can bend without moving any mass: give it a "
     "backbone_mass or disks with a disk_mass, or the robot a payload"
 )
 

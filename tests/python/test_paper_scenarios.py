@@ -103,10 +103,10 @@ def test_errors_of_the_inertias() -> None:
 
 
 def test_eq_21_as_printed_would_make_the_straight_robot_differ_by_direction() -> None:
-    from cdcr.scenarios.studies.kinetic_energy_terms import as_printed
+    from cdcr.paper.claims.printed import printed_inertia
 
     theta = 1e-4
-    M11, M22 = as_printed(np.array([theta]), cdcr.robots.amouri2020())
+    M11, M22 = printed_inertia(np.array([theta]), cdcr.robots.amouri2020())
     assert M11[0] == pytest.approx(4.8186e-3, abs=5e-8)
     assert M22[0] / theta**2 == pytest.approx(5.8670e-3, abs=5e-8)
 

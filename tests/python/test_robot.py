@@ -228,7 +228,7 @@ def test_long_values_are_shown_short() -> None:
         ({"gravity": "down"}, "gravity must be three numbers in m/s^2, got 'down' (str)"),
         ({"gravity": (0, 0, "g")}, "gravity[2] must be a number in m/s^2, got 'g' (str)"),
         ({"sections": []}, "the number of sections must be 1 to 32, got 0"),
-        ({"sections": [{}]}, "sections[0] must be a cdcr.Section, got {} (dict)"),
+        ({"sections": [{}]}, "section 1 must be a cdcr.Section, got {} (dict)"),
         ({"sections": 1}, "sections must be a sequence of 1 to 32 cdcr.Section, got 1 (int)"),
     ],
 )

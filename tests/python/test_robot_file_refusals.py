@@ -24,14 +24,14 @@ def refusal(folder: Path, text: str) -> list[str]:
 
 def test_angles_in_both_units_are_refused(tmp_path: Path) -> None:
     assert refusal(tmp_path, FILE + "cable_angles_deg = [0]\n") == [
-        "sections[0] must have cable_angles or cable_angles_deg, not both"
+        "section 1 must have cable_angles or cable_angles_deg, not both"
     ]
 
 
 def test_an_unknown_key_is_named_with_the_nearest_and_all_known_ones(tmp_path: Path) -> None:
     known = ", ".join(table_of(cdcr.Section).model_fields)
     assert refusal(tmp_path, replaced("damping", "dampign")) == [
-        f"sections[0].dampign is not a known key. Did you mean 'damping'? Known keys: {known}"
+        f"section 1: dampign is not a known key. Did you mean 'damping'? Known keys: {known}"
     ]
     known = ", ".join(table_of(cdcr.Robot).model_fields)
     assert refusal(tmp_path, "colour = 1\n" + FILE) == [
@@ -39,21 +39,21 @@ def test_an_unknown_key_is_named_with_the_nearest_and_all_known_ones(tmp_path: P
     ]
     known = ", ".join(table_of(cdcr.Cable).model_fields)
     assert refusal(tmp_path, FILE + CABLE + "raduis = 1\n") == [
-        f"cables[0].raduis is not a known key. Did you mean 'radius'? Known keys: {known}"
+        f"cable 1 of cables: raduis is not a known key. Did you mean 'radius'? Known keys: {known}"
     ]
 
 
 def test_a_misspelt_required_key_is_unknown_and_missing(tmp_path: Path) -> None:
     missing, unknown = refusal(tmp_path, replaced("length", "lenght"))
-    assert missing == "sections[0].length is missing; it must be a number > 0 m and finite"
-    assert unknown.startswith("sections[0].lenght is not a known key. Did you mean 'length'?")
+    assert missing == "section 1: length is missing; it must be a number > 0 m and finite"
+    assert unknown.startswith("section 1: lenght is not a known key. Did you mean 'length'?")
 
 
 @pytest.mark.parametrize("name", ["length", "backbone_mass", "backbone_diameter", "youngs_modulus"])
 def test_each_required_key_is_missed(tmp_path: Path, name: str) -> None:
     text = re.sub(rf"^{name} = .*\n", "", FILE, flags=re.MULTILINE)
     (sentence,) = refusal(tmp_path, text)
-    assert sentence.startswith(f"sections[0].{name} is missing; it must be a number >")
+    assert sentence.startswith(f"section 1: {name} is missing; it must be a number >")
 
 
 def test_sections_are_missed(tmp_path: Path) -> None:
@@ -64,9 +64,7 @@ def test_sections_are_missed(tmp_path: Path) -> None:
     assert refusal(tmp_path, "sections = 1\n") == [
         f"sections must be {requirement}, got 1 (integer)"
     ]
-    assert refusal(tmp_path, "sections = [1]\n") == [
-        f"sections must be {requirement}, got 1 (integer) at sections[0]"
-    ]
+    assert refusal(tmp_path, "sections = [1]\n") == ["section 1 must be a table, got 1 (integer)"]
     assert refusal(tmp_path, "sections = []\n") == ["the number of sections must be 1 to 32, got 0"]
 
 
@@ -76,43 +74,43 @@ def test_sections_are_missed(tmp_path: Path) -> None:
         (
             "length = 0.8",
             "length = '0.8'",
-            "sections[0].length must be a number > 0 m and finite, got '0.8' (string)",
+            "section 1: length must be a number > 0 m and finite, got '0.8' (string)",
         ),
         (
             "length = 0.8",
             "length = true",
-            "sections[0].length must be a number > 0 m and finite, got true (boolean)",
+            "section 1: length must be a number > 0 m and finite, got true (boolean)",
         ),
         (
             "damping = 1e-3",
             "damping = [1e-3]",
-            "sections[0].damping must be a number >= 0 N m s/rad and finite, got [0.001] (array)",
+            "section 1: damping must be a number >= 0 N m s/rad and finite, got [0.001] (array)",
         ),
         (
             "num_disks = 10",
             "num_disks = 10.0",
-            "sections[0].num_disks must be a whole number 0 to 64, got 10.0 (float)",
+            "section 1: num_disks must be a whole number 0 to 64, got 10.0 (float)",
         ),
         (
             "num_disks = 10",
             "num_disks = 5000000000",
-            "sections[0].num_disks must be a whole number 0 to 64, got 5000000000 (integer)",
+            "section 1: num_disks must be a whole number 0 to 64, got 5000000000 (integer)",
         ),
         (
             "cable_angles = [0.0, 2.0, 4.0]",
             "cable_angles = 2.0",
-            "sections[0].cable_angles must be an array of 0 to 16 numbers [rad], got 2.0 (float)",
+            "section 1: cable_angles must be an array of 0 to 16 numbers [rad], got 2.0 (float)",
         ),
         (
             "cable_angles = [0.0, 2.0, 4.0]",
             "cable_angles = [0.0, '2']",
-            "sections[0].cable_angles must be an array of 0 to 16 numbers [rad], "
-            "got '2' (string) at sections[0].cable_angles[1]",
+            "section 1: cable_angles must be an array of 0 to 16 numbers [rad], "
+            "got '2' (string) at cable_angles[1]",
         ),
         (
             "cable_angles = [0.0, 2.0, 4.0]",
             "cable_angles_deg = {a = 1}",
-            "sections[0].cable_angles_deg must be an array of 0 to 16 numbers [deg], "
+            "section 1: cable_angles_deg must be an array of 0 to 16 numbers [deg], "
             "got {'a': 1} (table)",
         ),
         (
@@ -145,37 +143,37 @@ def test_sections_are_missed(tmp_path: Path) -> None:
         (
             "payload = 0.1",
             "cables = [1]",
-            "cables must be one [[cables]] table for each cable, got 1 (integer) at cables[0]",
+            "cable 1 of cables must be a table, got 1 (integer)",
         ),
         (
             "num_disks = 10",
             "num_disks = 10\ndisk_positions = [1.0]",
-            "sections[0].num_disks must be 0 or the number of disk_positions, 1, got 10",
+            "section 1: num_disks must be 0 or the number of disk_positions, 1, got 10",
         ),
         (
             "num_disks = 10",
             "disk_positions = [0.5, 'end']",
-            "sections[0].disk_positions must be an array of 0 to 64 numbers 0 to 1, "
-            "got 'end' (string) at sections[0].disk_positions[1]",
+            "section 1: disk_positions must be an array of 0 to 64 numbers 0 to 1, "
+            "got 'end' (string) at disk_positions[1]",
         ),
         (
             "payload = 0.1",
             "payload = 2020-01-01",
             "payload must be a number >= 0 kg and finite, got datetime.date(2020, 1, 1) (date)",
         ),
-        ("length = 0.8", "length = -1", "sections[0].length must be > 0 m and finite, got -1"),
-        ("length = 0.8", "length = inf", "sections[0].length must be > 0 m and finite, got inf"),
-        ("num_disks = 10", "num_disks = 65", "sections[0].num_disks must be 0 to 64, got 65"),
+        ("length = 0.8", "length = -1", "section 1: length must be > 0 m and finite, got -1"),
+        ("length = 0.8", "length = inf", "section 1: length must be > 0 m and finite, got inf"),
+        ("num_disks = 10", "num_disks = 65", "section 1: num_disks must be 0 to 64, got 65"),
         ("payload = 0.1", "payload = nan", "payload must be >= 0 kg and finite, got nan"),
         (
             "cable_angles = [0.0, 2.0, 4.0]",
             f"cable_angles = {[0.0] * 17}",
-            "the number of sections[0].cable_angles must be 0 to 16, got 17",
+            "section 1: the number of cable_angles must be 0 to 16, got 17",
         ),
         (
             "cable_radius = 0.019",
             "cable_radius = 0",
-            "sections[0].cable_radius must be > 0 m and finite, got 0",
+            "section 1: cable_radius must be > 0 m and finite, got 0",
         ),
     ],
 )
@@ -189,34 +187,41 @@ def test_wrong_types_and_values(tmp_path: Path, old: str, new: str, sentence: st
         (
             "radius = 0.01\n",
             "",
-            "cables[0].radius is missing; it must be a number > 0 m and finite",
+            "cable 1 of cables: radius is missing; it must be a number > 0 m and finite",
         ),
-        ("angle = 0.5\n", "", "cables[0] must have angle [rad] or angle_deg [deg]"),
+        ("angle = 0.5\n", "", "cable 1 of cables must have angle [rad] or angle_deg [deg]"),
         (
             "angle = 0.5\n",
             "angle = 0.5\nangle_deg = 1\n",
-            "cables[0] must have angle or angle_deg, not both",
+            "cable 1 of cables must have angle or angle_deg, not both",
         ),
-        ("angle = 0.5", "angle = nan", "cables[0].angle must be a finite number of rad, got nan"),
+        (
+            "angle = 0.5",
+            "angle = nan",
+            "cable 1 of cables: angle must be a finite number of rad, got nan",
+        ),
         (
             "angle = 0.5",
             "angle_deg = '1'",
-            "cables[0].angle_deg must be a finite number [deg], got '1' (string)",
+            "cable 1 of cables: angle_deg must be a finite number [deg], got '1' (string)",
         ),
         (
             "end_section = 1",
             "end_section = 2",
-            "cables[0].end_section must be the number of a section, 1 to 1, got 2 (integer)",
+            "cable 1 of cables: end_section must be the number of a section, "
+            "1 to 1, got 2 (integer)",
         ),
         (
             "end_section = 1",
             "end_section = 0",
-            "cables[0].end_section must be the number of a section, from 1, got 0 (integer)",
+            "cable 1 of cables: end_section must be the number of a section, "
+            "from 1, got 0 (integer)",
         ),
         (
             "end_section = 1",
             "end_section = 1.0",
-            "cables[0].end_section must be the number of a section, from 1, got 1.0 (float)",
+            "cable 1 of cables: end_section must be the number of a section, "
+            "from 1, got 1.0 (float)",
         ),
     ],
 )
@@ -227,18 +232,20 @@ def test_wrong_cables(tmp_path: Path, old: str, new: str, sentence: str) -> None
 
 def test_an_integer_beyond_every_float_is_refused(tmp_path: Path) -> None:
     (sentence,) = refusal(tmp_path, replaced("length = 0.8", f"length = 1{'0' * 400}"))
-    assert sentence.startswith("sections[0].length must be ")
+    assert sentence.startswith("section 1: length must be ")
 
 
 def test_everything_wrong_is_told_at_once(tmp_path: Path) -> None:
     second = FILE[FILE.index("[[sections]]") :].replace("damping", "dampign")
     sentences = refusal(tmp_path, replaced("length = 0.8", "length = 'x'") + second)
-    assert [sentence.split()[0] for sentence in sentences] == [
-        "sections[0].length",
-        "sections[1].dampign",
+    assert [sentence.partition(" must")[0].partition(" is")[0] for sentence in sentences] == [
+        "section 1: length",
+        "section 2: dampign",
     ]
     values = replaced("length = 0.8", "length = -1").replace("payload = 0.1", "payload = -1")
-    assert [sentence.split()[0] for sentence in refusal(tmp_path, values)] == [
-        "sections[0].length",
+    assert [
+        sentence.partition(" must")[0].partition(" is")[0] for sentence in refusal(tmp_path, values)
+    ] == [
+        "section 1: length",
         "payload",
     ]

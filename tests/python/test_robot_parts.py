@@ -132,7 +132,7 @@ def test_what_is_no_number_is_refused(name: str) -> None:
 def test_a_robot_refuses_cables_that_do_not_fit_it(field: dict[str, Any], sentence: str) -> None:
     cables = [cdcr.Cable(**CABLE), cdcr.Cable(**CABLE | field)]
     assert refusal(cdcr.Robot, sections=[SECTION, SECTION], cables=cables) == [
-        f"cables[1].{sentence}"
+        f"cable 2 of cables: {sentence}"
     ]
 
 
@@ -242,7 +242,7 @@ def test_the_base_turns_the_whole_robot() -> None:
             "payload_inertia must be zero where the payload is zero, "
             "got [[1, 0, 0], [0, 1, 0], [0, 0, 1]]",
         ),
-        ({"cables": [1]}, "cables[0] must be a cdcr.Cable, got 1 (int)"),
+        ({"cables": [1]}, "cable 1 of cables must be a cdcr.Cable, got 1 (int)"),
         ({"cables": None}, "cables must be a sequence of 0 to 64 cdcr.Cable, got None (NoneType)"),
     ],
 )

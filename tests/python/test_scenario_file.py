@@ -274,7 +274,7 @@ def test_what_is_wrong_in_a_file(tmp_path: Path, text: str, sentence: str) -> No
         (
             f"t_end = 1\n[[robot.sections]]\n{SECTION.replace('0.8', '-0.8')}",
             "pull.toml, [robot]",
-            "sections[0].length must be > 0 m and finite, got -0.8",
+            "section 1: length must be > 0 m and finite, got -0.8",
         ),
     ],
 )

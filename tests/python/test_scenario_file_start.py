@@ -185,7 +185,7 @@ MOVE = "[trajectory]\nshape = 'move'\ntheta_deg = [20, 0, 0]\nduration = 0.3\n"
 
 @pytest.mark.parametrize("step", ["", "step = 0.01\n"])
 def test_a_motion_by_lengths(tmp_path: Path, step: str) -> None:
-    text = f"{DRIVEN}{MOVE}back = 0.5\nfeed_back = true\nshorter = 1e-4\n{step}"
+    text = f"{DRIVEN}{MOVE}back = 0.5\nsimulate = true\nshorter = 1e-4\n{step}"
     scenario = load(tmp_path, text + "[initial]\nequilibrium = true\n")
     model, motion = scenario.model, scenario.input_source
     run = scenario.simulate(num_samples=101)
@@ -202,9 +202,9 @@ def test_a_motion_by_lengths(tmp_path: Path, step: str) -> None:
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
-        (DRIVEN + MOVE, " of a robot driven by length needs feed_back = true"),
+        (DRIVEN + MOVE, " of a robot driven by length needs simulate = true"),
         (
-            f"{DRIVEN}{MOVE}feed_back = true\nmin_tension = 1\n",
+            f"{DRIVEN}{MOVE}simulate = true\nmin_tension = 1\n",
             ".min_tension needs cables driven by tension; this robot's are driven by length",
         ),
         (

@@ -62,7 +62,7 @@ def test_a_circle_needs_the_tensions_of_inverse_dynamics(tmp_path: Path) -> None
     assert run.stats.steps == 0
     assert value(scenario, "tension_1_max_N") == pytest.approx(5.754, abs=5e-4)
     assert run.tension[0, 0] == pytest.approx(4.984, abs=5e-4)
-    with pytest.raises(ValueError, match=r"without feed_back = true, so it takes no rtol$"):
+    with pytest.raises(ValueError, match=r"without simulate = true, so it takes no rtol$"):
         scenario.simulate(rtol=1e-6)
 
 
@@ -93,7 +93,7 @@ def test_what_the_shapes_are(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("shape", SHAPES)
 def test_the_tensions_lead_the_robot_along(tmp_path: Path, shape: str) -> None:
-    scenario = load(tmp_path, shape + "feed_back = true\n")
+    scenario = load(tmp_path, shape + "simulate = true\n")
     run = scenario.simulate(t_end=5.0)
     assert run.success
     assert run.stats.steps > 0
@@ -104,7 +104,7 @@ def test_the_tensions_lead_the_robot_along(tmp_path: Path, shape: str) -> None:
 
 def test_tensions_joined_by_lines_lead_less_well(tmp_path: Path) -> None:
     errors = [
-        value(load(tmp_path, f"{CIRCLE}feed_back = true\nstep = {step}\n"), "path_error_rad")
+        value(load(tmp_path, f"{CIRCLE}simulate = true\nstep = {step}\n"), "path_error_rad")
         for step in (0.2, 0.1)
     ]
     assert errors[0] > 2.0 * errors[1]
@@ -113,7 +113,7 @@ def test_tensions_joined_by_lines_lead_less_well(tmp_path: Path) -> None:
 
 def test_a_start_off_the_path_is_kept(tmp_path: Path) -> None:
     head = HEAD + "initial = {q = [0, 0]}\n"
-    scenario = load(tmp_path, CIRCLE + "feed_back = true\n", head)
+    scenario = load(tmp_path, CIRCLE + "simulate = true\n", head)
     assert scenario.q0 == (0.0, 0.0)
     run = scenario.simulate(t_end=1.0, num_samples=21)
     assert value(scenario, "path_error_rad", run) > math.radians(14.9)
@@ -199,7 +199,7 @@ def test_what_refuses_a_motion_names_file_and_table(tmp_path: Path) -> None:
 
 
 def test_a_taylor_formulation_warns_once(tmp_path: Path) -> None:
-    text = 'shape = "line"\ntheta_rate_deg = 12\nfeed_back = true\n'
+    text = 'shape = "line"\ntheta_rate_deg = 12\nsimulate = true\n'
     scenario = load(tmp_path, text, HEAD + 'formulation = "taylor"\n')
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
@@ -210,7 +210,7 @@ def test_a_taylor_formulation_warns_once(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("trajectory", "sentence"),
     [
-        ("feed_back = true\n", ": trajectory must have one of shape, t or file"),
+        ("simulate = true\n", ": trajectory must have one of shape, t or file"),
         (
             CIRCLE + "t = [0]\n",
             ": trajectory must have one of shape, t or file, got shape and t",
@@ -223,7 +223,7 @@ def test_a_taylor_formulation_warns_once(tmp_path: Path) -> None:
         (
             CIRCLE + "turn_per_second = 1\n",
             ": trajectory.turn_per_second is not a known key. Did you mean 'turns_per_second'? "
-            "Known keys: min_tension, max_tension, infeasible, feed_back, shorter, step, shape, "
+            "Known keys: min_tension, max_tension, infeasible, simulate, shorter, step, shape, "
             "phi, phi_deg, theta, theta_deg, turns_per_second",
         ),
         (
@@ -268,9 +268,17 @@ def test_what_is_wrong_with_a_trajectory(tmp_path: Path, trajectory: str, senten
     assert refusal(tmp_path, trajectory) == sentence
 
 
-def test_a_start_without_feed_back(tmp_path: Path) -> None:
+def test_a_start_where_nothing_is_simulated(tmp_path: Path) -> None:
     assert refusal(tmp_path, CIRCLE, HEAD + "initial = {q = [0, 0]}\n") == (
-        ": initial needs feed_back = true in [trajectory]; without it nothing starts anywhere"
+        ": initial needs simulate = true in [trajectory]; without it nothing starts anywhere"
+    )
+
+
+def test_the_old_name_of_simulate(tmp_path: Path) -> None:
+    scenario = load(tmp_path, CIRCLE + "feed_back = true\n")
+    assert {"path_error_rad"} < {one.key for one in scenario.summary(scenario.simulate(t_end=0.1))}
+    assert refusal(tmp_path, CIRCLE + "feed_back = true\nsimulate = true\n") == (
+        ": trajectory must have simulate or feed_back, its old name, not both"
     )
 
 

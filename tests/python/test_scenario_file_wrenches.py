@@ -71,7 +71,7 @@ interpolation = "previous"
         '[[tension]]\ncable = 1\nshape = "step"\nvalue = 2.0\nat = 0.1\n',
         f"[tension]\nt = [0, 1]\nrows = [{9 * [0.0]}, {9 * [1.0]}]\n",
         '[controller]\ntype = "pid"\nkp = 0.1\nkd = 0.01\n',
-        '[trajectory]\nshape = "line"\ntheta_rate_deg = 10.0\nfeed_back = true\n',
+        '[trajectory]\nshape = "line"\ntheta_rate_deg = 10.0\nsimulate = true\n',
     ],
 )
 def test_wrenches_act_beside_whatever_moves_the_robot(tmp_path: Path, drive: str) -> None:
@@ -163,7 +163,7 @@ def test_an_unknown_key_and_times_out_of_order(tmp_path: Path) -> None:
 def test_nothing_to_push_along_a_trajectory_that_is_not_simulated(tmp_path: Path) -> None:
     text = f'{BASE}[trajectory]\nshape = "line"\ntheta_rate_deg = 10.0\n{WRENCH}force = [1, 0, 0]\n'
     assert refusal(tmp_path, text) == [
-        "wrenches need feed_back = true in [trajectory]; without it nothing is simulated"
+        "wrenches need simulate = true in [trajectory]; without it nothing is simulated"
     ]
 
 

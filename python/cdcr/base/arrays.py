@@ -19,6 +19,12 @@ def finite(value: ArrayLike, name: str) -> FloatArray:
     return array
 
 
+def read_only(array: FloatArray) -> FloatArray:
+    """Return an array after nobody can write to it any more."""
+    array.setflags(write=False)
+    return array
+
+
 def even_times(end: float, step: float) -> FloatArray:
     """Return times from 0 to the end [s], as near to that step as they divide it evenly."""
     return np.linspace(0.0, end, max(1, round(end / step)) + 1)

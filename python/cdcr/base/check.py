@@ -35,6 +35,16 @@ def require_known(noun: str, name: str, known: Collection[str]) -> None:
         raise ValueError(f"{told} Known: {', '.join(known)}")
 
 
+def count(number: int, noun: str) -> str:
+    """Return a number with its noun: '1 section', '2 sections'."""
+    return f"{number} {noun}" + ("" if number == 1 else "s")
+
+
+def entry(item: str, i: int) -> str:
+    """Name a section or a cable of a robot from 1: 'section 1', 'cable 1 of cables'."""
+    return f"{item.removesuffix('s')} {i + 1}" + ("" if item == "sections" else f" of {item}")
+
+
 class Check:
     """Makes plain Python values of given ones, and keeps a sentence for each it cannot take.
 
@@ -113,7 +123,7 @@ class Check:
         found = self.items(item, value, requirement)
         for i, thing in enumerate(found):
             if not isinstance(thing, kind):
-                self.refuse(f"{item}[{i}]", f"a cdcr.{kind.__name__}", thing)
+                self.refuse(entry(item, i), f"a cdcr.{kind.__name__}", thing)
         return found
 
     def keep(self, description: Any) -> None:

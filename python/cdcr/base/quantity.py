@@ -21,7 +21,7 @@ def quantity(
     Parameters
     ----------
     about, unit, requirement : str
-        What it is, in which unit, and what it must be.
+        What it is, in which unit, and what it must be; "> 0" and ">= 0" are numbers, and finite.
     kind : str or type, optional
         How `Check.keep` makes it plain: "number", "number or none", "whole", "section" (an index,
         which files count from 1), "numbers", "vector" or "matrix"; a type is that of every thing
@@ -33,5 +33,11 @@ def quantity(
     advanced : bool, optional
         Whether it stands in files and tables only where it differs from its default.
     """
-    told = {"about": about, "unit": unit, "requirement": requirement, "advanced": advanced}
-    return field(default=default, metadata=told | {"kind": kind, "each": each})
+    told = {"about": about, "unit": unit, "kind": kind, "advanced": advanced}
+    told |= {"requirement": _in_words(requirement, unit), "each": _in_words(each, unit)}
+    return field(default=default, metadata=told)
+
+
+def _in_words(requirement: str, unit: str) -> str:
+    bound = f"{requirement} {unit}".rstrip()
+    return f"a number {bound} and finite" if requirement.startswith(">") else requirement

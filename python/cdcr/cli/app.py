@@ -7,16 +7,13 @@ import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated, NoReturn
 
 import typer
 from rich.console import Console
 
 import cdcr
 from cdcr.cli import audit, figures, info, new, run, tables
-
-if TYPE_CHECKING:
-    pass
 
 app = typer.Typer(
     help="Dynamics of cable-driven continuum robots.",
@@ -26,6 +23,15 @@ app = typer.Typer(
     rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
+
+
+Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace files that are there.")]
+
+
+def _end(code: int, sentence: object) -> NoReturn:
+    """Say why on stderr, and end with an exit code."""
+    typer.echo(f"cdcr: {sentence}", err=True)
+    raise typer.Exit(code) from None
 
 
 def _warn_plainly(message: Warning | str, *_: object, **__: object) -> None:
@@ -41,18 +47,13 @@ def _told_plainly() -> Iterator[None]:
             warnings.showwarning = _warn_plainly
             yield
     except KeyboardInterrupt:
-        typer.echo("cdcr: interrupted, no file was written", err=True)
-        raise typer.Exit(130) from None
+        _end(130, "interrupted, no file was written")
     except run.RunFailed as failure:
-        typer.echo(f"cdcr: {failure}", err=True)
-        raise typer.Exit(1) from None
+        _end(1, failure)
     except (run.Mistake, ImportError) as error:
-        typer.echo(f"cdcr: {error}", err=True)
-        raise typer.Exit(2) from None
+        _end(2, error)
     except OSError as error:  # the system's own have a file and a reason, ours are sentences
-        sentence = f"{error.filename}: {error.strerror}" if error.strerror else str(error)
-        typer.echo(f"cdcr: {sentence}", err=True)
-        raise typer.Exit(2) from None
+        _end(2, f"{error.filename}: {error.strerror}" if error.strerror else error)
 
 
 def _version(wanted: bool) -> None:
@@ -122,9 +123,7 @@ def run_command(
         int | None,
         typer.Option(metavar="NUMBER", help="Internal steps after which the run is given up."),
     ] = None,
-    overwrite: Annotated[
-        bool, typer.Option("--overwrite", help="Replace files of an earlier run.")
-    ] = False,
+    overwrite: Overwrite = False,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print one JSON object in place of tables.")
     ] = False,
@@ -161,9 +160,7 @@ def new_command(
         str | None,
         typer.Option("--from", metavar="NAME", help="The scenario of `cdcr list` to start from."),
     ] = None,
-    overwrite: Annotated[
-        bool, typer.Option("--overwrite", help="Replace a file that is there.")
-    ] = False,
+    overwrite: Overwrite = False,
 ) -> None:
     """Write a scenario file that `run` takes as it is, with every option in a comment.
 
@@ -198,9 +195,7 @@ def figures_command(
     out: Annotated[Path, typer.Option(help="Folder for the files; made where missing.")] = Path(
         "figures"
     ),
-    overwrite: Annotated[
-        bool, typer.Option("--overwrite", help="Replace files of an earlier call.")
-    ] = False,
+    overwrite: Overwrite = False,
 ) -> None:
     """Redraw all figures of the origin paper (.png, .svg); write index.html, which shows them.
 

@@ -6,12 +6,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 from rich.console import Console
-from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn
 
 from cdcr import scenarios
 from cdcr.base.extras import require
 from cdcr.cli.page import page
-from cdcr.cli.run import refuse_existing
+from cdcr.cli.run import DelayedBar, refuse_existing
 from cdcr.files.new_file import new_files
 from cdcr.scenarios import Scenario
 
@@ -68,18 +67,5 @@ def figures(out: Path, *, overwrite: bool, console: Console) -> tuple[Path, ...]
     """
     refuse_existing(out, targets(out), overwrite=overwrite)
     require("matplotlib", "plot")
-    bar = Progress(
-        TextColumn("{task.description}"),
-        BarColumn(),
-        TaskProgressColumn(),
-        console=console,
-        transient=True,
-        disable=not console.is_terminal,
-    )
-    with bar:
-        task = bar.add_task("figures", total=len(paper_scenarios()))
-        return write_figures(
-            out,
-            overwrite=overwrite,
-            progress=lambda done, name: bar.update(task, completed=done, description=name),
-        )
+    with DelayedBar(console, "figures", len(paper_scenarios())) as bar:
+        return write_figures(out, overwrite=overwrite, progress=bar)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import fields
 
 import numpy as np
@@ -65,23 +66,23 @@ def _cables(robot: Robot, rest: Rest | None) -> Table:
     cables = robot.all_cables
     by_length = any(cable.length_driven for cable in cables)
     by_tension = not all(cable.length_driven for cable in cables)
-    columns = ["on section", "radius [m]", "angle [deg]", "drive"]
-    columns += ["friction"]
-    is_nondegenerate = rest is not None and rest.is_nondegenerate
-    columns += ["tip [mm/N]"] if is_nondegenerate and by_tension else []
-    columns += ["tip [mm/mm]"] if is_nondegenerate and by_length else []
-    motions = rest.tip_motion if rest is not None and is_nondegenerate else np.zeros(len(cables))
+    columns = ["on section", "radius [m]", "angle [deg]", "drive", "friction"]
+    if rest is not None and rest.is_nondegenerate:
+        columns += ["tip [mm/N]"] * by_tension + ["tip [mm/mm]"] * by_length
+        motions = rest.tip_motion
+    else:
+        by_tension = by_length = False
+        motions = np.zeros(len(cables))
     table = new_table("Cables, in the order of the commands", "", *columns)
     for j, (cable, motion) in enumerate(zip(cables, motions, strict=True)):
         row = [f"{cable.end_section + 1}", _text(cable.radius)]
         row += [f"{math.degrees(cable.angle):.4g}", "length" if cable.length_driven else "tension"]
         row.append(_friction(robot, cable))
-        if is_nondegenerate and by_tension:
-            row.append("" if cable.length_driven else f"{1e3 * float(motion):.4g}")
-        if is_nondegenerate and by_length:
-            row.append(
-                (f"{float(motion):.4g}" if motion else "slack") if cable.length_driven else ""
-            )
+        if by_tension:
+            row.append("" if cable.length_driven else f"{1e3 * motion:.4g}")
+        if by_length:
+            wound = f"{motion:.4g}" if motion else "slack"
+            row.append(wound if cable.length_driven else "")
         table.add_row(f"cable {j + 1}", *row)
     return table
 
@@ -170,15 +171,11 @@ def _whole(robot: Robot, rest: Rest | None) -> Table:
         return table
     if not rest.is_nondegenerate:
         _add_row(table, "tip stiffness", "", ["none: some small forces move it far"])
-    for axis, stiffness in zip(
-        "xy", rest.tip_stiffness if rest.is_nondegenerate else (), strict=rest.is_nondegenerate
-    ):
-        _add_row(table, f"tip stiffness along its {axis}", "N/m", [_text(stiffness)])
-    try:
-        step = rest.step
-    except ValueError:  # no inertia, told already
-        return table
-    _add_row(table, "largest stable step of rk4", "s", [_text(step)])
+    else:
+        for axis, stiffness in zip("xy", rest.tip_stiffness, strict=True):
+            _add_row(table, f"tip stiffness along its {axis}", "N/m", [_text(stiffness)])
+    with suppress(ValueError):  # no inertia, told already
+        _add_row(table, "largest stable step of rk4", "s", [_text(rest.step)])
     return table
 
 

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from types import TracebackType
 from typing import Any
 
 from rich.console import Console
@@ -55,11 +54,11 @@ class Report:
     """A scenario from the command line and what came of it; no run where nothing runs in it."""
 
     scenario: Scenario
-    method: str
-    run: Trajectory | None
-    wall_time: float  # of the integration alone [s]
     metrics: tuple[Metric, ...]
     files: tuple[Path, ...]
+    method: str = ""
+    run: Trajectory | None = None
+    wall_time: float = 0.0  # of the integration alone [s]
 
     def as_dict(self) -> dict[str, Any]:
         """Return everything as JSON has it."""
@@ -133,14 +132,7 @@ def _picture(scenario: Scenario, out: Path, *, overwrite: bool) -> Report:
     refuse_existing(out, targets, overwrite=overwrite)
     require("matplotlib", "plot")
     write(scenario, None, targets, overwrite=overwrite)
-    return Report(
-        scenario=scenario,
-        method="",
-        run=None,
-        wall_time=0.0,
-        metrics=scenario.summary(),
-        files=targets,
-    )
+    return Report(scenario=scenario, metrics=scenario.summary(), files=targets)
 
 
 def find_scenario(name: str) -> Scenario:
@@ -186,9 +178,9 @@ def write(
 
 
 class DelayedBar:
-    """A progress bar on a terminal, for a run that lasts longer than BAR_DELAY."""
+    """A progress bar on a terminal, for what lasts longer than BAR_DELAY."""
 
-    def __init__(self, console: Console, name: str, t_end: float) -> None:
+    def __init__(self, console: Console, name: str, total: float) -> None:
         self._bar = Progress(
             TextColumn("{task.description}"),
             BarColumn(),
@@ -197,26 +189,21 @@ class DelayedBar:
             console=console,
             transient=True,
         )
-        self._task = self._bar.add_task(name, total=t_end)
+        self._task = self._bar.add_task(name, total=total)
         self._shown_from = time.monotonic() + BAR_DELAY
         self._is_shown = False
 
     def __enter__(self) -> DelayedBar:
         return self
 
-    def __call__(self, t: float) -> None:
-        """Show the time reached [s]."""
+    def __call__(self, done: float, name: str | None = None) -> None:
+        """Show how much is done, such as the time reached [s], and of what."""
         is_late = time.monotonic() >= self._shown_from
         if is_late and not self._is_shown and self._bar.console.is_terminal:
             self._bar.start()
             self._is_shown = True
-        self._bar.update(self._task, completed=t)
+        self._bar.update(self._task, completed=done, description=name)
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         if self._is_shown:
             self._bar.stop()

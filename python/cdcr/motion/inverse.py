@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cdcr import _core
-from cdcr.base.arrays import FloatArray
+from cdcr.base.arrays import FloatArray, read_only
 from cdcr.model.model import Model
 from cdcr.model.statics import InfeasibleError
 from cdcr.motion.reference import Reference
@@ -86,17 +86,13 @@ class InverseRun:
     @cached_property
     def tip(self) -> FloatArray:
         """Tip positions asked for (N, 3) in the base frame [m]."""
-        tips = self.model.tips(self.q)
-        tips.setflags(write=False)
-        return tips
+        return read_only(self.model.tips(self.q))
 
     @cached_property
     def force_error(self) -> FloatArray:
         """Length of what the tensions lack of the force (N,) [N m]; rounding where feasible."""
         given = self.tension @ self.model.actuation_matrix().T
-        lacking: FloatArray = np.linalg.norm(given - self.force, axis=1)
-        lacking.setflags(write=False)
-        return lacking
+        return read_only(np.asarray(np.linalg.norm(given - self.force, axis=1)))
 
     def to_table(self, interpolation: Interpolation = "linear") -> TensionTable:
         """Return the tensions as a table that `simulate` takes.
@@ -140,14 +136,11 @@ class InverseRun:
         """
         q, qd, qdd = self.reference.evaluate(t)
         force = self.model.inverse_dynamics(q, qd, qdd)
-        answer = self.model.find_tension(force, self.min_tension, self.max_tension)
+        limits = self.min_tension, self.max_tension
+        answer = self.model.find_tension(force, *limits)
         if self.infeasible == "raise" and not answer.feasible:
-            raise InfeasibleError(_refusal(t, force, answer, self._limits), answer)
+            raise InfeasibleError(_refusal(t, force, answer, limits), answer)
         return answer.tension
-
-    @property
-    def _limits(self) -> tuple[float, float]:
-        return self.min_tension, self.max_tension
 
 
 def inverse_run(

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cdcr import _core
-from cdcr.base.arrays import FloatArray, finite
+from cdcr.base.arrays import FloatArray, finite, read_only
+from cdcr.base.check import count
 from cdcr.motion import splines
 from cdcr.motion.splines import Motion, Pair, TimeFunction
 
@@ -68,8 +69,7 @@ class Reference:
         for name in ("qd", "qdd"):
             arrays[name] = splines.checked_samples(name, getattr(self, name), t.size, q.shape[1])
         for name, array in arrays.items():
-            array.setflags(write=False)
-            object.__setattr__(self, name, array)
+            object.__setattr__(self, name, read_only(array))
 
     def __len__(self) -> int:
         """Return the number of samples."""
@@ -77,8 +77,7 @@ class Reference:
 
     def __repr__(self) -> str:
         """Say what a person wants to know first."""
-        n = self.q.shape[1] // 2
-        sections = f"{n} section{'' if n == 1 else 's'}"
+        sections = count(self.q.shape[1] // 2, "section")
         return (
             f"<Reference: {len(self)} samples, t = {self.t[0]:g} to {self.t[-1]:g} s, {sections}>"
         )

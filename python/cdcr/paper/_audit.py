@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 
 from cdcr.paper.claims import appendix as appendix
 from cdcr.paper.claims import assumptions as assumptions
@@ -90,7 +91,7 @@ def audit(progress: Callable[[int], object] | None = None) -> list[Claim]:
     """
     claims = []
     for done, check in enumerate(CHECKS, start=1):
-        claims.append(check())
+        claims.append(replace(check(), name=check.__name__.replace("_", "-")))
         if progress is not None:
             progress(done)
     return claims

@@ -75,11 +75,6 @@ def disks(num: int) -> Body:
     )
 
 
-def tip() -> Body:
-    """Return one element at the end."""
-    return disks(1)
-
-
 def sums(theta: FloatArray, body: Body, kind: str) -> tuple[Sums, Sums]:
     """Return the sums over a body, each of the shape of theta, and their derivatives by theta."""
     if kind.endswith("taylor"):

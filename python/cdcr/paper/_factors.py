@@ -12,7 +12,7 @@ from cdcr._core import max_bending
 from cdcr.base.arrays import FloatArray, finite
 from cdcr.base.check import Check
 from cdcr.model.model import FORMULATIONS
-from cdcr.paper._elements import Sums, cut_sums, disks, rod, sums, tip
+from cdcr.paper._elements import Sums, cut_sums, disks, rod, sums
 from cdcr.robot.robot import Robot
 from cdcr.robot.section import Section
 
@@ -176,7 +176,7 @@ def inertia_and_slopes(
     parts = (
         (rod(), section.backbone_mass, rod_inertia),
         (disks(section.num_disks), section.disk_mass * (0.5 if printed else 1.0), disk_inertia),
-        (tip(), robot.payload, 0.0),
+        (disks(1), robot.payload, 0.0),  # one at the tip
     )
     zero = np.zeros(np.shape(theta))[()]
     inertias = [[zero, zero], [zero, zero]]  # values and slopes of M11 and M22

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cdcr.base.arrays import FloatArray, finite
-from cdcr.paper._elements import bow, disks, rod, sinc, sinc_slope, tip
+from cdcr.paper._elements import bow, disks, rod, sinc, sinc_slope
 from cdcr.paper._factors import check_kind, checked_angles, inertia_and_slopes, only_section
 from cdcr.robot.robot import Robot
 
@@ -179,7 +179,7 @@ class PolarModel:
         y = angle[..., np.newaxis] * x
         out, up = (x * y * bow(y)) @ weight, (x * sinc(y)) @ weight
         elastic = self.robot.sections[0].stiffness / 2.0 * angle**2
-        return elastic - along * out - self._lift * up
+        return elastic - along * out - self.robot.gravity[2] * up
 
     def _inertia(self, theta: FloatArray) -> tuple[tuple[Any, Any], tuple[Any, Any]]:
         """Return (M11, M22) and their slopes, where both are positive and theta is not zero."""
@@ -223,7 +223,7 @@ class PolarModel:
         S, A = sinc(y), bow(y)
         # Theta moves an element outwards at x^2 (S - A) and along Z at x^2 S'.
         out, up = (x**2 * (S - A)) @ weight, (x**2 * sinc_slope(y, S)) @ weight
-        return elastic - along * out - self._lift * up, -across * ((x * y * A) @ weight)
+        return elastic - along * out - self.robot.gravity[2] * up, -across * ((x * y * A) @ weight)
 
     def _weights(self, phi: FloatArray) -> tuple[FloatArray, FloatArray, Any, Any]:
         """Return places, masses times length, and gravity outwards and sideways of the bend."""
@@ -231,17 +231,13 @@ class PolarModel:
         bodies = (
             (rod(), section.backbone_mass),
             (disks(section.num_disks), section.disk_mass),
-            (tip(), self.robot.payload),
+            (disks(1), self.robot.payload),
         )
         x = np.concatenate([body.x for body, _ in bodies])
         weight = section.length * np.concatenate([mass * body.weight for body, mass in bodies])
         gx, gy, _ = self.robot.gravity
         cosine, sine = np.cos(phi), np.sin(phi)
         return x, weight, gx * cosine + gy * sine, gy * cosine - gx * sine
-
-    @property
-    def _lift(self) -> float:
-        return self.robot.gravity[2]
 
     def _checked_tension(self, tension: ArrayLike) -> FloatArray:
         forces = finite(tension, "tension")

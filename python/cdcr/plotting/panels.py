@@ -115,7 +115,7 @@ def plot_tension(axes: Axes, run: Trajectory) -> None:
     for j, (name, color, dashes) in enumerate(lines):
         axes.plot(run.t, run.tension[:, j], color=color, linestyle=dashes, label=name)
     if model.num_cables > 1:
-        _legend(axes, model.num_cables)
+        legend_above(axes, model.num_cables)
     axes.set_ylabel("tension [N]")
     top = max(MIN_TENSION, np.max(run.tension, initial=0.0))
     axes.set_ylim(-0.05 * top, 1.08 * top)  # a line along zero stays clear of the frame
@@ -151,7 +151,7 @@ def _plot_energy(axes: Axes, run: Trajectory) -> None:
     axes.plot(run.t, run.energy, color=BLACK, label="total")
     axes.plot(run.t, run.kinetic_energy, color=kinetic, label="kinetic")
     axes.plot(run.t, run.potential_energy, color=potential, label="potential", linestyle=DASHES[1])
-    _legend(axes, 3)
+    legend_above(axes, 3)
     axes.set_ylabel("energy [J]")
     keep_span(axes, MIN_ENERGY)
 
@@ -169,7 +169,7 @@ def _plot_lines(axes: Axes, t: FloatArray, values: FloatArray, names: Sequence[s
         dashes = DASHES[k % len(DASHES)] if count <= MAX_NAMED else "-"
         axes.plot(t, values[:, k], color=color, linestyle=dashes, label=name)
     if count > 1:
-        _legend(axes, count)
+        legend_above(axes, count)
 
 
 def _numbered(noun: str, count: int) -> list[str]:
@@ -180,8 +180,8 @@ def _numbered(noun: str, count: int) -> list[str]:
     return [f"{noun} 1", *names[1:]] if names else []
 
 
-def _legend(axes: Axes, count: int) -> None:
-    """Above the panel, so that it lies on no data."""
+def legend_above(axes: Axes, count: int = 4) -> None:
+    """Put the legend of `count` lines above a panel, so that it lies on no data."""
     axes.legend(
         loc="lower right",
         bbox_to_anchor=(1.0, 1.0),

@@ -48,7 +48,7 @@ class Cable:
     1
     """
 
-    radius: float = quantity("from backbone to cable", "m", "a number > 0 m and finite")
+    radius: float = quantity("from backbone to cable", "m", "> 0")
     angle: float = quantity("about Z, from X", "rad", "a finite number of rad")
     end_section: int = quantity(
         "number of the section where it ends, from 1",
@@ -56,16 +56,8 @@ class Cable:
         "the index of a section, from 0",
         kind="section",
     )
-    stiffness: float = quantity(
-        "driven by length", "N/m", "a number >= 0 N/m and finite", default=0.0, advanced=True
-    )
-    damping: float = quantity(
-        "of the drive by length",
-        "N s/m",
-        "a number >= 0 N s/m and finite",
-        default=0.0,
-        advanced=True,
-    )
+    stiffness: float = quantity("driven by length", "N/m", ">= 0", default=0.0, advanced=True)
+    damping: float = quantity("of the drive by length", "N s/m", ">= 0", default=0.0, advanced=True)
     friction: float | None = quantity(
         "coefficient in its holes",
         "",

@@ -10,12 +10,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from cdcr import _core
+from cdcr.base.check import entry
 from cdcr.files.new_file import new_file
 from cdcr.files.toml import format_toml, read_toml, refuse, schema_errors
 from cdcr.robot.cable import Cable
 from cdcr.robot.section import Section
 
 if TYPE_CHECKING:
+    from pydantic import BaseModel
+
     from cdcr.robot.robot import Robot
 
 _HEAD = """\
@@ -45,19 +48,18 @@ def robot_from_table(kind: type[Robot], table: Mapping[str, Any], where: str) ->
     refuse(where, schema_errors(table_of(kind), table))  # type: ignore[arg-type]
     found: list[str] = []
     for i, section in enumerate(table["sections"]):
-        found += schema_errors(table_of(Section), section, f"sections[{i}]")
-        found += doubled(section, f"sections[{i}]", "cable_angles")
+        found += _table_errors(table_of(Section), section, entry("sections", i), "cable_angles")
     num_sections = len(table["sections"])
     for j, cable in enumerate(table.get("cables", [])):
-        wrong = schema_errors(table_of(Cable), cable, f"cables[{j}]")
+        at = entry("cables", j)
+        wrong = _table_errors(table_of(Cable), cable, at, "angle")
         if not wrong and cable["end_section"] > num_sections:
             requirement = f"the number of a section, 1 to {num_sections}"
             end = format_toml(cable["end_section"])
-            wrong = [f"cables[{j}].end_section must be {requirement}, got {end}"]
+            wrong.append(f"{at}: end_section must be {requirement}, got {end}")
+        if isinstance(cable, dict) and not {"angle", "angle_deg"} & cable.keys():
+            wrong.append(f"{at} must have angle [rad] or angle_deg [deg]")
         found += wrong
-        found += doubled(cable, f"cables[{j}]", "angle")
-        if not {"angle", "angle_deg"} & cable.keys():
-            found.append(f"cables[{j}] must have angle [rad] or angle_deg [deg]")
     refuse(where, found)
 
     sections = [_fields_of(Section, one) for one in table["sections"]]
@@ -73,6 +75,14 @@ def robot_from_table(kind: type[Robot], table: Mapping[str, Any], where: str) ->
         "cables": [Cable(**one) for one in cables],
     }
     return kind(**robot | described)
+
+
+def _table_errors(schema: type[BaseModel], table: Any, at: str, angle: str) -> list[str]:
+    """Return a sentence for each thing that is wrong with the table of a section or a cable."""
+    if not isinstance(table, dict):
+        return [f"{at} must be a table, got {format_toml(table)}"]
+    wrong = [f"{at}: {sentence}" for sentence in schema_errors(schema, table)]
+    return wrong + doubled(table, at, angle)
 
 
 def doubled(table: Mapping[str, Any], at: str, name: str) -> list[str]:

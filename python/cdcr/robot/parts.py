@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cdcr import _core
-from cdcr.base.check import Check
+from cdcr.base.check import Check, count
 from cdcr.robot.section import Section
 
 if TYPE_CHECKING:
@@ -27,14 +27,14 @@ _ON_BORDER = 1e-12
 def part_counts(n: int, parts: Parts) -> list[int]:
     """Return the number of parts of each of n sections, or refuse them."""
     one = f"a whole number 1 to {_core.max_sections}"
-    requirement = f"{one}, or one for each of {n} section{'s' if n > 1 else ''}"
+    requirement = f"{one}, or one for each of {count(n, 'section')}"
     check = Check()
     if isinstance(parts, Integral):
         counts = [check.whole("parts", parts, requirement, 1, _core.max_sections)] * n
     else:
         counts = [
-            check.whole(f"parts[{i}]", count, one, 1, _core.max_sections)
-            for i, count in enumerate(check.items("parts", parts, requirement))
+            check.whole(f"parts[{i}]", number, one, 1, _core.max_sections)
+            for i, number in enumerate(check.items("parts", parts, requirement))
         ]
     if not check.sentences and len(counts) != n:
         check.refuse("parts", requirement, parts)

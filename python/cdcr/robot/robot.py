@@ -77,7 +77,7 @@ class Robot:
         each="a number in m/s^2",
         default=_ZERO,
     )
-    payload: float = quantity("mass at the tip", "kg", "a number >= 0 kg and finite", default=0.0)
+    payload: float = quantity("mass at the tip", "kg", ">= 0", default=0.0)
     cables: tuple[Cable, ...] = quantity(
         "beside those of the sections",
         "",
@@ -112,11 +112,7 @@ class Robot:
         advanced=True,
     )
     sliding_speed: float = quantity(
-        "of a cable, for friction",
-        "m/s",
-        "a number > 0 m/s and finite",
-        default=1e-3,
-        advanced=True,
+        "of a cable, for friction", "m/s", "> 0", default=1e-3, advanced=True
     )
 
     if TYPE_CHECKING:  # any sequence goes in, a tuple comes out

@@ -47,7 +47,7 @@ def _keys(item: Field[Any], partial: bool) -> Iterator[tuple[str, Any]]:
         if partial:
             return
         table = f"one [[{item.name}]] table for each {item.name.removesuffix('s')}"
-        yield item.name, (list[dict[str, Any]], pydantic.Field(given, description=table))
+        yield item.name, (list[Any], pydantic.Field(given, description=table))
         return
     for suffix, name in (("", unit), ("_deg", "deg")) if unit == "rad" else (("", unit),):
         about = pydantic.Field(given, description=_requirement(item, name))

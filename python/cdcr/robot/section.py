@@ -73,16 +73,12 @@ class Section:
         With one sentence for each field that is out of its range, one a line.
     """
 
-    length: float = quantity("arc length of the backbone", "m", "a number > 0 m and finite")
-    backbone_mass: float = quantity(
-        "spread evenly along the length", "kg", "a number >= 0 kg and finite"
-    )
-    backbone_diameter: float = quantity(
-        "of the round, solid backbone", "m", "a number > 0 m and finite"
-    )
-    youngs_modulus: float = quantity("of the backbone", "Pa", "a number > 0 Pa and finite")
-    disk_mass: float = quantity("of each disk", "kg", "a number >= 0 kg and finite", default=0.0)
-    disk_diameter: float = quantity("of each disk", "m", "a number >= 0 m and finite", default=0.0)
+    length: float = quantity("arc length of the backbone", "m", "> 0")
+    backbone_mass: float = quantity("spread evenly along the length", "kg", ">= 0")
+    backbone_diameter: float = quantity("of the round, solid backbone", "m", "> 0")
+    youngs_modulus: float = quantity("of the backbone", "Pa", "> 0")
+    disk_mass: float = quantity("of each disk", "kg", ">= 0", default=0.0)
+    disk_diameter: float = quantity("of each disk", "m", ">= 0", default=0.0)
     num_disks: int = quantity(
         "equally spaced, the last at the end", "", "a whole number 0 to 64", kind="whole", default=0
     )
@@ -100,7 +96,7 @@ class Section:
         "kg",
         "a sequence of 0 to 64 numbers in kg",
         kind="numbers",
-        each="a number >= 0 kg and finite",
+        each=">= 0",
         default=(),
         advanced=True,
     )
@@ -109,13 +105,11 @@ class Section:
         "m",
         "a sequence of 0 to 64 numbers in m",
         kind="numbers",
-        each="a number >= 0 m and finite",
+        each=">= 0",
         default=(),
         advanced=True,
     )
-    cable_radius: float = quantity(
-        "from backbone to cable", "m", "a number > 0 m and finite", default=0.0
-    )
+    cable_radius: float = quantity("from backbone to cable", "m", "> 0", default=0.0)
     cable_angles: tuple[float, ...] = quantity(
         "about Z, from X",
         "rad",
@@ -125,24 +119,15 @@ class Section:
         default=(),
     )
     cable_stiffness: float = quantity(
-        "cables driven by length", "N/m", "a number >= 0 N/m and finite", default=0.0, advanced=True
+        "cables driven by length", "N/m", ">= 0", default=0.0, advanced=True
     )
     cable_damping: float = quantity(
-        "of the drive by length",
-        "N s/m",
-        "a number >= 0 N s/m and finite",
-        default=0.0,
-        advanced=True,
+        "of the drive by length", "N s/m", ">= 0", default=0.0, advanced=True
     )
     cable_friction: float = quantity(
-        "coefficient in the holes", "", "a number >= 0 and finite", default=0.0, advanced=True
+        "coefficient in the holes", "", ">= 0", default=0.0, advanced=True
     )
-    damping: float = quantity(
-        "viscous, per bending component",
-        "N m s/rad",
-        "a number >= 0 N m s/rad and finite",
-        default=0.0,
-    )
+    damping: float = quantity("viscous, per bending component", "N m s/rad", ">= 0", default=0.0)
 
     if TYPE_CHECKING:  # any sequence goes in, a tuple comes out
 

@@ -33,10 +33,6 @@ def warn_beyond_taylor_range(model: Model, q: FloatArray) -> None:
         )
 
 
-def _options(given: dict[str, Any]) -> _core.Options:
-    return _core.Options(**{name: value for name, value in given.items() if value is not None})
-
-
 def simulate(
     model: Model,
     q0: ArrayLike,
@@ -116,9 +112,9 @@ def simulate(
     if tension is not None and command is not None:
         raise ValueError("give either tension or command, two names for one thing, not both")
     asked = tension if command is None else command
-    options = _options(
-        {"rtol": rtol, "atol": atol, "step": step, "max_step": max_step, "max_steps": max_steps}
-    )
+    given = {"rtol": rtol, "atol": atol, "step": step, "max_step": max_step, "max_steps": max_steps}
+    told: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
+    options = _core.Options(**told)
     if controller is not None:
         if asked is not None or len(break_points) > 0:
             name = "tension" if command is None else "command"

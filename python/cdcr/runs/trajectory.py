@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 import numpy as np
 
 from cdcr import _core
-from cdcr.base.arrays import FloatArray
+from cdcr.base.arrays import FloatArray, read_only
+from cdcr.base.check import count
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -103,7 +104,7 @@ class Trajectory:
             array = np.array(getattr(self, name), dtype=np.float64)
             if array.shape != shape:
                 raise ValueError(f"{name} must have shape {shape}, got {array.shape}")
-            object.__setattr__(self, name, _read_only(array))
+            object.__setattr__(self, name, read_only(array))
         if num_samples == 0:
             raise ValueError(f"a run must have at least one sample, got none. {self.message}")
 
@@ -114,10 +115,10 @@ class Trajectory:
     def __repr__(self) -> str:
         """Say what a person wants to know first."""
         parts = [
-            _count(len(self), "sample"),
+            count(len(self), "sample"),
             f"t = {self.t[0]:g} to {self.t[-1]:g} s",
-            _count(self.model.num_sections, "section"),
-            _count(self.model.num_cables, "cable"),
+            count(self.model.num_sections, "section"),
+            count(self.model.num_cables, "cable"),
         ]
         parts += [self.method] if self.method else []
         end = f": {self.message}" if self.message else ""
@@ -142,7 +143,7 @@ class Trajectory:
     @cached_property
     def _polar(self) -> tuple[FloatArray, FloatArray]:
         theta, phi = _core.polar_along(self.q)
-        return _read_only(theta), _read_only(phi)
+        return read_only(theta), read_only(phi)
 
     @property
     def theta(self) -> FloatArray:
@@ -157,32 +158,32 @@ class Trajectory:
     @cached_property
     def tip(self) -> FloatArray:
         """Tip positions (N, 3) in the base frame [m]."""
-        return _read_only(self.model.tips(self.q))
+        return read_only(self.model.tips(self.q))
 
     @cached_property
     def kinetic_energy(self) -> FloatArray:
         """Kinetic energy (N,) [J]."""
-        return _read_only(self.model.kinetic_energy(self.q, self.qd))
+        return read_only(self.model.kinetic_energy(self.q, self.qd))
 
     @cached_property
     def potential_energy(self) -> FloatArray:
         """Elastic energy plus weight (N,) [J]; the weight's is zero at the base."""
-        return _read_only(self.model.potential_energy(self.q))
+        return read_only(self.model.potential_energy(self.q))
 
     @cached_property
     def energy(self) -> FloatArray:
         """Total mechanical energy (N,) [J]."""
-        return _read_only(self.kinetic_energy + self.potential_energy)
+        return read_only(self.kinetic_energy + self.potential_energy)
 
     @cached_property
     def cable_energy(self) -> FloatArray:
         """Energy in the springs of cables driven by length (N,) [J]; not part of `energy`."""
-        return _read_only(self.model.cable_energy(self.q, self.command))
+        return read_only(self.model.cable_energy(self.q, self.command))
 
     @cached_property
     def friction_power(self) -> FloatArray:
         """Heat that friction of the cables makes (N,) [W], never negative."""
-        return _read_only(self.model.friction_power(self.q, self.qd, self.command))
+        return read_only(self.model.friction_power(self.q, self.qd, self.command))
 
     @property
     def energy_error(self) -> FloatArray:
@@ -193,7 +194,7 @@ class Trajectory:
         tension.
         """
         scale = max(abs(self.energy[0]), np.max(self.kinetic_energy))
-        return _read_only((self.energy - self.energy[0]) / (scale or 1.0))
+        return read_only((self.energy - self.energy[0]) / (scale or 1.0))
 
     @property
     def energy_drift(self) -> float:
@@ -334,12 +335,3 @@ class Trajectory:
         return plotting.animate(
             self, path, fps=fps, speed=speed, overwrite=overwrite, progress=progress
         )
-
-
-def _read_only(array: FloatArray) -> FloatArray:
-    array.setflags(write=False)
-    return array
-
-
-def _count(number: int, noun: str) -> str:
-    return f"{number} {noun}" + ("" if number == 1 else "s")

@@ -1,9 +1,8 @@
 """Ready-made runs and pictures: the robot, what is done to it, a summary and a figure.
 
-A new scenario is one new file in ``library``, and its name that of the file: NAME.toml, a scenario
-file as users write them; or, where nothing runs, a module that defines ``SCENARIO``. Findings and
-a picture of its own are ``summarize`` and ``plot`` of modules of that name in ``studies`` and
-``figures``, with underscores for dashes.
+A new scenario is one new file NAME.toml in ``library``, a scenario file as users write them,
+without ``t_end`` where nothing runs. Findings and a picture of its own are ``summarize`` and
+``plot`` of modules of that name in ``studies`` and ``figures``, with underscores for dashes.
 """
 
 from __future__ import annotations
@@ -14,7 +13,9 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
+from cdcr import robots
 from cdcr.base.check import require_known
+from cdcr.files.toml import read_toml
 from cdcr.scenarios import library
 from cdcr.scenarios.scenario import Scenario
 
@@ -52,8 +53,7 @@ _SHARED = {
 
 def names() -> tuple[str, ...]:
     """Return the names of all scenarios, in the order of the origin paper's figures."""
-    files = [path for path in _folder().iterdir() if path.suffix in (".py", ".toml")]
-    found = {path.stem.replace("_", "-") for path in files if path.stem != "__init__"}
+    found = {path.stem for path in _folder().glob("*.toml")}
     return (*(name for name in _FIGURES if name in found), *sorted(found - _FIGURES.keys()))
 
 
@@ -75,16 +75,15 @@ def get(name: str) -> Scenario:
         For an unknown name, with the known ones.
     """
     require_known("scenario", name, names())
-    file, module = _folder() / f"{name}.toml", name.replace("-", "_")
-    if file.exists():
+    table = _table(name)
+    if "t_end" in table:
         from cdcr.scenarios.file.reader import load_scenario
 
-        scenario = load_scenario(file)
+        scenario = load_scenario(_file(name))
     else:
-        scenario = import_module(f"{library.__name__}.{module}").SCENARIO
-    return replace(
-        scenario, paper_figure=_FIGURES.get(name), **_attached(_SHARED.get(name, module))
-    )
+        scenario = Scenario(name=name, **table | {"robot": robots.get(table["robot"])})
+    module = _SHARED.get(name, name.replace("-", "_"))
+    return replace(scenario, paper_figure=_FIGURES.get(name), **_attached(module))
 
 
 def source_file(name: str) -> Path:
@@ -102,22 +101,28 @@ def source_file(name: str) -> Path:
     Raises
     ------
     ValueError
-        For an unknown name, or a scenario that is not a file, with those that are.
+        For an unknown name, or a scenario in which nothing runs, with those to choose from.
     """
-    file = _folder() / f"{name}.toml"
-    if not file.exists():
-        files = [known for known in names() if (_folder() / f"{known}.toml").exists()]
-        if name in names():
-            raise ValueError(
-                f"the scenario {name!r} is no file: it is a picture of the model alone, made in "
-                f"Python. Files: {', '.join(files)}"
-            )
-        require_known("scenario", name, files)
-    return file
+    files = [known for known in names() if "t_end" in _table(known)]
+    if name in names() and name not in files:
+        raise ValueError(
+            f"nothing runs in the scenario {name!r}: it is a picture of the model alone. Scenarios "
+            f"in which something runs: {', '.join(files)}"
+        )
+    require_known("scenario", name, files)
+    return _file(name)
 
 
 def _folder() -> Path:
     return Path(library.__path__[0])
+
+
+def _file(name: str) -> Path:
+    return _folder() / f"{name}.toml"
+
+
+def _table(name: str) -> dict[str, Any]:
+    return read_toml(_file(name), "scenario file")
 
 
 def _attached(module: str) -> dict[str, Any]:

@@ -114,6 +114,13 @@ def time_mean(t: FloatArray, y: FloatArray) -> float:
     return float(np.sum(np.diff(t) * (y[1:] + y[:-1]))) / (2.0 * float(t[-1] - t[0]))
 
 
+def settling_time(t: FloatArray, away: FloatArray, band: float) -> float | None:
+    """Return when `away` (N,) is last above a band, None where it is so at the end."""
+    outside = np.flatnonzero(away > band)
+    last = int(outside[-1]) if outside.size else 0
+    return float(t[last]) if last + 1 < len(t) else None
+
+
 def oscillation_period(t: FloatArray, y: FloatArray) -> float | None:
     """Return the mean time between rises of y (N,) through its mean, in the unit of t.
 

@@ -33,11 +33,6 @@ def _figure(scenario: Scenario, run: Trajectory) -> Figure:
     return run_figure(scenario, run)
 
 
-def paper_source(where: str) -> str:
-    """Return the citation of a place in the origin paper."""
-    return f"Amouri, Mahfoudi, Zaatri (2020), {where}, doi 10.46604/ijeti.2020.4422"
-
-
 class InputSource(Protocol):
     """Something that takes the robot through a run on its own."""
 
@@ -242,7 +237,7 @@ class Scenario:
         if self.input_source:
             if named and not self.input_source.integrates:
                 raise ValueError(
-                    "nothing is integrated along a trajectory without feed_back = true, so it "
+                    "nothing is integrated along a trajectory without simulate = true, so it "
                     f"takes no {', '.join(named)}"
                 )
             return self.input_source.run(model, q0, self.qd0, t, **options)

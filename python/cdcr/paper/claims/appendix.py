@@ -19,7 +19,7 @@ from cdcr.paper.claims.common import (
     numbers,
     tiny,
 )
-from cdcr.paper.claims.printed import printed_factors, printed_h6
+from cdcr.paper.claims.printed import printed_factors, printed_h6, printed_inertia
 
 _ANGLES = np.linspace(0.3, EDGE, 9)
 
@@ -34,7 +34,6 @@ def backbone_range() -> Claim:
     """Compare the cut H1 and H2 with the whole ones at 3pi/5."""
     error = cut_errors()
     return Claim(
-        name="backbone-range",
         where="Abstract; 4.1.1, Fig. 2",
         claim="For theta in [-3pi/5, 3pi/5] the expansions approximate H1 and H2 with smaller "
         "errors.",
@@ -52,7 +51,6 @@ def material_range() -> Claim:
     strain = 100.0 * SECTION.backbone_diameter * EDGE / (2.0 * SECTION.length)
     tension = SECTION.stiffness * EDGE / SECTION.cable_radius
     return Claim(
-        name="material-range",
         where="4.1.1",
         claim="The bending angle is kept small by the material: |theta| <= 3pi/5.",
         computed=(
@@ -69,7 +67,6 @@ def superposed_curves() -> Claim:
     """Compare all eight cut factors with the whole ones at 3pi/5."""
     error = cut_errors()
     return Claim(
-        name="superposed-curves",
         where="4.1.4, Figs. 2-5",
         claim="Exact and equivalent factors are much superposed, except H8.",
         computed=(
@@ -82,31 +79,13 @@ def superposed_curves() -> Claim:
     )
 
 
-def literal_inertia(kind: str) -> tuple[float, float]:
-    """Return M11 and M22 at 3pi/5 by (21) with every error of the print (E2, E3, E4, E5)."""
-    H, l = factors(EDGE, kind), SECTION.length
-    rod, disk = l**2 * SECTION.backbone_mass, l**2 * SECTION.disk_mass
-    turning = l * SECTION.second_moment_of_area
-    M11 = rod * H.H1 + turning * H.H3 + disk * H.H5 + DISK_INERTIA * H.H7
-    M22 = rod * H.H2 + turning * H.H4 + disk * H.H6 + DISK_INERTIA * H.H8
-    return float(M11), float(M22)
-
-
 def kinetic_energy_terms() -> Claim:
     """Compare M11 and M22 with cut and with whole factors at 3pi/5, by (21) mended and literal."""
-    first, second = (
-        excess(cut, whole)
-        for cut, whole in zip(inertia(EDGE, ROBOT, "taylor"), inertia(EDGE, ROBOT), strict=True)
-    )
-    literal_first, literal_second = (
-        excess(cut, whole)
-        for cut, whole in zip(
-            literal_inertia("printed-taylor"), literal_inertia("printed"), strict=True
-        )
-    )
+    first, second = map(excess, inertia(EDGE, ROBOT, "taylor"), inertia(EDGE, ROBOT))
+    literal = (printed_inertia(EDGE, ROBOT, kind) for kind in ("printed-taylor", "printed"))
+    literal_first, literal_second = map(excess, *literal)
     error = cut_errors()
     return Claim(
-        name="kinetic-energy-terms",
         where="4.1.4, Fig. 6; 5.5; 6",
         claim="The velocity terms of the kinetic energy err by less than 0.05 %, at 3pi/5.",
         computed=(
@@ -129,7 +108,6 @@ def disk_diameter() -> Claim:
     """Evaluate m_d d^2/16 with either meaning of d_b."""
     wrong = SECTION.disk_mass * SECTION.backbone_diameter**2 / 16.0
     return Claim(
-        name="disk-diameter",
         where="Nomenclature",
         claim="d_b is the diameter of the backbone, and again the diameter of the disk.",
         computed=(
@@ -148,7 +126,6 @@ def turning_with_theta() -> Claim:
     same = factors(_ANGLES, "printed")
     slip = max(gap(printed["H3"], same.H3), gap(printed["H7"], same.H7))
     return Claim(
-        name="turning-with-theta",
         where="Appendix, (25), (29)",
         claim="H3 and H7 vary with theta.",
         computed=(
@@ -174,7 +151,6 @@ def turning_with_phi() -> Claim:
     printed, derived = printed_factors(_ANGLES), factors(_ANGLES)
     worst = max(gap(printed["H4"], derived.H4), gap(printed["H8"], derived.H8))
     return Claim(
-        name="turning-with-phi",
         where="Appendix, (26), (30)",
         claim="H4 = 1/2 - sin(2 theta)/(4 theta) and H8 = sum of sin^2(k theta/10).",
         computed=f"Both are what (3) and (4) give, to {tiny(worst)}.",
@@ -192,7 +168,6 @@ def disk_translation() -> Claim:
     )
     start, printed_start = factors(0.0).H5, factors(0.0, "printed").H5
     return Claim(
-        name="disk-translation",
         where="Appendix, (27), (28); (15)",
         claim="H5 and H6 of the translation of all disks.",
         computed=(
@@ -216,7 +191,6 @@ def missing_cosine() -> Claim:
     theta = np.array([0.1, 1.0])
     letter, mended = printed_h6(theta, 9.0 * theta / 5.0), printed_h6(theta, np.cos(1.8 * theta))
     return Claim(
-        name="missing-cosine",
         where="Appendix, (28)",
         claim='One term of H6 reads "+ (9 theta/5)".',
         computed=(

@@ -56,7 +56,6 @@ def constant_curvature() -> Claim:
     second = {parts: excess(found[parts][1], beam[1]) for parts in (4, 8)}
     cut = ", ".join(f"{first[parts]:+.2f} % (n = {parts})" for parts in (2, 3, 4, 5, 8))
     return Claim(
-        name="constant-curvature",
         where="3.1, (1)",
         claim="The backbone is inextensible, continuous, of constant curvature, without torsion.",
         computed=(
@@ -87,7 +86,6 @@ def friction() -> Claim:
     theta = SECTION.cable_radius * PULL / SECTION.stiffness
     at_rest, at_edge = z / theta, z / EDGE
     return Claim(
-        name="friction",
         where="3.1",
         claim="Friction in the disks' holes is neglected.",
         computed=(
@@ -104,7 +102,6 @@ def torsion() -> Claim:
     """Compare G J = E I_b/(1 + nu) of a round isotropic rod with E I_b, nu from 0 to 1/2."""
     stiffest, softest = (1.0 / (1.0 + poisson) for poisson in (0.0, 0.5))
     return Claim(
-        name="torsion",
         where="3.1",
         claim="The backbone possesses a high stiffness that permits to avoid torsion.",
         computed=(

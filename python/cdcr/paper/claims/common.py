@@ -38,7 +38,7 @@ class Claim:
     Attributes
     ----------
     name : str
-        Short and unique.
+        Short and unique; that of the function which computes the row, with dashes.
     where : str
         Section, equation, table or figure of the paper.
     claim : str
@@ -53,7 +53,7 @@ class Claim:
         The numbers computed, in the units of the sentence.
     """
 
-    name: str
+    name: str = ""
     where: str
     claim: str
     computed: str

@@ -40,7 +40,6 @@ def numerical_derivatives() -> Claim:
     after = 2.0 * (1.0 - math.cos(_TURN * _STEP)) / _STEP**2
     error = 100.0 * (1.0 - after / _TURN**2)
     return Claim(
-        name="numerical-derivatives",
         where="5.3, Fig. 11",
         claim="The inverse model in Simulink takes numerical derivatives of the path.",
         computed=(
@@ -61,7 +60,6 @@ def circle_tracking() -> Claim:
     peaks, start = np.max(force, axis=0), force[0, 0]
     turns = _TURN * t[-1] / (2.0 * math.pi)
     return Claim(
-        name="circle-tracking",
         where="5.3, Fig. 12",
         claim="Tensions for theta = pi/12, phi = (pi/5) t, t from 0 to 10 s in steps of 0.2 s.",
         computed=(
@@ -83,7 +81,6 @@ def plane_tracking() -> Claim:
     first, second, third = tensions(EDGE * out, _BEND * out, 0.0 * out)[0]
     degrees = math.degrees(_BEND * 10.0)
     return Claim(
-        name="plane-tracking",
         where="5.3, Fig. 13",
         claim="Tensions for theta = (pi/4) t, phi = pi/6.",
         computed=(
@@ -139,7 +136,6 @@ def pid_gains() -> Claim:
     """Run the three readings of the gains from rest towards 15.53 deg, nothing fed forward."""
     radian, degree, moment = (loop(scale, feed_forward=False) for scale in scales().values())
     return Claim(
-        name="pid-gains",
         where="5.4, Fig. 14",
         claim="Kp = 2.8, KI = 0.004, KD = 0.38 on the result of Fig. 9 are an acceptable "
         "compromise.",
@@ -165,7 +161,6 @@ def pid_damping() -> Claim:
     table = scales()
     radian, degree = (loop(table[name], feed_forward=True) for name in ("radian", "degree"))
     return Claim(
-        name="pid-damping",
         where="5.4, Fig. 14",
         claim="The PID controller reduces the oscillations of Fig. 9 significantly.",
         computed=(

@@ -31,7 +31,6 @@ def table_1() -> Claim:
     """Derive from Table 1 what the equations need: E I_b, E I_b/l, I_xx, the mass."""
     bending_stiffness = SECTION.youngs_modulus * SECTION.second_moment_of_area
     return Claim(
-        name="table-1",
         where="Table 1",
         claim="The parameters and geometric properties of the robot under consideration.",
         computed=(
@@ -57,7 +56,6 @@ def elastic_energy() -> Claim:
     )
     slope = gap((ahead - behind) / (2.0 * step), K * angles)
     return Claim(
-        name="elastic-energy",
         where="4.2, (18); (23)",
         claim="U = E I_b theta^2/(2 l), and so K11 = E I_b/l.",
         computed=(
@@ -85,7 +83,6 @@ def gravity_ratio() -> Claim:
 
     start, end = percent(_NEARLY_STRAIGHT), percent(EDGE)
     return Claim(
-        name="gravity-ratio",
         where="4.2, Fig. 7; 6",
         claim="The gravitational energy is less than 0.27 % of the elastic energy.",
         computed=(
@@ -113,7 +110,6 @@ def gravity_neglected() -> Claim:
     )
     weight = ROBOT.mass * GRAVITY
     return Claim(
-        name="gravity-neglected",
         where="Abstract; 3.1; 4.2; 6",
         claim="The robot is light, so gravity can be neglected.",
         computed=(

@@ -71,7 +71,6 @@ def kinematics() -> Claim:
     start = gap(rotation(0.0, 0.7, 1.0), np.eye(3))
     worst = max(integral, pose, start)
     return Claim(
-        name="kinematics",
         where="3.2, (1), (2)",
         claim="Position and orientation along an arc of constant curvature, without torsion.",
         computed=(
@@ -94,7 +93,6 @@ def angular_velocity() -> Claim:
     missing = 2.0 * DISK_INERTIA * np.sum((1.0 - np.cos(turned)) ** 2)
     M22 = EDGE**2 * model().mass_matrix([EDGE, 0.0])[1, 1]
     return Claim(
-        name="angular-velocity",
         where="3.3, (3); 4.1.4, (16)",
         claim="The angular velocity is omega = t x dt/dt.",
         computed=(
@@ -119,7 +117,6 @@ def backbone_translation() -> Claim:
     first, second = gap(printed["H1"], derived.H1), gap(printed["H2"], derived.H2)
     start = factors(0.0)
     return Claim(
-        name="backbone-translation",
         where="4.1.1, (9)-(11)",
         claim="Translation of the backbone: l^2 m_b (H1/3 thetad^2 + H2/4 phid^2)/2.",
         computed=(
@@ -140,7 +137,6 @@ def backbone_taylor() -> Claim:
         gap(H2, [0.0, 1.0 / 5.0, -1.0 / 42.0]),
     )
     return Claim(
-        name="backbone-taylor",
         where="4.1.1, (12), (13)",
         claim="The Taylor polynomials of H1 and H2 to theta^4.",
         computed=(
@@ -161,7 +157,6 @@ def singularities() -> Claim:
     straight = factors(0.0, "taylor")
     left = max(abs(float(value)) for value in (straight.H2, straight.H4, straight.H6, straight.H8))
     return Claim(
-        name="singularities",
         where="1; 4.1.1",
         claim="Taylor expansions avoid the numerical singularities near theta = 0.",
         computed=(
@@ -179,7 +174,6 @@ def backbone_rotation() -> Claim:
     """Put l I_b of (14) beside the rotary inertia of a round rod, m_b d_b^2/16."""
     printed = SECTION.length * SECTION.second_moment_of_area
     return Claim(
-        name="backbone-rotation",
         where="4.1.2, (14), (21)",
         claim="Rotation of the backbone: l I_b (H3 thetad^2 + H4 phid^2)/2, I_b second moment of "
         "area.",
@@ -203,7 +197,6 @@ def moment_of_inertia() -> Claim:
         inertia = R @ np.diag([1.0, 1.0, 2.0]) @ R.T
         worst = max(worst, gap(omega @ inertia @ omega, omega @ omega))
     return Claim(
-        name="moment-of-inertia",
         where="4.1.4, (16), (17)",
         claim="The disks' moment of inertia turns with them; of it I_xx alone stands in (16).",
         computed=(

@@ -6,10 +6,8 @@ import numpy as np
 
 from cdcr.base.arrays import FloatArray
 from cdcr.model.coordinates import bending
-from cdcr.paper._factors import factors
 from cdcr.paper._polar import PolarModel, VelocityOrder
 from cdcr.paper.claims.common import (
-    DISK_INERTIA,
     EDGE,
     ROBOT,
     SAME,
@@ -21,6 +19,7 @@ from cdcr.paper.claims.common import (
     numbers,
     tiny,
 )
+from cdcr.paper.claims.printed import printed_inertia
 
 _START = (np.pi / 4.0, 0.0, 2.0, 6.0)  # theta, phi [rad], thetad, phid [rad/s] of a free swing
 _STEP, _TIME = 4e-3, 0.2  # [s]
@@ -56,7 +55,6 @@ def generalised_forces() -> Claim:
             )
             by_work, by_19 = max(by_work, gap(work, D)), max(by_19, gap(away, D))
     return Claim(
-        name="generalised-forces",
         where="4.3, (19); (24)",
         claim="Q = D F with the entries and signs of (24).",
         computed=(
@@ -82,7 +80,6 @@ def two_cables() -> Claim:
         for q in bending(np.full((len(phis), 1), theta), phis[:, np.newaxis])
     )
     return Claim(
-        name="two-cables",
         where="2; 4.3, (19)",
         claim="Two degrees of freedom by one or two cables at a time; phi in [0, 2pi/3] by "
         "cables 1 and 2.",
@@ -124,7 +121,6 @@ def velocity_order() -> Claim:
     """Integrate (20) from theta = pi/4 with some speed, without tension, in either order."""
     printed, mended = swing("printed"), swing("mended")
     return Claim(
-        name="velocity-order",
         where="4.4, (20), (22)",
         claim="The velocities beside C11, C12, C13 are (thetad^2, phid^2, thetad phid).",
         computed=(
@@ -155,7 +151,6 @@ def coefficients() -> Claim:
         worst = max(worst, gap(qdd, model().forward_dynamics(theta * out, qd, tension)))
     M = model().mass_matrix([EDGE, 0.0])
     return Claim(
-        name="coefficients",
         where="4.4, (20)-(24)",
         claim="M12 = 0, C11 = M11'/2, C13 = -M22'/2, C22 = M22', others zero; K11 alone in K.",
         computed=(
@@ -170,16 +165,11 @@ def coefficients() -> Claim:
 
 def missing_fractions() -> Claim:
     """Evaluate (21) literally at theta -> 0, where M11 must be M22/theta^2, and mended."""
-    l, theta = SECTION.length, 1e-6
-    H = factors(theta, "printed")
-    rod, disk = l**2 * SECTION.backbone_mass, l**2 * SECTION.disk_mass
-    turning = l * SECTION.second_moment_of_area
-    M11 = rod * H.H1 + turning * H.H3 + disk * H.H5 + DISK_INERTIA * H.H7
-    M22 = rod * H.H2 + turning * H.H4 + disk * H.H6 + DISK_INERTIA * H.H8
+    theta = 1e-6
+    M11, M22 = printed_inertia(theta, ROBOT)
     across = M22 / theta**2
     M = model().mass_matrix([0.0, 0.0])
     return Claim(
-        name="missing-fractions",
         where="4.4, (21), (22)",
         claim="M11 = l^2 m_b H1 + ..., M22 = l^2 m_b H2 + ...",
         computed=(

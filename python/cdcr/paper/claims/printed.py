@@ -6,9 +6,13 @@ They lose digits towards theta = 0, as closed forms with theta below the fractio
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from cdcr.base.arrays import FloatArray
+from cdcr.paper._factors import factors
+from cdcr.robot.robot import Robot
 
 _TENTHS = np.arange(1, 11) / 10.0
 
@@ -53,6 +57,23 @@ def printed_h6(t: FloatArray, ninth: FloatArray) -> FloatArray:
         - 3.0 * (c(0.2 * t) + c(0.4 * t) + c(0.6 * t) + c(0.8 * t) + c(t))
     )
     return total / (4.0 * t**2)
+
+
+def printed_inertia(theta: Any, robot: Robot, kind: str = "printed") -> tuple[Any, Any]:
+    """Return M11 and M22 by eq. (21) with every error of the print (E2, E3, E4, E5) [kg m^2].
+
+    Its l I_b is an area's moment, so the sum is not one of inertias; it is small.
+    """
+    section, H = robot.sections[0], factors(theta, kind)
+    weights = (
+        section.length**2 * section.backbone_mass,
+        section.length * section.second_moment_of_area,
+        section.length**2 * section.disk_mass,
+        section.disk_mass * section.disk_diameter**2 / 16.0,
+    )
+    M11 = sum(w * h for w, h in zip(weights, H[0::2], strict=True))
+    M22 = sum(w * h for w, h in zip(weights, H[1::2], strict=True))
+    return M11, M22
 
 
 def _printed_h7(t: FloatArray) -> FloatArray:

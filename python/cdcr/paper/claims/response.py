@@ -70,7 +70,6 @@ def free_oscillation() -> Claim:
     theta = swing(damped, times, _START).theta[:, 0]
     settled = last_outside(times, theta, 0.0, _BAND * _START)
     return Claim(
-        name="free-oscillation",
         where="5.1, Fig. 8",
         claim="From theta = pi/4 without tension the oscillation settles after 37.68 s.",
         computed=(
@@ -101,7 +100,6 @@ def sample_step() -> Claim:
     left = 100.0 * math.sqrt(float(run.energy[-1] / run.energy[0]))
     samples = 2.0 * math.pi / omega / _SAMPLE
     return Claim(
-        name="sample-step",
         where="5.1, Fig. 8",
         claim="The sample step is 0.06 s.",
         computed=(
@@ -120,7 +118,6 @@ def step_tension() -> Claim:
     degrees = math.degrees(theta)
     modulus = SECTION.youngs_modulus * degrees / PRINTED_ANGLE / 1e9
     return Claim(
-        name="step-tension",
         where="5.2, Fig. 9",
         claim="5 N on cable 1 bring theta to a new stable value of 15.53 deg.",
         computed=(
@@ -140,7 +137,6 @@ def step_oscillation() -> Claim:
     theta = np.degrees(swing(model(), times, 0.0, PULL).theta[:, 0])
     first, last = np.ptp(theta[:1000]), np.ptp(theta[-1000:])
     return Claim(
-        name="step-oscillation",
         where="5.2, Fig. 9",
         claim="The robot presents some oscillations around the new stable value.",
         computed=(
@@ -160,7 +156,6 @@ def step_orientation() -> Claim:
     run = swing(model(), np.linspace(0.0, 10.0, 1001), 0.0, PULL)
     sideways = float(np.max(np.abs(run.q[:, 1])))
     return Claim(
-        name="step-orientation",
         where="5.2, Fig. 9",
         claim="The orientation angle phi remains zero.",
         computed=f"Yes, by symmetry: theta sin(phi) stays within {tiny(sideways)} rad.",
@@ -175,7 +170,6 @@ def two_tensions() -> Claim:
     theta, phi = (math.degrees(angle) for angle in polar(q))
     _, p = model().tip(q)
     return Claim(
-        name="two-tensions",
         where="5.2, Fig. 10",
         claim="Tensions on cables 1 and 2 bring the tip to coordinates taken after stabilisation.",
         computed=(

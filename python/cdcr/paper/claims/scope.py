@@ -44,7 +44,6 @@ def real_time() -> Claim:
     """Time step-tension over 10 s with steps of 1 ms, exact and Taylor, on this computer."""
     exact, taylor = times_real_time(model()), times_real_time(Model(ROBOT, "taylor"))
     return Claim(
-        name="real-time",
         where="Abstract; 1; 5.5",
         claim="The simplified model is efficient for real time and for control.",
         computed=(
@@ -103,7 +102,6 @@ def more_sections() -> Claim:
     in_q = least_inertia(lambda q: chain(q, A, S))
     in_angles = least_inertia(lambda angles: chain(bending(angles[0::2], angles[1::2]), A, S))
     return Claim(
-        name="more-sections",
         where="Abstract; 6",
         claim="More than 2 DOF lead to a more complex expression that cannot be simplified by "
         "similar means.",
@@ -123,7 +121,6 @@ def comparison() -> Claim:
     """Collect what could be compared: the one static number and the one that is near a ratio."""
     degrees = float(np.degrees(SECTION.cable_radius * PULL / SECTION.stiffness))
     return Claim(
-        name="comparison",
         where="Abstract; 5.5; 6",
         claim="Static and forward results are very similar in shape to [25], with friction or "
         "without; inverse ones to [15]. This validates the model.",
@@ -149,7 +146,6 @@ def simple_expressions() -> Claim:
     ratios = frequencies(Model(ROBOT, "taylor")) / frequencies(model())
     error = 100.0 * float(np.max(np.abs(ratios - 1.0)))
     return Claim(
-        name="simple-expressions",
         where="5.5; 6",
         claim="The expressions are simple, beside those of [27], and ease simulation and control.",
         computed=(

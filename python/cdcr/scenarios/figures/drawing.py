@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from cdcr._core import taylor_range
+from cdcr.base.arrays import FloatArray
+from cdcr.plotting import panels
 from cdcr.plotting.style import StyledFigure
+
+if TYPE_CHECKING:
+    from cdcr.runs.trajectory import Trajectory
 
 RANGE_DEG = float(np.rad2deg(taylor_range))
 NUM_ANGLES = 302  # even, so that none is zero, where some factors vanish
@@ -41,16 +48,28 @@ def legend_below(figure: Any, axes: Axes, ncols: int = 4) -> None:
     figure.legend(handles, labels, loc="outside lower center", ncols=ncols, handlelength=2.6)
 
 
-def legend_above(axes: Axes, ncols: int = 4) -> None:
-    """Put the legend of a panel above it, so that it lies on no data."""
-    axes.legend(
-        loc="lower right",
-        bbox_to_anchor=(1.0, 1.0),
-        ncols=ncols,
-        borderaxespad=0.1,
-        columnspacing=1.2,
-        handlelength=2.2,
-    )
+def legend_over(
+    figure: Figure, axes: Any, room: FloatArray, height: float, *, ncols: int = 2, **look: Any
+) -> None:
+    """Put the legend of Axes3D over the middle of its room [in], at a share of the height."""
+    handles, labels = axes.get_legend_handles_labels()
+    place = (room[0] / figure.get_figwidth() / 2.0, height)
+    figure.legend(handles, labels, loc="upper center", bbox_to_anchor=place, ncols=ncols, **look)
+
+
+def share_time(figure: Figure, charts: Sequence[Axes], run: Trajectory) -> None:
+    """Give panels, one above the other, one axis of time."""
+    for axes in charts:
+        panels.show_time(axes, run, named=axes is charts[-1])
+    figure.align_ylabels(charts)
+
+
+def name_point(
+    axes: Axes, text: str, point: tuple[float, float], offset: tuple[float, float], **look: Any
+) -> None:
+    """Write a name beside a point, so far from it [pt]."""
+    look = {"va": "center"} | look
+    axes.annotate(text, point, xytext=offset, textcoords="offset points", **look)
 
 
 def note(axes: Axes, text: str) -> None:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.axes import Axes
 
+from cdcr.plotting.panels import keep_span
 from cdcr.plotting.style import COLORS, StyledFigure, style
 from cdcr.scenarios.figures.drawing import (
     bending_angles,
@@ -55,7 +56,7 @@ def _draw_values(axes: Axes, factor: str) -> None:
         axes.plot(angle, whole, color=color, linewidth=WIDE, alpha=0.45, label=word)
         axes.plot(angle, series, color=color, linestyle="--", label=rf"{word}, to $\theta^4$")
     axes.set_ylabel(f"$H_{factor[1:]}$ [1]")
-    _keep_span(axes, 0.02 * float(np.max(np.abs(axes.get_ylim()))))
+    keep_span(axes, 0.02 * float(np.max(np.abs(axes.get_ylim()))))
 
 
 def _draw_errors(axes: Axes, factor: str) -> None:
@@ -66,10 +67,4 @@ def _draw_errors(axes: Axes, factor: str) -> None:
         error = taylor_error(factor, theta, kind)
         axes.plot(np.rad2deg(theta), error, color=color, linestyle=dashes)
     axes.set_ylabel(rf"error of $\bar H_{factor[1:]}$ [%]")
-    _keep_span(axes, MIN_ERROR)
-
-
-def _keep_span(axes: Axes, smallest: float) -> None:
-    low, high = axes.get_ylim()
-    missing = max(0.0, smallest - (high - low))
-    axes.set_ylim(low - missing / 2, high + missing / 2)
+    keep_span(axes, MIN_ERROR)

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.axes import Axes
 
-from cdcr.plotting import panels
 from cdcr.plotting.style import ALARM, BLACK, GREY, StyledFigure, line_colors, style
-from cdcr.scenarios.figures.drawing import legend_below, new_figure, note
+from cdcr.scenarios.figures.drawing import legend_below, new_figure, note, share_time
 from cdcr.scenarios.studies import free_oscillation as study
 
 if TYPE_CHECKING:
@@ -30,9 +29,7 @@ def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
         note(damped, rf"with a damping of {1e4 * study.DAMPING:.2f}$\cdot 10^{{-4}}$ N m s/rad")
         _draw_amplitudes(loose, run, others)
         note(loose, "no damping, loose integrators: none drawn here explains the settling")
-        for axes in (free, damped, loose):
-            panels.show_time(axes, run, named=axes is loose)
-        figure.align_ylabels()
+        share_time(figure, [free, damped, loose], run)
         legend_below(figure, loose, ncols=4)
     return figure
 

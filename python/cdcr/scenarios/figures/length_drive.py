@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from cdcr.plotting import panels, space
+from cdcr.plotting import space
 from cdcr.plotting.geometry import states_at
 from cdcr.plotting.robot3d import RobotArtists, show_robot
 from cdcr.plotting.style import BLACK, GREY, LIGHT_GREY, StyledFigure, line_colors, style
-from cdcr.scenarios.figures.drawing import note
+from cdcr.scenarios.figures.drawing import legend_over, name_point, note, share_time
 from cdcr.scenarios.figures.workspace import add_panels, new_figure
 from cdcr.scenarios.studies.length_drive import BACK, GO, errors, stiffer, wanted
 
@@ -34,9 +34,7 @@ def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
         _draw_theta(theta, scenario, run)
         _draw_errors(error, scenario, run)
         _draw_tensions(tension, run)
-        for axes in (theta, error, tension):
-            panels.show_time(axes, run, named=axes is tension)
-        figure.align_ylabels([theta, error, tension])
+        share_time(figure, [theta, error, tension], run)
     return figure
 
 
@@ -54,9 +52,7 @@ def _draw_robot(figure: StyledFigure, scenario: Scenario, run: Trajectory) -> No
     axes.plot(*line.T, color=BLACK, linewidth=1.8, linestyle=":", zorder=20, label="wanted")
     axes.plot(*run.tip.T, color=GREY, linewidth=1.0, zorder=19, label="path of the tip")
     space.fill(axes, ROOM)
-    middle = ROOM[0] / SIZE[0] / 2.0
-    handles, labels = axes.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="upper center", bbox_to_anchor=(middle, 0.82), ncols=2)
+    legend_over(figure, axes, ROOM, 0.82)
 
 
 def _draw_theta(axes: Axes, scenario: Scenario, run: Trajectory) -> None:
@@ -71,15 +67,8 @@ def _draw_theta(axes: Axes, scenario: Scenario, run: Trajectory) -> None:
     note(axes, "dashed: commanded; full: reached")
     held = int(np.searchsorted(run.t, min((GO + 3.0 * BACK) / 4.0, run.t[-1])))
     for i, color in enumerate(colors):
-        axes.annotate(
-            f"section {i + 1}",
-            (run.t[held], asked[held, i]),
-            xytext=(0, 2),
-            textcoords="offset points",
-            ha="center",
-            va="bottom",
-            color=color,
-        )
+        point = (run.t[held], asked[held, i])
+        name_point(axes, f"section {i + 1}", point, (0, 2), ha="center", va="bottom", color=color)
 
 
 def _draw_errors(axes: Axes, scenario: Scenario, run: Trajectory) -> None:

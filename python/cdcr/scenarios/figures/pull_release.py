@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 
 from cdcr.plotting import panels
 from cdcr.plotting.style import BLACK, COLORS, GREY, StyledFigure, style
-from cdcr.scenarios.figures.drawing import new_figure, note
+from cdcr.scenarios.figures.drawing import name_point, new_figure, note
 from cdcr.scenarios.studies import pull_release as study
 from cdcr.scenarios.studies.energy import integral
 
@@ -75,15 +75,8 @@ def _name(
     """Write a name beside the line of a run, where it is after some ramps."""
     k = int(np.searchsorted(run.t, ramps * study.RAMP))
     if k < len(run):
-        axes.annotate(
-            text,
-            (1e3 * run.tip[k, 0], run.tension[k, 0]),
-            xytext=offset,
-            textcoords="offset points",
-            color=color,
-            ha=side,
-            va="center",
-        )
+        point = (1e3 * run.tip[k, 0], run.tension[k, 0])
+        name_point(axes, text, point, offset, color=color, ha=side)
 
 
 def _draw_work(axes: Axes, run: Trajectory, smooth: Trajectory) -> None:
@@ -127,25 +120,13 @@ def _draw_tension(axes: Axes, run: Trajectory) -> None:
     note(axes, r"shaded: what the capstan equation allows, $F\,e^{\pm\mu\theta}$")
     top = min(study.RAMP, float(run.t[-1]))
     k = int(np.searchsorted(run.t, top))
-    axes.annotate(
-        "at the base",
-        (run.t[k], base[k]),
-        xytext=(0, 34),
-        textcoords="offset points",
-        ha="center",
-        color=BLACK,
-        arrowprops={"arrowstyle": "-", "color": BLACK, "linewidth": 0.7},
-    )
-    axes.annotate(
-        "beyond\nthe section",
-        (run.t[k], far[k]),
-        xytext=(0, -44),
-        textcoords="offset points",
-        ha="center",
-        va="top",
-        color=FAR,
-        arrowprops={"arrowstyle": "-", "color": FAR, "linewidth": 0.7},
-    )
+    for name, values, away, side, color in (
+        ("at the base", base, 34, "baseline", BLACK),
+        ("beyond\nthe section", far, -44, "top", FAR),
+    ):
+        line = {"arrowstyle": "-", "color": color, "linewidth": 0.7}
+        look = {"ha": "center", "va": side, "color": color, "arrowprops": line}
+        name_point(axes, name, (run.t[k], values[k]), (0, away), **look)
     panels.show_time(axes, run, named=False)
 
 

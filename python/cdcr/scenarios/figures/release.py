@@ -11,14 +11,8 @@ from cdcr.base.arrays import FloatArray
 from cdcr.plotting import panels
 from cdcr.plotting.geometry import states_at
 from cdcr.plotting.style import BLACK, StyledFigure, line_colors, style
-from cdcr.scenarios.figures.drawing import legend_above, note
-from cdcr.scenarios.figures.sections import (
-    PLACE,
-    SIZE,
-    draw_bending,
-    draw_robot,
-    finish,
-)
+from cdcr.scenarios.figures.drawing import note, share_time
+from cdcr.scenarios.figures.sections import PLACE, SIZE, draw_bending, draw_robot
 from cdcr.scenarios.figures.workspace import add_panels, new_figure
 from cdcr.scenarios.studies.energy import cable_work, dissipated
 from cdcr.scenarios.studies.release import at_rest
@@ -57,7 +51,7 @@ def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
         note(bends[0], "of each section, in the frame of its base")
         _draw_tip(tip, run, run.model.tip(rest)[1])
         _draw_energy(energy, run)
-        finish(figure, timed, run)
+        share_time(figure, timed, run)
         if pulled:
             _draw_held_tensions(charts[-1], run)
             figure.align_ylabels(charts)
@@ -82,7 +76,7 @@ def _draw_tip(axes: Axes, run: Trajectory, rest: FloatArray) -> None:
         axes.axhline(rest[k], color=color, linewidth=0.9, dashes=(6, 4))
     axes.set_ylabel("tip position [m]")
     note(axes, "dashed: at rest")
-    legend_above(axes)
+    panels.legend_above(axes)
 
 
 def _draw_energy(axes: Axes, run: Trajectory) -> None:
@@ -100,4 +94,4 @@ def _draw_energy(axes: Axes, run: Trajectory) -> None:
         axes.plot(run.t, 1e3 * values, color=color, label=name)
     axes.plot(run.t, 1e3 * sum(parts.values()), color=BLACK, linewidth=1.0, label="sum")
     axes.set_ylabel("energy [mJ]")
-    legend_above(axes)
+    panels.legend_above(axes)

@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from cdcr.base.arrays import FloatArray
 from cdcr.plotting import panels, plot_run_robot, space
 from cdcr.plotting.style import BLACK, StyledFigure, line_colors, style
+from cdcr.scenarios.figures.drawing import share_time
 from cdcr.scenarios.figures.workspace import add_panels, new_figure
 from cdcr.scenarios.metrics import static_theta, swing_times
 
@@ -51,8 +52,7 @@ def _draw_panels(figure: StyledFigure, run: Trajectory, wrenches: Sequence[Wrenc
         plot(axes, run)
         if plot is panels.plot_theta:
             _mark_rest(axes, static_theta(run, wrenches))
-        panels.show_time(axes, run, named=plot is plots[-1])
-    figure.align_ylabels()
+    share_time(figure, charts, run)
 
 
 def _mark_rest(axes: Axes, rest: FloatArray | None) -> None:
@@ -71,6 +71,4 @@ def _plot_phi(axes: Axes, run: Trajectory) -> None:
     for i, color in enumerate(line_colors(run.model.num_sections)):
         axes.plot(run.t, phi[:, i], color=color)
     axes.set_ylabel(r"orientation $\varphi$ [deg]")
-    shown = phi[np.isfinite(phi)]
-    if shown.size and np.ptp(shown) < MIN_SPAN:
-        axes.set_ylim(shown.min() - MIN_SPAN / 2, shown.max() + MIN_SPAN / 2)
+    panels.keep_span(axes, MIN_SPAN)

@@ -12,6 +12,7 @@ from cdcr.base.arrays import FloatArray
 from cdcr.plotting import panels, space
 from cdcr.plotting.robot3d import RobotArtists, section_colors, show_robot
 from cdcr.plotting.style import BLACK, GREY, StyledFigure
+from cdcr.scenarios.figures.drawing import legend_over
 
 if TYPE_CHECKING:
     from cdcr.runs.trajectory import Trajectory
@@ -44,17 +45,8 @@ def draw_robot(
         axes.plot(*run.tip[:1].T, "o", color=BLACK, markersize=9, zorder=25, label=f"{fallen}, 0 s")
     for q, name in zip(states, names, strict=True):
         _name_shape(axes, *model.tip(q), name)
-    handles, labels = axes.get_legend_handles_labels()
-    middle = ROOM[0] / SIZE[0] / 2.0
-    figure.legend(
-        handles,
-        labels,
-        loc="upper center",
-        bbox_to_anchor=(middle, 0.95),
-        ncols=len(labels),
-        handlelength=1.4,
-        columnspacing=1.2,
-    )
+    count = len(axes.get_legend_handles_labels()[0])
+    legend_over(figure, axes, ROOM, 0.95, ncols=count, handlelength=1.4, columnspacing=1.2)
 
 
 def _name_shape(axes: Any, R: FloatArray, p: FloatArray, name: str) -> None:
@@ -64,13 +56,6 @@ def _name_shape(axes: Any, R: FloatArray, p: FloatArray, name: str) -> None:
     side = "center" if abs(across) < SLANTED else "left" if across > 0.0 else "right"
     place = p + BEYOND * away @ paper
     axes.text(*place, name, fontsize=9.5, color=BLACK, ha=side, va="center", zorder=30)
-
-
-def finish(figure: StyledFigure, charts: Sequence[Axes], run: Trajectory) -> None:
-    """Give panels one axis of time."""
-    for axes in charts:
-        panels.show_time(axes, run, named=axes is charts[-1])
-    figure.align_ylabels(charts)
 
 
 def draw_bending(axes: Axes, run: Trajectory, component: int) -> None:

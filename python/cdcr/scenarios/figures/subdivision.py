@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.axes import Axes
 
+from cdcr.base.check import count
 from cdcr.plotting import panels
 from cdcr.plotting.style import BLACK, COLORS, GREY, StyledFigure, style
-from cdcr.scenarios.figures.drawing import legend_above, new_figure, note
+from cdcr.scenarios.figures.drawing import name_point, new_figure, note
 from cdcr.scenarios.studies import subdivision as study
 
 if TYPE_CHECKING:
@@ -42,15 +43,8 @@ def _draw_frequencies(axes: Axes) -> None:
         limit = study.beam()[mode] / (2.0 * np.pi)
         axes.plot(counts, hertz, color=color, marker=mark, markersize=5)
         axes.axhline(limit, color=color, linestyle="--", linewidth=1.0)
-        axes.annotate(
-            f"mode {mode + 1}\n{limit:.3g} Hz",
-            (1.0, limit),
-            xycoords=axes.get_yaxis_transform(),
-            xytext=(6, 0),
-            textcoords="offset points",
-            va="center",
-            color=color,
-        )
+        name, side = f"mode {mode + 1}\n{limit:.3g} Hz", axes.get_yaxis_transform()
+        name_point(axes, name, (1.0, limit), (6, 0), xycoords=side, color=color)
     axes.set_yscale("log")
     ticks = [1, 2, 5, 10, 20, 50]
     axes.set_yticks(ticks, [str(tick) for tick in ticks])
@@ -65,26 +59,12 @@ def _draw_convergence(axes: Axes) -> None:
     for mode, (color, mark) in enumerate(zip(COLORS[: study.SHOWN], MARKS, strict=True)):
         counts, _, percent = _of_mode(mode)
         axes.plot(counts, percent, color=color, marker=mark, markersize=5)
-        axes.annotate(
-            f"mode {mode + 1}:\norder {study.order(mode):.2f}",
-            (counts[-1], percent[-1]),
-            xytext=(8, 0),
-            textcoords="offset points",
-            va="center",
-            color=color,
-        )
+        name = f"mode {mode + 1}:\norder {study.order(mode):.2f}"
+        name_point(axes, name, (counts[-1], percent[-1]), (8, 0), color=color)
     start, end = study.COUNTS[1], study.COUNTS[-1]
     first = 100.0 * study.excess(start)[0] / 2.0
     axes.plot([start, end], [first, first * (start / end) ** 2], color=GREY, linestyle=":")
-    axes.annotate(
-        "order 2",
-        (start, first),
-        xytext=(-4, 0),
-        textcoords="offset points",
-        ha="right",
-        va="center",
-        color=GREY,
-    )
+    name_point(axes, "order 2", (start, first), (-4, 0), ha="right", color=GREY)
     axes.set(xscale="log", yscale="log")
     axes.set_xticks(study.COUNTS, [str(parts) for parts in study.COUNTS])
     ticks = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50]
@@ -101,9 +81,9 @@ def _draw_responses(axes: Axes) -> None:
         runs.items(), (*COLORS[1 : study.SHOWN + 1], BLACK), strict=True
     ):
         dashes = "--" if parts == study.STEPS[-1] else "-"
-        label = f"{parts} part{'s' if parts > 1 else ''}"
-        axes.plot(run.t, 1e3 * run.tip[:, 0], color=color, linestyle=dashes, label=label)
-    legend_above(axes)
+        name, x = count(parts, "part"), 1e3 * run.tip[:, 0]
+        axes.plot(run.t, x, color=color, linestyle=dashes, label=name)
+    panels.legend_above(axes)
     axes.set_ylabel("tip displacement x [mm]")
     note(
         axes,

@@ -9,8 +9,8 @@ from matplotlib.axes import Axes
 
 from cdcr.plotting import panels
 from cdcr.plotting.style import BLACK, StyledFigure, style
-from cdcr.scenarios.figures.drawing import legend_above, note
-from cdcr.scenarios.figures.sections import PLACE, SIZE, draw_bending, draw_robot, finish
+from cdcr.scenarios.figures.drawing import note, share_time
+from cdcr.scenarios.figures.sections import PLACE, SIZE, draw_bending, draw_robot
 from cdcr.scenarios.figures.workspace import add_panels, new_figure
 from cdcr.scenarios.studies.three_sections import ends, goals
 
@@ -36,7 +36,7 @@ def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
         note(bend_x, "of each section, in the frame of its base; dashed: asked for")
         for i, axes in enumerate(pulls):
             _draw_tensions(axes, run, i)
-        finish(figure, charts, run)
+        share_time(figure, charts, run)
     return figure
 
 
@@ -61,4 +61,4 @@ def _draw_tensions(axes: Axes, run: Trajectory, section: int) -> None:
     axes.set_ylim(-0.05 * run.tension.max(), 1.08 * run.tension.max())
     axes.set_ylabel("tension [N]")
     note(axes, f"cables that end at section {section + 1}")
-    legend_above(axes)
+    panels.legend_above(axes)

@@ -11,7 +11,7 @@ from cdcr.plotting import panels
 from cdcr.plotting.style import ALARM, BLACK, COLORS, StyledFigure, style
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.figures import workspace
-from cdcr.scenarios.figures.drawing import legend_above, note
+from cdcr.scenarios.figures.drawing import note, share_time
 from cdcr.scenarios.studies.tracking import FINE_STEP, STEP, asked, error, fine_run, inverse
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ SAME = 1e-9  # bending angles that differ by less are one [rad]
 
 
 def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
-    """Draw a run that was fed with the tensions of inverse dynamics, and what was asked for."""
+    """Draw a run under the tensions of inverse dynamics, and what was asked for."""
     with style():
         figure = workspace.new_figure(scenario.title)
         _draw_paths(figure, scenario, run)
@@ -31,9 +31,7 @@ def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
         _draw_angles(angles, scenario, run)
         _draw_tensions(tensions, scenario, run)
         _draw_errors(errors, scenario, run)
-        for axes in (angles, tensions, errors):
-            panels.show_time(axes, run, named=axes is errors)
-        figure.align_ylabels([angles, tensions, errors])
+        share_time(figure, [angles, tensions, errors], run)
     return figure
 
 
@@ -58,7 +56,7 @@ def _draw_angles(axes: Axes, scenario: Scenario, run: Trajectory) -> None:
         axes.plot(run.t, np.rad2deg(values), color=color, linestyle="--", label=name)
     axes.set_ylabel("angles [deg]")
     note(axes, "wide: asked for, dashed: reached")
-    legend_above(axes)
+    panels.legend_above(axes)
 
 
 def _draw_tensions(axes: Axes, scenario: Scenario, run: Trajectory) -> None:
@@ -69,7 +67,7 @@ def _draw_tensions(axes: Axes, scenario: Scenario, run: Trajectory) -> None:
         axes.plot(coarse.t, coarse.tension[:, j], ".", color=COLORS[j], markersize=4.5)
     axes.set_ylabel("tension [N]")
     note(axes, f"by inverse dynamics; dots every {STEP:g} s")
-    legend_above(axes)
+    panels.legend_above(axes)
 
 
 def _draw_errors(axes: Axes, scenario: Scenario, run: Trajectory) -> None:
@@ -80,5 +78,5 @@ def _draw_errors(axes: Axes, scenario: Scenario, run: Trajectory) -> None:
         angle = np.rad2deg(error(scenario, other))
         axes.semilogy(other.t, np.maximum(angle, SMALLEST), color=color, label=f"{step:g} s")
     axes.set_ylabel("path error [deg]")
-    note(axes, "tensions fed back, lines between samples every")
-    legend_above(axes)
+    note(axes, "under these tensions, lines between samples every")
+    panels.legend_above(axes)

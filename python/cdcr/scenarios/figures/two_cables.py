@@ -12,7 +12,7 @@ from cdcr.plotting.geometry import states_at
 from cdcr.plotting.style import BLACK, COLORS, StyledFigure, style
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.figures import workspace
-from cdcr.scenarios.figures.drawing import legend_above, note
+from cdcr.scenarios.figures.drawing import note, share_time
 from cdcr.scenarios.studies.two_cables import RESTS, settled
 
 if TYPE_CHECKING:
@@ -33,11 +33,9 @@ def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
             axes.plot(run.t, tips[:, k], color=BLACK, ls="--", linewidth=1.2, label="settled")
             axes.set_ylabel(f"tip {name} [m]")
             axes.margins(y=0.12)
-        legend_above(tip[0])
+        panels.legend_above(tip[0])
         note(tension, "chosen by us")
-        for axes in (tension, *tip):
-            panels.show_time(axes, run, named=axes is tip[-1])
-        figure.align_ylabels([tension, *tip])
+        share_time(figure, [tension, *tip], run)
     return figure
 
 

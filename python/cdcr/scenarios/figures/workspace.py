@@ -14,6 +14,7 @@ from cdcr.model.model import Model
 from cdcr.plotting import space
 from cdcr.plotting.robot3d import RobotArtists, show_robot
 from cdcr.plotting.style import GREY, StyledFigure
+from cdcr.scenarios.figures.drawing import legend_over
 
 SIZE = (12.4, 7.2)  # of the picture [in]
 ROOM = np.array([6.2, 6.5])  # of the surface, at the left [in]
@@ -54,9 +55,7 @@ def add_surface(figure: StyledFigure, model: Model, states: FloatArray, largest:
 def finish_surface(figure: StyledFigure, axes: Any) -> None:
     """Give the surface its place, and its legend below it."""
     space.fill(axes, ROOM)
-    middle = ROOM[0] / SIZE[0] / 2.0
-    handles, labels = axes.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="upper center", bbox_to_anchor=(middle, 0.945), ncols=2)
+    legend_over(figure, axes, ROOM, 0.945)
 
 
 def add_panels(figure: StyledFigure, heights: list[float], **place: float) -> list[Axes]:

@@ -69,6 +69,9 @@ def load_scenario(path: str | PathLike[str]) -> Scenario:
     refuse(str(file), schema_errors(ScenarioTable, table))
     integrator = table.get("integrator", {})
     refuse(str(file), schema_errors(IntegratorTable, integrator, "integrator"))
+    motion = table.get("trajectory", {})
+    if "feed_back" in motion and "simulate" not in motion:
+        motion["simulate"] = motion.pop("feed_back")  # its old name
     refuse(str(file), _input_errors(table))
     robot = read_robot(table["robot"], file)
     with error_prefix(str(file)):
@@ -111,15 +114,15 @@ def _input_errors(table: Mapping[str, Any]) -> list[str]:
     if len(given) > 1:
         got = " and ".join(given)
         found.append(f"there must be only one of tension, trajectory and controller, got {got}")
-    fed = table.get("trajectory", {}).get("feed_back", False)
-    if "trajectory" in table and "initial" in table and not fed:
-        found.append(
-            "initial needs feed_back = true in [trajectory]; without it nothing starts anywhere"
-        )
-    if "trajectory" in table and "wrenches" in table and not fed:
-        found.append(
-            "wrenches need feed_back = true in [trajectory]; without it nothing is simulated"
-        )
+    motion = table.get("trajectory", {})
+    if "feed_back" in motion:
+        found.append("trajectory must have simulate or feed_back, its old name, not both")
+    if "trajectory" in table and not motion.get("simulate", False):
+        needs = "simulate = true in [trajectory]; without it nothing"
+        if "initial" in table:
+            found.append(f"initial needs {needs} starts anywhere")
+        if "wrenches" in table:
+            found.append(f"wrenches need {needs} is simulated")
     return found
 
 
@@ -138,7 +141,7 @@ def _input(table: Mapping[str, Any], model: Model, file: Path) -> dict[str, Any]
             "q0": q0,
             "qd0": qd0,
         }
-        return fields if motion.feed_back else fields | {"method": "inverse dynamics"}
+        return fields if motion.simulate else fields | {"method": "inverse dynamics"}
     tension = read_tension(table.get("tension"), model, file)
     return {"input_source" if isinstance(tension, TensionShapes) else "tension": tension}
 

@@ -84,7 +84,7 @@ class _Tracking(BaseModel):
     min_tension: float = optional("a number >= 0 [N]", ge=0.0, allow_inf_nan=False)
     max_tension: float = optional("a number > 0 [N], or inf for no limit", gt=0.0)
     infeasible: Literal["raise", "nearest"] = optional('"raise" or "nearest"')
-    feed_back: bool = optional("true or false")
+    simulate: bool = optional("true or false")
     shorter: float = optional("a number [m]", allow_inf_nan=False)
     step: float = optional("a number > 0 [s]", gt=0.0, allow_inf_nan=False)
 

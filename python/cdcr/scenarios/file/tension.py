@@ -15,9 +15,11 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from cdcr.base.arrays import FloatArray, even_times
+from cdcr.base.check import count
 from cdcr.files.number_csv import Layout, read_numbers
 from cdcr.files.toml import format_toml, refuse, schema_errors
 from cdcr.model.model import Model
+from cdcr.robot.file import doubled
 from cdcr.runs.command import Interpolation, TensionTable, command_input
 from cdcr.scenarios.file import values
 from cdcr.scenarios.file.shapes import Shape, TensionShapes, pulse, ramp, sine, step
@@ -88,7 +90,7 @@ def read_tension(
     num_cables = model.num_cables
     tension = model.rest_command() if value is None else value
     if len(tension) != num_cables:
-        requirement = f"tension must have {values.count(num_cables, 'number')}, one for each cable"
+        requirement = f"tension must have {count(num_cables, 'number')}, one for each cable"
         refuse(str(file), [f"{requirement}, got {format_toml(value)}"])
     return tuple(map(float, tension))
 
@@ -119,7 +121,7 @@ def _over_time(table: dict[str, Any], model: Model, file: Path) -> TensionTable:
 def _row_errors(t: list[float], rows: list[list[float]], num_cables: int) -> list[str]:
     if len(rows) != len(t):
         return [f"rows must be as many as t, {len(t)}, got {len(rows)}"]
-    must = f"must have {values.count(num_cables, 'number')}, one for each cable"
+    must = f"must have {count(num_cables, 'number')}, one for each cable"
     return [
         f"rows[{i}] {must}, got {len(row)}" for i, row in enumerate(rows) if len(row) != num_cables
     ]
@@ -174,9 +176,7 @@ def _shapes(tables: list[dict[str, Any]], model: Model, file: Path, name: str) -
         if not wrong and table["cable"] > model.num_cables:
             requirement = f"the number of a cable, 1 to {model.num_cables}"
             wrong.append(f"{at}.cable must be {requirement}, got {table['cable']}")
-        if "phase" in table and "phase_deg" in table:
-            wrong.append(f"{at} must have phase or phase_deg, not both")
-        found += wrong
+        found += wrong + doubled(table, at, "phase")
     refuse(str(file), found)
     shapes = []
     for i, table in enumerate(tables):

@@ -46,10 +46,10 @@ class TrackedMotion:
         Limits of every tension [N].
     infeasible : {"raise", "nearest"}
         What to do where the limits are too narrow.
-    feed_back : bool
-        Whether the tensions are then fed to the robot.
+    simulate : bool
+        Whether the robot then moves under the tensions, open loop.
     step : float, optional
-        Time between the commands fed, which lines connect [s]; by default they are found anew
+        Time between the commands, which lines connect [s]; by default they are found anew
         whenever the integrator asks.
     shorter : float
         How much shorter than along the motion cables driven by length are wound [m].
@@ -62,15 +62,15 @@ class TrackedMotion:
     min_tension: float = 0.0
     max_tension: float = np.inf
     infeasible: Infeasible = "raise"
-    feed_back: bool = False
+    simulate: bool = False
     step: float | None = None
     shorter: float = 0.0
     derivative_error: tuple[float, float] = (0.0, 0.0)
 
     @property
     def integrates(self) -> bool:
-        """Whether the tensions are fed to the robot."""
-        return self.feed_back
+        """Whether the robot moves under the tensions."""
+        return self.simulate
 
     def reference(self, t: FloatArray) -> Reference:
         """Return the motion at times (N,) [s]."""
@@ -105,7 +105,7 @@ class TrackedMotion:
         **options: Any,
     ) -> Trajectory:
         """Run the robot under the commands needed, or return the motion itself with them."""
-        if self.feed_back:
+        if self.simulate:
             command = self.command(model, t)
             with nullcontext() if driven_by_length(model) else warn_once():
                 return simulate(model, q0, qd0, t=t, command=command, **options)
@@ -123,7 +123,7 @@ class TrackedMotion:
         )
 
     def command(self, model: Model, t: FloatArray) -> Command:
-        """Return what is fed to the robot in a run with output times (N,) from 0 on [s]."""
+        """Return the commands of the cables in a run with output times (N,) from 0 on [s]."""
         times = t if self.step is None else even_times(float(t[-1]), self.step)
         if driven_by_length(model):
             if self.step is None:
@@ -168,7 +168,7 @@ class TrackedMotion:
                 Metric("rate_error", f"{label} rates, estimate", rate, "rad/s"),
                 Metric("acceleration_error", f"{label} accelerations", acceleration, "rad/s^2"),
             ]
-        return (*found, *(self._errors(run) if self.feed_back else ()))
+        return (*found, *(self._errors(run) if self.simulate else ()))
 
     def _errors(self, run: Trajectory) -> tuple[Metric, ...]:
         asked = self.reference(run.t).q
@@ -181,11 +181,11 @@ class TrackedMotion:
         )
 
     def plot(self, scenario: Scenario, run: Trajectory) -> Figure:
-        """Return the picture of every run, with the motion asked for where it was fed back."""
+        """Return the picture of every run, with the motion asked for where the robot moves."""
         from cdcr.scenarios.figures.run import run_figure
 
         figure = run_figure(scenario, run)
-        if self.feed_back:
+        if self.simulate:
             asked = self.reference(run.t)
             for axes, angles in zip(figure.axes[1:3], (asked.theta, asked.phi), strict=True):
                 axes.plot(run.t, np.rad2deg(angles), color="black", linewidth=1.0, dashes=(6, 4))

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from cdcr.base.arrays import FloatArray
-from cdcr.base.check import nearest
+from cdcr.base.check import count, nearest
 from cdcr.files.number_csv import Layout, read_numbers
 from cdcr.files.toml import format_toml, refuse, schema_errors
 from cdcr.model.coordinates import bending
@@ -24,11 +24,11 @@ from cdcr.model.model import Model
 from cdcr.motion.reference import Reference
 from cdcr.motion.splines import Motion, bending_vectors
 from cdcr.scenarios.file.tracking import TrackedMotion, driven_by_length
-from cdcr.scenarios.file.values import count, error_prefix, of_sections, rival_errors
+from cdcr.scenarios.file.values import error_prefix, of_sections, rival_errors
 
 AT = "trajectory"
 _LIMITS = ("min_tension", "max_tension", "infeasible")
-_COMMON = (*_LIMITS, "feed_back", "step", "shorter")
+_COMMON = (*_LIMITS, "simulate", "step", "shorter")
 
 
 def read_trajectory(table: dict[str, Any], model: Model, t_end: float, file: Path) -> TrackedMotion:
@@ -70,8 +70,8 @@ def _drive_errors(table: Mapping[str, Any], model: Model) -> list[str]:
         for key in _LIMITS
         if key in table
     ]
-    if not table.get("feed_back", False):
-        found.append(f"{AT} of a robot driven by length needs feed_back = true")
+    if not table.get("simulate", False):
+        found.append(f"{AT} of a robot driven by length needs simulate = true")
     return found
 
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from cdcr.base.arrays import FloatArray
+from cdcr.base.check import count
 from cdcr.files.toml import format_toml, refuse
 from cdcr.model.coordinates import bending
 
@@ -23,11 +24,6 @@ def error_prefix(where: str) -> Iterator[None]:
         yield
     except ValueError as error:
         refuse(where, str(error).split("\n"))
-
-
-def count(number: int, noun: str) -> str:
-    """Return a number with its noun: '1 section', '2 sections'."""
-    return f"{number} {noun}" + ("" if number == 1 else "s")
 
 
 def rival_errors(table: Mapping[str, Any], at: str) -> list[str]:

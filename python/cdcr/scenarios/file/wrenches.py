@@ -6,10 +6,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from cdcr.base.check import count
 from cdcr.files.toml import refuse, schema_errors
 from cdcr.model.model import Model
 from cdcr.model.wrench import Wrench, loads
-from cdcr.scenarios.file.values import count, error_prefix
+from cdcr.scenarios.file.values import error_prefix
 
 _KEYS = ("fraction", "force", "moment", "frame", "interpolation")
 

@@ -13,7 +13,7 @@ from cdcr.model.model import Model
 from cdcr.robots import amouri2020
 from cdcr.runs.simulate import simulate
 from cdcr.runs.trajectory import Trajectory
-from cdcr.scenarios.metrics import Metric, run_metrics
+from cdcr.scenarios.metrics import Metric, run_metrics, settling_time
 
 if TYPE_CHECKING:
     from cdcr.scenarios.scenario import Scenario
@@ -44,13 +44,6 @@ def amplitude(run: Trajectory) -> FloatArray:
     return reach
 
 
-def settling_time(run: Trajectory) -> float:
-    """Return when the amplitude falls below SETTLED of the start [s]; inf if it never does."""
-    outside = np.flatnonzero(amplitude(run) > SETTLED * amplitude(run)[0])
-    last = int(outside[-1])
-    return float(run.t[last]) if last + 1 < len(run) else math.inf
-
-
 @lru_cache(maxsize=2)
 def variants(scenario: Scenario, t_end: float) -> dict[str, Trajectory]:
     """Return the damped run and those of LOOSE integrators, by name."""
@@ -74,11 +67,12 @@ def summarize(scenario: Scenario, run: Trajectory) -> tuple[Metric, ...]:
         Metric("amplitude_end_deg", "amplitude at the end", float(end), "deg"),
         Metric("settling_linear_s", "settles to 2 % with damping, linearised", linear, "s"),
     ]
-    settled = settling_time(others["damped"])
-    if math.isfinite(settled):
+    left = amplitude(others["damped"])
+    settled = settling_time(others["damped"].t, left, SETTLED * left[0])
+    if settled is not None:
         found.append(Metric("settling_s", "settles to 2 % with damping", settled, "s"))
     for name in LOOSE:
         key = name.replace(", ", "_").replace(" ", "_")
-        left = float(np.rad2deg(amplitude(others[name])[-1]))
-        found.append(Metric(f"end_{key}_deg", f"amplitude at the end, {name}", left, "deg"))
+        last = float(np.rad2deg(amplitude(others[name])[-1]))
+        found.append(Metric(f"end_{key}_deg", f"amplitude at the end, {name}", last, "deg"))
     return tuple(found)

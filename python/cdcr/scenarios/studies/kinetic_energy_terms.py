@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from cdcr._core import taylor_range
 from cdcr.base.arrays import FloatArray
-from cdcr.paper import factors, inertia
+from cdcr.paper import inertia
+from cdcr.paper.claims.printed import printed_inertia
 from cdcr.robot.robot import Robot
 from cdcr.scenarios.metrics import Metric
 from cdcr.scenarios.studies.factors import cut
@@ -19,25 +20,8 @@ if TYPE_CHECKING:
 CLAIM = 0.05  # error that the paper gives for both [%]
 
 
-def as_printed(theta: FloatArray, robot: Robot, kind: str = "printed") -> tuple[Any, Any]:
-    """Return M11 and M22 of eq. (21) exactly as printed, without 1/3 and 1/4 [kg m^2].
-
-    Its l I_b is an area's moment, so the sum is not one of inertias (E5); it is small.
-    """
-    section, H = robot.sections[0], factors(theta, kind)
-    weights = (
-        section.length**2 * section.backbone_mass,
-        section.length * section.second_moment_of_area,
-        section.length**2 * section.disk_mass,
-        section.disk_mass * section.disk_diameter**2 / 16.0,
-    )
-    M11 = sum(w * h for w, h in zip(weights, (H.H1, H.H3, H.H5, H.H7), strict=True))
-    M22 = sum(w * h for w, h in zip(weights, (H.H2, H.H4, H.H6, H.H8), strict=True))
-    return M11, M22
-
-
 # What the two ways to write eq. (21) are called, and the kinds that they have of factors.
-WAYS = {"derived": (inertia, "exact"), "printed": (as_printed, "printed")}
+WAYS = {"derived": (inertia, "exact"), "printed": (printed_inertia, "printed")}
 
 
 def terms(theta: FloatArray, robot: Robot, way: str) -> tuple[FloatArray, FloatArray]:

@@ -13,7 +13,7 @@ from cdcr.robots import amouri2020
 from cdcr.runs.pid import Pid
 from cdcr.runs.simulate import simulate
 from cdcr.runs.trajectory import Trajectory
-from cdcr.scenarios.metrics import Metric
+from cdcr.scenarios.metrics import Metric, settling_time
 
 if TYPE_CHECKING:
     from cdcr.scenarios.scenario import Scenario
@@ -90,13 +90,6 @@ def runs(t_end: float) -> dict[Loop, Trajectory]:
     }
 
 
-def settling_time(run: Trajectory) -> float:
-    """Return when theta comes within BAND of the target for good [s]; inf if it does not."""
-    outside = np.abs(np.rad2deg(run.theta[:, 0]) - TARGET) > BAND * TARGET
-    last = int(np.flatnonzero(outside)[-1])
-    return float(run.t[last]) if last + 1 < len(run) else math.inf
-
-
 def summarize(scenario: Scenario, run: Trajectory) -> tuple[Metric, ...]:
     """Return where each loop ends, how far and how hard it goes, and when it has settled."""
     found = []
@@ -110,7 +103,7 @@ def summarize(scenario: Scenario, run: Trajectory) -> tuple[Metric, ...]:
             Metric(f"{loop.key}_peak_deg", f"{label}: largest theta", float(theta.max()), "deg"),
             Metric(f"{loop.key}_min_N", f"{label}: smallest tension", lowest, "N"),
         ]
-        settled = settling_time(other)
-        if math.isfinite(settled):
+        settled = settling_time(other.t, np.abs(theta - TARGET), BAND * TARGET)
+        if settled is not None:
             found.append(Metric(f"{loop.key}_settling_s", f"{label}: within 2 %", settled, "s"))
     return tuple(found)

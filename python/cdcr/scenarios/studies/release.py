@@ -8,7 +8,7 @@ import numpy as np
 
 from cdcr.base.arrays import FloatArray
 from cdcr.runs.trajectory import Trajectory
-from cdcr.scenarios.metrics import Metric
+from cdcr.scenarios.metrics import Metric, settling_time
 from cdcr.scenarios.studies.energy import dissipated, energy_gap, fine_run
 
 if TYPE_CHECKING:
@@ -21,13 +21,6 @@ def distance(run: Trajectory, q: FloatArray) -> FloatArray:
     """Return how far the tip is (N,) from where it is at q (2n,) [m]."""
     away: FloatArray = np.linalg.norm(run.tip - run.model.tip(q)[1], axis=1)
     return away
-
-
-def settling_time(t: FloatArray, away: FloatArray) -> float | None:
-    """Return when `away` (N,) is last above SETTLED of its start, None if it is so at the end."""
-    outside = np.flatnonzero(away > SETTLED * away[0])
-    last = int(outside[-1]) if outside.size else 0
-    return float(t[last]) if last + 1 < len(t) else None
 
 
 def at_rest(run: Trajectory) -> FloatArray:
@@ -61,7 +54,7 @@ def summarize(scenario: Scenario, run: Trajectory) -> tuple[Metric, ...]:
         Metric("highest_m", "highest place of the tip", float(run.tip[:, 2].max()), "m"),
         Metric("lowest_m", "lowest place of the tip", float(run.tip[:, 2].min()), "m"),
     ]
-    settled = settling_time(run.t, away)
+    settled = settling_time(run.t, away, SETTLED * away[0])
     if settled is not None:
         label = f"within {100 * SETTLED:g} % of the first distance from"
         found.append(Metric("settling_s", label, settled, "s"))

@@ -9,6 +9,7 @@ import numpy as np
 
 from cdcr._core import max_sections
 from cdcr.base.arrays import FloatArray
+from cdcr.base.check import count
 from cdcr.model.model import Model
 from cdcr.robots import amouri2020
 from cdcr.runs.simulate import simulate
@@ -89,7 +90,7 @@ def summarize(scenario: Scenario, run: None) -> tuple[Metric, ...]:
         )
         for parts in COUNTS[mode:]:
             percent = 100.0 * float(excess(parts)[mode])
-            label = f"{name}: too high with {parts} part{'s' if parts > 1 else ''}"
+            label = f"{name}: too high with {count(parts, 'part')}"
             found.append(Metric(f"excess_{mode + 1}_of_{parts}", label, percent, "%"))
         found.append(Metric(f"order_{mode + 1}", f"{name}: order of convergence", order(mode), ""))
     finest = responses()[STEPS[-1]]

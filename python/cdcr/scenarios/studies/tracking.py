@@ -1,4 +1,4 @@
-"""Inverse dynamics along a path of the paper, and its tensions fed back (Figs. 12 and 13)."""
+"""Inverse dynamics along a path of the paper, and a run under its tensions (Figs. 12, 13)."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from cdcr.scenarios.file.tracking import TrackedMotion
     from cdcr.scenarios.scenario import Scenario
 
-STEP = 0.2  # between the tensions fed back, as in the paper [s]
+STEP = 0.2  # between the tensions, as in the paper [s]
 FINE_STEP = 1e-3  # the same, for comparison [s]
 
 
@@ -36,7 +36,7 @@ def inverse(scenario: Scenario, run: Trajectory, step: float) -> InverseRun:
 
 
 def fine_run(scenario: Scenario, run: Trajectory) -> Trajectory:
-    """Return the run again, fed with tensions that are sampled finely."""
+    """Return the run again, under tensions that are sampled finely."""
     finely = replace(_motion(scenario), step=FINE_STEP)
     return replace(scenario, input_source=finely).simulate(
         t_end=float(run.t[-1]), num_samples=len(run)
