@@ -17,12 +17,12 @@ template <class Section, class S = typename Section::Scalar>
     const Vectorm rate = Eigen::Map<const Vectorm>(qd + chain.first[i]);
     const Vector3<S>& omega = section.base.omega;
     const Vector3<S> h_rate =
-        omega.cross(section.first_moment()) + section.linear_coupling() * rate;
+        omega.cross(section.first_moment()) + section.linear_coupling().lazyProduct(rate);
     twice += chain.sections[i].mass * v.squaredNorm() + 2.0 * v.dot(h_rate) +
-             omega.dot(section.second_moment() * omega) +
-             2.0 * omega.dot(section.angular_coupling() * rate) +
-             rate.dot(section.own_mass() * rate);
-    v += omega.cross(section.r) + section.J_v * rate;
+             omega.dot(section.second_moment().lazyProduct(omega)) +
+             2.0 * omega.dot(section.angular_coupling().lazyProduct(rate)) +
+             rate.dot(section.own_mass().lazyProduct(rate));
+    v += omega.cross(section.r) + section.J_v.lazyProduct(rate);
   }
   const Articulated<S> payload = articulated_payload(chain.payload, state.tip);
   const Vector3<S>& omega = state.tip.omega;

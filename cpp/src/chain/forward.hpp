@@ -51,21 +51,19 @@ void forward_dynamics(const Chain& chain, const ChainState<Section>& state, cons
       // What the rest of the chain asks of this tip: its own share, and that of q.
       const Matrix3<S> Gt = outboard.G.transpose();
       const Vector3<S>&alpha = section.tip_angular_bias, &a = section.tip_linear_bias;
-      f_tip = outboard.force + Gt * alpha + outboard.M * a;
-      m_tip = outboard.moment + outboard.J * alpha + outboard.G * a;
-      for (Index k = 0; k < F.cols(); ++k) {
-        const Vector3<S> w = section.J_omega.col(k), v = section.J_v.col(k);
-        F.col(k) = sum_of_products(Gt, w, outboard.M, v);
-        T.col(k) = sum_of_products(outboard.J, w, outboard.G, v);
-      }
-      D += section.J_omega.transpose() * T + section.J_v.transpose() * F;
-      b += section.J_omega.transpose() * m_tip + section.J_v.transpose() * f_tip;
+      f_tip = outboard.force + Gt.lazyProduct(alpha) + outboard.M.lazyProduct(a);
+      m_tip = outboard.moment + outboard.J.lazyProduct(alpha) + outboard.G.lazyProduct(a);
+      F = Gt.lazyProduct(section.J_omega) + outboard.M.lazyProduct(section.J_v);
+      T = outboard.J.lazyProduct(section.J_omega) + outboard.G.lazyProduct(section.J_v);
+      D += section.J_omega.transpose().lazyProduct(T) + section.J_v.transpose().lazyProduct(F);
+      b += section.J_omega.transpose().lazyProduct(m_tip) +
+           section.J_v.transpose().lazyProduct(f_tip);
       s.U_v = F + section.linear_coupling();
     } else {
       s.U_v = section.linear_coupling();
     }
     s.inverse = inverse_of<S, Section::m>(D);
-    s.u = s.inverse * b;
+    s.u = s.inverse.lazyProduct(b);
     if (i == 0) return;  // its base neither turns nor passes anything on
 
     if constexpr (carries) {
@@ -76,20 +74,17 @@ void forward_dynamics(const Chain& chain, const ChainState<Section>& state, cons
       s.U_omega = section.angular_coupling();
     }
     add_section(outboard, chain.sections[i].mass, section);
-    const Matrix3m UD = s.U_omega * s.inverse, VD = s.U_v * s.inverse;
-    for (int k = 0; k < 3; ++k) {
-      for (Index l = 0; l < UD.cols(); ++l) {
-        outboard.J.col(k) -= UD.col(l) * s.U_omega(k, l);
-        outboard.G.col(k) -= UD.col(l) * s.U_v(k, l);
-        outboard.M.col(k) -= VD.col(l) * s.U_v(k, l);
-      }
-    }
+    const Matrix3m UD = s.U_omega.lazyProduct(s.inverse), VD = s.U_v.lazyProduct(s.inverse);
+    outboard.J -= UD.lazyProduct(s.U_omega.transpose());
+    outboard.G -= UD.lazyProduct(s.U_v.transpose());
+    outboard.M -= VD.lazyProduct(s.U_v.transpose());
     if constexpr (carries) {
-      outboard.force = f_tip + section.force - s.U_v * s.u;
-      outboard.moment = m_tip + section.r.cross(f_tip) + section.moment - s.U_omega * s.u;
+      outboard.force = f_tip + section.force - s.U_v.lazyProduct(s.u);
+      outboard.moment =
+          m_tip + section.r.cross(f_tip) + section.moment - s.U_omega.lazyProduct(s.u);
     } else {
-      outboard.force = section.force - s.U_v * s.u;
-      outboard.moment = section.moment - s.U_omega * s.u;
+      outboard.force = section.force - s.U_v.lazyProduct(s.u);
+      outboard.moment = section.moment - s.U_omega.lazyProduct(s.u);
     }
   };
   Index last = n - 1;
@@ -101,13 +96,13 @@ void forward_dynamics(const Chain& chain, const ChainState<Section>& state, cons
   for (Index i = 0; i < n; ++i) {
     const Section& section = state.sections[i];
     const Solved& s = solved[i];
-    Vectorm w = s.U_v.transpose() * v;
-    if (i > 0) w += s.U_omega.transpose() * omega;
-    const Vectorm a = -s.u - s.inverse * w;
+    Vectorm w = s.U_v.transpose().lazyProduct(v);
+    if (i > 0) w += s.U_omega.transpose().lazyProduct(omega);
+    const Vectorm a = -s.u - s.inverse.lazyProduct(w);
     Eigen::Map<Vectorm>(qdd + chain.first[i]) = a;
     if (i + 1 == n) break;
-    v += omega.cross(section.r) + section.J_v * a + section.tip_linear_bias;
-    omega += section.J_omega * a + section.tip_angular_bias;
+    v += omega.cross(section.r) + section.J_v.lazyProduct(a) + section.tip_linear_bias;
+    omega += section.J_omega.lazyProduct(a) + section.tip_angular_bias;
   }
 }
 

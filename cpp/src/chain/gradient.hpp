@@ -19,8 +19,10 @@ void potential_gradient(const Chain& chain, const ChainState<Section>& state, co
     const Index first = chain.first[i];
     const Vector3<S> weight = (mass * chain.gravity).template cast<S>();
     Eigen::Map<typename Section::Vectorm>(gradient + first) =
-        Section::elastic_force(fixed, q + first) - section.linear_coupling().transpose() * g -
-        section.J_omega.transpose() * moment - section.J_v.transpose() * weight;
+        Section::elastic_force(fixed, q + first) -
+        section.linear_coupling().transpose().lazyProduct(g) -
+        section.J_omega.transpose().lazyProduct(moment) -
+        section.J_v.transpose().lazyProduct(weight);
     moment += section.r.cross(weight) + section.first_moment().cross(g);
     mass += fixed.mass;
   }

@@ -2,6 +2,8 @@
 
 #include "chain/chain.hpp"
 
+// Small products are lazyProducts: Eigen's operator* stores each in a temporary of its own.
+
 namespace cdcr::detail {
 
 /// Force and moment on a frame as it accelerates:
@@ -17,15 +19,6 @@ template <class S>
   Matrix3<S> m;
   m << S(0.0), -v[2], v[1], v[2], S(0.0), -v[0], -v[1], v[0], S(0.0);
   return m;
-}
-
-/// A x + B y as one sum of columns: Eigen's products go by rows, which vector registers do not
-/// hold.
-template <class S>
-[[nodiscard]] Vector3<S> sum_of_products(const Matrix3<S>& A, const Vector3<S>& x,
-                                         const Matrix3<S>& B, const Vector3<S>& y) {
-  return A.col(0) * x[0] + A.col(1) * x[1] + A.col(2) * x[2] + B.col(0) * y[0] + B.col(1) * y[1] +
-         B.col(2) * y[2];
 }
 
 /// The payload as a rigid body on the tip.

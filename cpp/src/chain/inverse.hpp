@@ -25,17 +25,20 @@ void inverse_dynamics(const Chain& chain, const ChainState<Section>& state, cons
     const Index first = chain.first[i];
     if (qdd != nullptr) rate = Eigen::Map<const Vectorm>(qdd + first);
     const Matrix3m H = section.linear_coupling();
-    Vectorm own = section.bias + section.own_mass() * rate + H.transpose() * v;
+    Vectorm own =
+        section.bias + section.own_mass().lazyProduct(rate) + H.transpose().lazyProduct(v);
     if (i > 0) {  // the root's base neither turns nor asks what acts on it
       const Vector3<S> h = section.first_moment();
       const Matrix3m N = section.angular_coupling();
-      inertial[i].force = section.force + chain.sections[i].mass * v + alpha.cross(h) + H * rate;
-      inertial[i].moment = section.moment + section.second_moment() * alpha + h.cross(v) + N * rate;
-      own += N.transpose() * alpha;
+      inertial[i].force =
+          section.force + chain.sections[i].mass * v + alpha.cross(h) + H.lazyProduct(rate);
+      inertial[i].moment = section.moment + section.second_moment().lazyProduct(alpha) +
+                           h.cross(v) + N.lazyProduct(rate);
+      own += N.transpose().lazyProduct(alpha);
     }
     Eigen::Map<Vectorm>(force + first) = own;
-    v += alpha.cross(section.r) + section.J_v * rate + section.tip_linear_bias;
-    alpha += section.J_omega * rate + section.tip_angular_bias;
+    v += alpha.cross(section.r) + section.J_v.lazyProduct(rate) + section.tip_linear_bias;
+    alpha += section.J_omega.lazyProduct(rate) + section.tip_angular_bias;
   }
 
   const Articulated<S> payload = articulated_payload(chain.payload, state.tip);
@@ -44,7 +47,7 @@ void inverse_dynamics(const Chain& chain, const ChainState<Section>& state, cons
   for (Index i = n - 1; i >= 0; --i) {
     const Section& section = state.sections[i];
     Eigen::Map<Vectorm>(force + chain.first[i]) +=
-        section.J_omega.transpose() * moment + section.J_v.transpose() * pull;
+        section.J_omega.transpose().lazyProduct(moment) + section.J_v.transpose().lazyProduct(pull);
     if (i == 0) break;
     moment += section.r.cross(pull) + inertial[i].moment;
     pull += inertial[i].force;

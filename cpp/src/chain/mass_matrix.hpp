@@ -18,14 +18,11 @@ void composite_mass(const Chain& chain, const ChainState<Section>& state, Matrix
     const Index at = chain.first[i], size = chain.first[i + 1] - at;
     // What moves beyond this tip as one piece, and what it takes to move it with q.
     const Matrix3<S> Gt = outboard.G.transpose();
-    Matrix3m F, T;
-    for (Index k = 0; k < F.cols(); ++k) {
-      const Vector3<S> w = section.J_omega.col(k), v = section.J_v.col(k);
-      F.col(k) = sum_of_products(Gt, w, outboard.M, v);
-      T.col(k) = sum_of_products(outboard.J, w, outboard.G, v);
-    }
+    Matrix3m F = Gt.lazyProduct(section.J_omega) + outboard.M.lazyProduct(section.J_v);
+    Matrix3m T = outboard.J.lazyProduct(section.J_omega) + outboard.G.lazyProduct(section.J_v);
     auto own = M.template block<m, m>(at, at, size, size);
-    own = section.own_mass() + section.J_omega.transpose() * T + section.J_v.transpose() * F;
+    own = section.own_mass() + section.J_omega.transpose().lazyProduct(T) +
+          section.J_v.transpose().lazyProduct(F);
     own.template triangularView<Eigen::StrictlyLower>() = own.transpose();
     for (Index k = 0; k < T.cols(); ++k) T.col(k) += section.r.cross(F.col(k));
     F += section.linear_coupling();
@@ -36,7 +33,8 @@ void composite_mass(const Chain& chain, const ChainState<Section>& state, Matrix
       for (Index j = i - 1; j >= 0; --j) {
         const Section& before = state.sections[j];
         const Index row = chain.first[j];
-        const Vectorm coupling = before.J_omega.transpose() * t + before.J_v.transpose() * f;
+        const Vectorm coupling =
+            before.J_omega.transpose().lazyProduct(t) + before.J_v.transpose().lazyProduct(f);
         t += before.r.cross(f);
         for (Index l = 0; l < coupling.size(); ++l) {
           M(row + l, at + k) = M(at + k, row + l) = coupling[l];
