@@ -135,6 +135,6 @@ def test_tension_and_command_are_two_names_for_one_argument() -> None:
     assert one.step(tension=PULL) is other.step(command=PULL) is cdcr.Status.ok
     assert np.array_equal(one.qd, other.qd)
     sentence = "give either tension or command, two names for one thing, not both or none"
-    for arguments in ({}, {"tension": PULL, "command": PULL}):
+    for given in (None, PULL):
         with pytest.raises(ValueError, match=sentence):
-            one.step(**arguments)
+            one.step(tension=given, command=given)
