@@ -59,7 +59,8 @@ void bind_simulator(py::module_& m) {
           "command"_a = py::none(),
           Doc("Advance one period under constant commands and wrenches.",
               {docs::one_tension, docs::wrenches,
-               "command : (num_cables,) array_like, optional\n    Another name for `tension`, [N] or [m].\n"},
+               "command : (num_cables,) array_like, optional\n    Another name for `tension`, [N] "
+               "or [m].\n"},
               "Status\n    ``ok``, or why the state is still the one before.", docs::bad_argument))
       .def_property_readonly(
           "q", [](const Simulator& self) { return to_array(self.q()); },

@@ -116,7 +116,7 @@ class PolynomialTable {
     const double* row = c + last_row;
     Values odd = Row(row), even = Row(row - N);
     for (int k = 2; k < num_powers; k += 2) {
-      row -= 2 * N;
+      row -= std::ptrdiff_t{2} * N;
       odd = odd * u + Row(row);
       even = even * u + Row(row - N);
     }
