@@ -31,9 +31,8 @@ VectorXd inertial_scale(const MatrixXd& M, const VectorXd& qd) {
 
 TEST_SUITE_BEGIN("laws");
 
-TEST_CASE_TEMPLATE("the mass matrix is symmetric, positive definite, and half the energy's Hessian",
-                   Subject, Library, Arcs, Planars, Pairs) {
-  for_each_subject<Subject>(all_numbers, [](Subject& robot, const Model&, const LawState& s) {
+TEST_CASE("the mass matrix is symmetric, positive definite, and half the energy's Hessian") {
+  for_each_subject(all_numbers, [](Subject& robot, const Model&, const LawState& s) {
     const MatrixXd M = robot.mass_matrix(s.q);
     CHECK(M == M.transpose());
     const VectorXd root = M.diagonal().cwiseSqrt();
@@ -45,9 +44,8 @@ TEST_CASE_TEMPLATE("the mass matrix is symmetric, positive definite, and half th
   });
 }
 
-TEST_CASE_TEMPLATE("inverse dynamics is M qdd + h, column by column", Subject, Library, Arcs,
-                   Planars, Pairs) {
-  for_each_subject<Subject>(all_numbers, [](Subject& robot, const Model&, const LawState& s) {
+TEST_CASE("inverse dynamics is M qdd + h, column by column") {
+  for_each_subject(all_numbers, [](Subject& robot, const Model&, const LawState& s) {
     const MatrixXd M = robot.mass_matrix(s.q);
     const VectorXd h = robot.bias(s.q, s.qd);
     CHECK(residual(robot.inverse(s.q, s.qd, VectorXd::Zero(s.q.size())), h) <=
@@ -61,11 +59,9 @@ TEST_CASE_TEMPLATE("inverse dynamics is M qdd + h, column by column", Subject, L
   });
 }
 
-TEST_CASE_TEMPLATE("forward dynamics undoes inverse dynamics, and the other way round", Subject,
-                   Library, Arcs, Planars, Pairs) {
+TEST_CASE("forward dynamics undoes inverse dynamics, and the other way round") {
   Random random;
-  for_each_subject<Subject>(all_numbers, [&](Subject& robot, const Model& model,
-                                             const LawState& s) {
+  for_each_subject(all_numbers, [&](Subject& robot, const Model& model, const LawState& s) {
     const MatrixXd M = robot.mass_matrix(s.q);
     const VectorXd h = robot.bias(s.q, s.qd);
     const MatrixXd inverse = M.inverse();
@@ -74,7 +70,7 @@ TEST_CASE_TEMPLATE("forward dynamics undoes inverse dynamics, and the other way 
     const VectorXd found = robot.forward(s.q, s.qd, robot.inverse(s.q, s.qd, qdd));
     CHECK(residual(found, qdd, largest(inverse.cwiseAbs() * felt)) <= tolerance::recursion);
 
-    const VectorXd force = Subject::select(model.actuation_matrix() * s.whole.tension);
+    const VectorXd force = robot.select(model.actuation_matrix() * s.whole.tension);
     const VectorXd qdd_of_force = robot.forward(s.q, s.qd, force);
     const VectorXd moving = M.cwiseAbs() * inverse.cwiseAbs() * (force.cwiseAbs() + h.cwiseAbs());
     CHECK(residual(robot.inverse(s.q, s.qd, qdd_of_force), force, largest(moving)) <=
@@ -82,9 +78,8 @@ TEST_CASE_TEMPLATE("forward dynamics undoes inverse dynamics, and the other way 
   });
 }
 
-TEST_CASE_TEMPLATE("bias at rest is the gradient of the potential energy", Subject, Library, Arcs,
-                   Planars, Pairs) {
-  for_each_subject<Subject>(all_numbers, [](Subject& robot, const Model& model, const LawState& s) {
+TEST_CASE("bias at rest is the gradient of the potential energy") {
+  for_each_subject(all_numbers, [](Subject& robot, const Model& model, const LawState& s) {
     const VectorXd rest = VectorXd::Zero(s.q.size());
     CHECK(residual(robot.bias(s.q, rest), robot.gradient(s.q)) <= tolerance::recursion);
     const double stiffest = model.stiffness().maxCoeff();
@@ -97,8 +92,8 @@ TEST_CASE_TEMPLATE("bias at rest is the gradient of the potential energy", Subje
   });
 }
 
-TEST_CASE_TEMPLATE("bias is Lagrange's", Subject, Library, Arcs, Planars, Pairs) {
-  for_each_subject<Subject>(few_numbers, [](Subject& robot, const Model& model, const LawState& s) {
+TEST_CASE("bias is Lagrange's") {
+  for_each_subject(few_numbers, [](Subject& robot, const Model& model, const LawState& s) {
     const MatrixXd M = robot.mass_matrix(s.q);
     // d/dt (M qd) at qdd = 0, - dT/dq + dU/dq + c qd
     const double step = 0.02 / largest(s.qd);
@@ -112,25 +107,24 @@ TEST_CASE_TEMPLATE("bias is Lagrange's", Subject, Library, Arcs, Planars, Pairs)
     for (Index i = 0; i < model.num_sections(); ++i) {
       damped.segment(2 * i, 2) = model.damping()[i] * s.whole.qd.segment(2 * i, 2);
     }
-    h += Subject::select(damped);
+    h += robot.select(damped);
     const VectorXd found = robot.bias(s.q, s.qd);
     const double scale = largest(inertial_scale(M, s.qd)) + largest(found) + s.weight;
     CHECK(residual(found, h, scale) <= tolerance::lagrange);
   });
 }
 
-TEST_CASE_TEMPLATE("every kind moves as the robot of arcs that it stands for", Subject, Arcs,
-                   Planars, Pairs) {
-  for_each_subject<Subject>(all_numbers, [](Subject& robot, const Model& model, const LawState& s) {
+TEST_CASE("every kind moves as the robot of arcs that it stands for") {
+  for_each_subject(all_numbers, [](Subject& robot, const Model& model, const LawState& s) {
     Library arcs(model);
     const MatrixXd M = robot.mass_matrix(s.q), whole = arcs.mass_matrix(s.whole.q);
     MatrixXd rows(s.q.size(), whole.cols()), expected(s.q.size(), s.q.size());
-    for (Index k = 0; k < whole.cols(); ++k) rows.col(k) = Subject::select(whole.col(k));
+    for (Index k = 0; k < whole.cols(); ++k) rows.col(k) = robot.select(whole.col(k));
     for (Index k = 0; k < s.q.size(); ++k) {
-      expected.row(k) = Subject::select(rows.row(k).transpose()).transpose();
+      expected.row(k) = robot.select(rows.row(k).transpose()).transpose();
     }
     CHECK(residual(M, expected) <= tolerance::recursion);
-    const VectorXd h = Subject::select(arcs.bias(s.whole.q, s.whole.qd));
+    const VectorXd h = robot.select(arcs.bias(s.whole.q, s.whole.qd));
     const double scale = largest(inertial_scale(M, s.qd)) + largest(h) + s.weight;
     CHECK(residual(robot.bias(s.q, s.qd), h, scale) <= tolerance::recursion);
     const double U = arcs.potential(s.whole.q);
@@ -138,7 +132,7 @@ TEST_CASE_TEMPLATE("every kind moves as the robot of arcs that it stands for", S
     const double T = arcs.kinetic(s.whole.q, s.whole.qd);
     const double size = M.diagonal().cwiseSqrt().dot(s.qd.cwiseAbs());
     CHECK(residual(robot.kinetic(s.q, s.qd), T, size * size) <= tolerance::recursion);
-    const VectorXd gradient = Subject::select(arcs.gradient(s.whole.q));
+    const VectorXd gradient = robot.select(arcs.gradient(s.whole.q));
     CHECK(residual(robot.gradient(s.q), gradient, largest(gradient) + s.weight) <=
           tolerance::recursion);
   });

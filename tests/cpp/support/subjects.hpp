@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <utility>
 
@@ -22,41 +23,56 @@
 
 namespace cdcr::test {
 
+class Subject {
+ public:
+  virtual ~Subject() = default;
+
+  [[nodiscard]] virtual VectorXd select(const VectorXd& whole) const { return whole; }
+
+  [[nodiscard]] virtual Index size() const = 0;
+  virtual MatrixXd mass_matrix(const VectorXd& q) = 0;
+  virtual VectorXd bias(const VectorXd& q, const VectorXd& qd) = 0;
+  virtual VectorXd inverse(const VectorXd& q, const VectorXd& qd, const VectorXd& qdd) = 0;
+  virtual VectorXd forward(const VectorXd& q, const VectorXd& qd, const VectorXd& force) = 0;
+  virtual double kinetic(const VectorXd& q, const VectorXd& qd) = 0;
+  virtual double potential(const VectorXd& q) = 0;
+  virtual VectorXd gradient(const VectorXd& q) = 0;
+};
+
 /// The public functions: one section without a payload in closed form.
-class Library {
+class Library final : public Subject {
  public:
   static constexpr int m = 2;
   static Robot adapted(Robot robot) { return robot; }
-  static VectorXd select(const VectorXd& whole) { return whole; }
 
   explicit Library(const Model& model) : model_(model), data_(model) {}
 
-  [[nodiscard]] Index size() const { return model_.num_coordinates(); }
-  MatrixXd mass_matrix(const VectorXd& q) {
+  [[nodiscard]] Index size() const override { return model_.num_coordinates(); }
+  MatrixXd mass_matrix(const VectorXd& q) override {
     MatrixXd M(size(), size());
     cdcr::mass_matrix(model_, data_, q, M);
     return M;
   }
-  VectorXd bias(const VectorXd& q, const VectorXd& qd) {
+  VectorXd bias(const VectorXd& q, const VectorXd& qd) override {
     VectorXd h(size());
     cdcr::bias(model_, data_, q, qd, h);
     return h;
   }
-  VectorXd inverse(const VectorXd& q, const VectorXd& qd, const VectorXd& qdd) {
+  VectorXd inverse(const VectorXd& q, const VectorXd& qd, const VectorXd& qdd) override {
     VectorXd force(size());
     inverse_dynamics(model_, data_, q, qd, qdd, force);
     return force;
   }
-  VectorXd forward(const VectorXd& q, const VectorXd& qd, const VectorXd& force) {
+  VectorXd forward(const VectorXd& q, const VectorXd& qd, const VectorXd& force) override {
     VectorXd qdd(size());
     forward_dynamics_force(model_, data_, q, qd, force, qdd);
     return qdd;
   }
-  double kinetic(const VectorXd& q, const VectorXd& qd) {
+  double kinetic(const VectorXd& q, const VectorXd& qd) override {
     return kinetic_energy(model_, data_, q, qd);
   }
-  double potential(const VectorXd& q) { return potential_energy(model_, data_, q); }
-  VectorXd gradient(const VectorXd& q) {
+  double potential(const VectorXd& q) override { return potential_energy(model_, data_, q); }
+  VectorXd gradient(const VectorXd& q) override {
     VectorXd gradient(size());
     potential_gradient(model_, data_, q, gradient);
     return gradient;
@@ -69,7 +85,7 @@ class Library {
 
 /// The recursions over sections of one kind.
 template <class Section>
-class Recursion {
+class Recursion : public Subject {
  public:
   static constexpr int m = Section::m;
 
@@ -80,41 +96,41 @@ class Recursion {
     }
   }
 
-  [[nodiscard]] Index size() const { return chain_.num_coordinates(); }
-  MatrixXd mass_matrix(const VectorXd& q) {
+  [[nodiscard]] Index size() const override { return chain_.num_coordinates(); }
+  MatrixXd mass_matrix(const VectorXd& q) override {
     state_->update_position(chain_, q.data());
     MatrixXd M(size(), size());
     detail::composite_mass<Section>(chain_, *state_, M);
     return M;
   }
-  VectorXd bias(const VectorXd& q, const VectorXd& qd) {
+  VectorXd bias(const VectorXd& q, const VectorXd& qd) override {
     VectorXd h(size());
     state_->update(chain_, q.data(), qd.data());
     detail::inverse_dynamics<Section, double>(chain_, *state_, nullptr, h.data());
     return h;
   }
-  VectorXd inverse(const VectorXd& q, const VectorXd& qd, const VectorXd& qdd) {
+  VectorXd inverse(const VectorXd& q, const VectorXd& qd, const VectorXd& qdd) override {
     VectorXd force(size());
     state_->update(chain_, q.data(), qd.data());
     detail::inverse_dynamics(chain_, *state_, qdd.data(), force.data());
     return force;
   }
-  VectorXd forward(const VectorXd& q, const VectorXd& qd, const VectorXd& force) {
+  VectorXd forward(const VectorXd& q, const VectorXd& qd, const VectorXd& force) override {
     VectorXd qdd(size());
     state_->update_position(chain_, q.data());
     state_->update_velocity(chain_, qd.data());
     detail::forward_dynamics(chain_, *state_, force.data(), qdd.data());
     return qdd;
   }
-  double kinetic(const VectorXd& q, const VectorXd& qd) {
+  double kinetic(const VectorXd& q, const VectorXd& qd) override {
     state_->update(chain_, q.data(), qd.data());
     return detail::kinetic_energy_of(chain_, *state_, qd.data());
   }
-  double potential(const VectorXd& q) {
+  double potential(const VectorXd& q) override {
     state_->update_position(chain_, q.data());
     return detail::potential_energy_of(chain_, *state_, q.data());
   }
-  VectorXd gradient(const VectorXd& q) {
+  VectorXd gradient(const VectorXd& q) override {
     VectorXd gradient(size());
     state_->update_position(chain_, q.data());
     detail::potential_gradient<Section>(chain_, *state_, q.data(), gradient.data());
@@ -128,15 +144,14 @@ class Recursion {
   std::unique_ptr<detail::ChainState<Section>> state_;
 };
 
-struct Arcs : Recursion<detail::ConstantCurvature<double>> {
+struct Arcs final : Recursion<detail::ConstantCurvature<double>> {
   static Robot adapted(Robot robot) { return robot; }
-  static VectorXd select(const VectorXd& whole) { return whole; }
   explicit Arcs(const Model& model) : Recursion(detail::Chain(model.robot())) {}
 };
 
-struct Planars : Recursion<Planar<double>> {
+struct Planars final : Recursion<Planar<double>> {
   static Robot adapted(Robot robot) { return robot; }
-  static VectorXd select(const VectorXd& whole) {
+  [[nodiscard]] VectorXd select(const VectorXd& whole) const override {
     VectorXd part(whole.size() / 2);
     for (Index i = 0; i < part.size(); ++i) part[i] = whole[2 * i];
     return part;
@@ -145,7 +160,7 @@ struct Planars : Recursion<Planar<double>> {
 };
 
 /// Of every two sections the second is as the first.
-struct Pairs : Recursion<Pair<double>> {
+struct Pairs final : Recursion<Pair<double>> {
   static Robot adapted(Robot robot) {
     if (robot.sections.size() % 2 == 1) robot.sections.push_back(robot.sections.back());
     for (std::size_t i = 1; i < robot.sections.size(); i += 2) {
@@ -153,7 +168,6 @@ struct Pairs : Recursion<Pair<double>> {
     }
     return robot;
   }
-  static VectorXd select(const VectorXd& whole) { return whole; }
   explicit Pairs(const Model& model) : Recursion(paired(model.robot())) {}
 
  private:
@@ -177,30 +191,39 @@ struct LawState {
   double weight;  // size of the terms of weight in U and dU/dq [N m]
 };
 
-/// body(subject, model, state) for the sample robots, where sections of this kind can carry them,
-/// and random chains of these numbers of sections, in sample states.
-template <class Subject, class Body>
-void for_each_subject(const std::vector<int>& numbers, Body body) {
+using LawBody = std::function<void(Subject&, const Model&, const LawState&)>;
+
+template <class Kind>
+void for_each_of(const char* kind, const std::vector<int>& numbers, const LawBody& body) {
   Random random;
   std::vector<NamedRobot> robots;
   // A point on the tip alone has not enough inertia for more than two coordinates.
-  if (Subject::m <= 2) robots = sample_robots(random);
+  if (Kind::m <= 2) robots = sample_robots(random);
   for (const int n : numbers) {
     robots.push_back({std::to_string(n) + " sections", random_chain(random, n)});
   }
   for (const NamedRobot& sample : robots) {
-    const Model model(Subject::adapted(sample.robot));
-    Subject subject(model);
+    const Model model(Kind::adapted(sample.robot));
+    Kind subject(model);
     const double weight = static_cast<double>(ChainSum(model.robot()).weight_scale()[0]);
     for (ChainState whole : chain_states(model, random)) {
-      INFO(random, ", robot: ", sample.name, ", state: ", whole.name);
-      if (Subject::m == 1) {  // the planar robot's state, seen as one of arcs
+      INFO(random, ", ", kind, ", robot: ", sample.name, ", state: ", whole.name);
+      if (Kind::m == 1) {  // the planar robot's state, seen as one of arcs
         for (Index i = 1; i < whole.q.size(); i += 2) whole.q[i] = whole.qd[i] = 0.0;
       }
       body(subject, model,
-           LawState{whole, Subject::select(whole.q), Subject::select(whole.qd), weight});
+           LawState{whole, subject.select(whole.q), subject.select(whole.qd), weight});
     }
   }
+}
+
+/// body(subject, model, state) for every kind: the sample robots, where sections of the kind can
+/// carry them, and random chains of these numbers of sections, in sample states.
+inline void for_each_subject(const std::vector<int>& numbers, const LawBody& body) {
+  for_each_of<Library>("public functions", numbers, body);
+  for_each_of<Arcs>("arcs", numbers, body);
+  for_each_of<Planars>("planar sections", numbers, body);
+  for_each_of<Pairs>("pairs of arcs", numbers, body);
 }
 
 }  // namespace cdcr::test
