@@ -11,6 +11,11 @@ PACKAGE = ROOT / "python" / "cdcr"
 TOPS = {"bench", "bindings", "cmake", "cpp", "docs", "python", "tests", "tools"}
 MADE = {"build", "dist", "out"}  # by make, and in .gitignore
 MOST = 12  # modules at the top of the package
+SPINE = (
+    *("description/*", "section/*", "chain/*", "dynamics/*", "loads/cable*"),
+    *("integration/robot_ode.*", "integration/rk4.*", "integration/simulator.*"),
+)
+MOST_SPINE = 2500  # lines of code
 
 
 def folders_with_files() -> set[str]:
@@ -59,3 +64,16 @@ def test_no_module_only_forwards() -> None:
         if path.stem != "__init__":
             forwards = (ast.Import, ast.ImportFrom)
             assert not all(isinstance(node, forwards) for node in body), path
+
+
+def test_the_spine_is_short() -> None:
+    total = 0
+    for pattern in SPINE:
+        files = list((ROOT / "cpp" / "src").glob(pattern))
+        assert files, pattern
+        text = "\n".join(path.read_text() for path in files)
+        lines = sum(bool(line.partition("//")[0].strip()) for line in text.splitlines())
+        print(f"{pattern:24} {lines:5} lines of code")
+        total += lines
+    print(f"{'the spine':24} {total:5}")
+    assert total <= MOST_SPINE

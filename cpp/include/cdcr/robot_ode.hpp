@@ -51,9 +51,8 @@ class RobotOde {
  private:
   RobotOde(const Model& model, const CommandInput* input, Controller* controller,
            const WrenchInput& loads, Index num_cables);
-  /// Bring command_ and wrenches_ up to date.
+  /// Brings command_ up to date.
   void update_command(double t, const ConstVectorRef& q, const ConstVectorRef& qd);
-  void update_wrenches(double t);
 
   const Model* model_;
   const CommandInput* input_;  // one of the two
@@ -74,6 +73,8 @@ class RobotOde {
 
 /// ok, or invalid_tension for a wrong size, a negative or a non-finite command. Real-time safe.
 [[nodiscard]] Status check_tension(const Model& model, const ConstVectorRef& tension) noexcept;
+/// Throws std::invalid_argument where check_tension is not ok.
+void require_command(const Model& model, const VectorXd& command);
 
 using Plant = RobotOde;  ///< its earlier name
 

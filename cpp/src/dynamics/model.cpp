@@ -100,9 +100,8 @@ Model::Model(Robot robot, Formulation formulation)
 
 void require_inertia(const Model& model) {
   if (model.has_inertia()) return;
-  const std::string section = "section " + std::to_string(model.singular_section() + 1);
   throw std::invalid_argument(
-      "the robot has no dynamics, because " + section +
+      "the robot has no dynamics, because section " + std::to_string(model.singular_section() + 1) +
       " can bend without moving any mass: give it a backbone_mass or disks with a disk_mass, or "
       "the robot a payload");
 }

@@ -63,7 +63,7 @@ Status RobotOde::start_segment(double t, const VectorXd& y) {
   if (command_holds_ && force_is_constant(*model_, wrenches_)) {
     total_force(*model_, y.head(m), y.tail(m), command_, wrenches_, force_);
   }
-  if (loads_->hold()) update_wrenches(t);
+  if (loads_->hold()) loads_->evaluate(t, t, wrenches_);
   return status;
 }
 
@@ -74,10 +74,6 @@ void RobotOde::update_command(double t, const ConstVectorRef& q, const ConstVect
       check_tension(*model_, command_) == Status::ok,
       "the tension function must give finite values >= 0 N (a cable cannot push), got [",
       command_.transpose(), "] at t = ", t, " s");
-}
-
-void RobotOde::update_wrenches(double t) {
-  loads_->evaluate(t, segment_start_, wrenches_);
 }
 
 void RobotOde::derivative(double t, const double* y, double* dydt) {
@@ -94,7 +90,7 @@ void RobotOde::derivative(double t, const double* y, double* dydt) {
   }
   for (Index i = 0; i < m; ++i) dydt[i] = y[m + i];
   if (!command_holds_ || !force_is_constant(*model_, wrenches_)) {
-    if (!loads_->hold()) update_wrenches(t);
+    if (!loads_->hold()) loads_->evaluate(t, segment_start_, wrenches_);
     total_force(*model_, q, qd, command_, wrenches_, force_);
   }
   forward_dynamics_force(*model_, data_, q, qd, force_, qdd);
@@ -104,7 +100,7 @@ void RobotOde::jacobian(double t, const double* y, double* J) {
   const Index m = model_->num_coordinates();
   const Eigen::Map<const VectorXd> q(y, m), qd(y + m, m);
   if (!command_holds_) update_command(t, q, qd);
-  if (!loads_->hold()) update_wrenches(t);
+  if (!loads_->hold()) loads_->evaluate(t, segment_start_, wrenches_);
   Eigen::Map<MatrixXd> A(J, 2 * m, 2 * m);
   state_jacobian(*model_, data_, q, qd, command_, wrenches_, A);
 }
@@ -141,6 +137,12 @@ Status check_tension(const Model& model, const ConstVectorRef& tension) noexcept
     if (!(tension[j] >= 0.0) || !std::isfinite(tension[j])) return Status::invalid_tension;
   }
   return Status::ok;
+}
+
+void require_command(const Model& model, const VectorXd& command) {
+  detail::require(check_tension(model, command) == Status::ok, "tension must be ",
+                  model.num_cables(), " finite values >= 0 N (a cable cannot push), got [",
+                  command.transpose(), "]");
 }
 
 }  // namespace cdcr

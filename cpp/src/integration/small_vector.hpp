@@ -24,12 +24,6 @@ inline void scale(double a, N_Vector x, N_Vector z) noexcept {
   for (sunindextype i = 0, n = NV_LENGTH_S(z); i < n; ++i) to[i] = a * from[i];
 }
 
-/// z_i = a
-inline void fill(double a, N_Vector z) noexcept {
-  double* to = NV_DATA_S(z);
-  for (sunindextype i = 0, n = NV_LENGTH_S(z); i < n; ++i) to[i] = a;
-}
-
 /// Root mean square of x_i w_i.
 inline double weighted_norm(N_Vector x, N_Vector w) noexcept {
   const double *value = NV_DATA_S(x), *weight = NV_DATA_S(w);
@@ -69,7 +63,6 @@ inline int scale_all(int count, double* c, N_Vector* x, N_Vector* z) noexcept {
 inline void use_small_operations(N_Vector v) noexcept {
   v->ops->nvlinearsum = linear_sum;
   v->ops->nvscale = scale;
-  v->ops->nvconst = fill;
   v->ops->nvwrmsnorm = weighted_norm;
   v->ops->nvlinearcombination = linear_combination;
   v->ops->nvscaleaddmulti = scale_add_multi;

@@ -71,11 +71,6 @@ double one_section_angle(double rho, double z, double limit) noexcept {
   return squared_distance(nearest, rho, z) < squared_distance(theta, rho, z) ? nearest : theta;
 }
 
-/// Length of a vector whose square may overflow.
-double length_of(const Vector3d& v) noexcept {
-  return std::hypot(v[0], v[1], v[2]);
-}
-
 void check_max_theta(const VectorXd& max_theta, Index num_sections) {
   const Index size = max_theta.size();
   require(size == 1 || size == num_sections, "max_theta must be one angle or one for each of the ",
@@ -149,7 +144,7 @@ void InverseSolver::set_target(const Vector3d& p, const std::optional<Matrix3d>&
   with_rotation_ = R.has_value();
   R_ = R.value_or(Matrix3d::Identity());
   target_.setZero();
-  target_.head<3>() = p / std::fmax(length_, length_of(p / farthest));
+  target_.head<3>() = p / std::fmax(length_, (p / farthest).stableNorm());
   const Vector3d seen = model_->robot().base_orientation.transpose() * target_.head<3>();
   rho_ = std::hypot(seen[0], seen[1]);
   z_ = seen[2];
@@ -163,7 +158,7 @@ void InverseSolver::conclude() noexcept {
   answer_.q = best_;
   answer_.position = at.p;
   answer_.rotation = at.R;
-  answer_.distance = length_of(at.p - p_);
+  answer_.distance = (at.p - p_).stableNorm();
   answer_.angle = 0.0;
   if (with_rotation_) answer_.angle = Eigen::AngleAxisd(Matrix3d(at.R * R_.transpose())).angle();
   answer_.residual = std::hypot(answer_.distance, weight_ * length_ * answer_.angle);
@@ -174,7 +169,7 @@ void InverseSolver::conclude() noexcept {
 IkStatus InverseSolver::why() const noexcept {
   if (!finite_) return IkStatus::not_finite;
   if (answer_.reachable) return IkStatus::reached;
-  if (length_of(p_) > length_ + tolerance_) return IkStatus::too_far;
+  if (p_.stableNorm() > length_ + tolerance_) return IkStatus::too_far;
   for (Index i = 0; i < max_theta_.size(); ++i) {
     if (stands_at_limit(best_, i)) return IkStatus::at_limit;
   }
@@ -192,7 +187,7 @@ std::string InverseSolver::message() const {
     case IkStatus::not_finite:
       return "p, R and q0 must be finite";
     case IkStatus::too_far:
-      text << "p is " << length_of(p_) << " m from the base, farther than the robot's " << length_
+      text << "p is " << p_.stableNorm() << " m from the base, farther than the robot's " << length_
            << " m";
       break;
     case IkStatus::at_limit:

@@ -6,9 +6,9 @@
 #include <random>
 
 #include "cdcr/cables.hpp"
+#include "cdcr/robot_ode.hpp"
 #include "cdcr/statics.hpp"
 #include "dynamics/bending.hpp"
-#include "loads/command.hpp"
 #include "statics/static_problem.hpp"
 
 namespace cdcr {
@@ -219,7 +219,7 @@ void classify_stability(StaticProblem& problem, Equilibrium& result) {
 
 Equilibrium equilibrium(const Model& model, const VectorXd& command, const VectorXd& q0,
                         const Wrenches& wrenches) {
-  detail::require_command(model, command);
+  require_command(model, command);
   if (q0.size() != 0) detail::require_finite("q0", q0, model.num_coordinates());
   validate(model, wrenches);
   StaticProblem problem(model, command, wrenches);

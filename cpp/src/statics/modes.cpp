@@ -12,7 +12,6 @@
 #include "cdcr/robot_ode.hpp"
 #include "cdcr/statics.hpp"
 #include "dynamics/bending.hpp"
-#include "loads/command.hpp"
 
 namespace cdcr {
 namespace {
@@ -25,7 +24,7 @@ void check(const Model& model, const VectorXd& q, const VectorXd& command) {
   require_inertia(model);
   detail::require_finite("q", q, model.num_coordinates());
   detail::require_bending("q", model, q);
-  detail::require_command(model, command);
+  require_command(model, command);
 }
 
 /// w^2 and phi from the symmetric problem.

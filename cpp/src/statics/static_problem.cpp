@@ -16,25 +16,16 @@ namespace cdcr {
 namespace detail {
 namespace {
 
-double robot_length(const Robot& robot) {
-  double length = 0.0;
-  for (const Section& s : robot.sections) length += s.length;
-  return length;
-}
-
-double weight_moment(const Robot& robot) {
-  double mass = robot.payload;
-  for (const Section& s : robot.sections) {
-    mass += s.backbone_mass;
-    for (const Disk& disk : s.disks()) mass += disk.mass;
+/// Size of the moments at the base that weight and wrenches can make.
+double moment_of(const Model& model, const Wrenches& wrenches) {
+  const Chain& chain = chain_of(model);
+  double mass = chain.payload.mass, length = 0.0, sum = 0.0;
+  for (const SectionParameters& section : chain.sections) {
+    mass += section.mass;
+    length += section.length;
   }
-  return mass * (robot_length(robot) + robot.payload_position.norm()) * robot.gravity.norm();
-}
-
-double wrench_moment(const Robot& robot, const Wrenches& wrenches) {
-  double sum = 0.0;
-  for (const Wrench& w : wrenches) sum += w.force.norm() * robot_length(robot) + w.moment.norm();
-  return sum;
+  for (const Wrench& w : wrenches) sum += w.force.norm() * length + w.moment.norm();
+  return sum + mass * (length + chain.payload.position.norm()) * chain.gravity.norm();
 }
 
 }  // namespace
@@ -57,8 +48,7 @@ StaticProblem::StaticProblem(const Model& model, const ConstVectorRef& command,
       constant_force_ += B.col(j) * command[j];
     }
   }
-  size_ += constant_force_.lpNorm<Eigen::Infinity>() + weight_moment(model.robot()) +
-           wrench_moment(model.robot(), wrenches);
+  size_ += constant_force_.lpNorm<Eigen::Infinity>() + moment_of(model, wrenches);
 }
 
 void StaticProblem::residual(const ConstVectorRef& q, VectorRef r) noexcept {
