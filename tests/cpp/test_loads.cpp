@@ -22,8 +22,6 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Runs glued at the break points: the same steps, but for how times are rounded.
 constexpr double glued = 1e-12;
-/// Energy over 10 s of Dormand-Prince at rtol 1e-12, over the work that the force can do.
-constexpr double conserved = 1e-9;
 
 const std::vector<Method> both_methods = {Method::rk4, Method::dopri5};
 
@@ -237,7 +235,7 @@ TEST_CASE("energy less the work of a dead force is conserved") {
   }
   const double drift = (energy.array() - energy[0]).abs().maxCoeff();
   MESSAGE("T + U - f.p off by " << drift << " J in 10 s; work of the force up to " << work << " J");
-  CHECK(residual(drift, 0.0, work) <= conserved);
+  CHECK(residual(drift, 0.0, work) <= tolerance::conserved);
 }
 
 TEST_CASE("an impulse changes the momentum by its moment") {

@@ -11,10 +11,8 @@
 namespace cdcr {
 namespace {
 
-using detail::pi;
-using detail::require;
+using detail::full_circle, detail::pi, detail::require;
 
-constexpr double full_circle = 2.0 * pi;
 // A farther target is moved to this many lengths from the base: from there the nearest shape is
 // the same to rounding, and squares do not overflow.
 constexpr double farthest = 1e6;

@@ -12,7 +12,6 @@ namespace {
 
 using Bend = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_coordinates, 1>;
 
-constexpr double full_circle = 2.0 * detail::pi;
 // The Jacobian is of the size of one, and so is what damping is added to.
 constexpr double first_damping = 1e-2, least_damping = 1e-13, most_damping = 1e12;
 // A slope this small beside the residual is rounding error: the descent has come to rest.
@@ -26,7 +25,7 @@ constexpr double worth_refining = 1.5;
 // Step of the differences that give the true curvature [rad].
 constexpr double difference = 1e-5;
 // Random starts bend a section by no more than the one, and in every other by the other [rad].
-constexpr double usual_start = 2.5, widest_start = full_circle;
+constexpr double usual_start = 2.5, widest_start = detail::full_circle;
 
 /// Inverse of the left Jacobian of SO(3): the rate of the rotation vector u of a rotation that
 /// turns with the angular velocity omega is this times omega.
@@ -216,7 +215,7 @@ void InverseSolver::place_start(int seed) noexcept {
     } else {
       const double theta = std::fmin(max_theta_[i], seed % 2 == 0 ? usual_start : widest_start) *
                            std::sqrt(random());
-      const double phi = full_circle * random();
+      const double phi = detail::full_circle * random();
       bend << theta * std::cos(phi), theta * std::sin(phi);
     }
   }
