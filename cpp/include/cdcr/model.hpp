@@ -17,7 +17,7 @@ class Model {
  public:
   explicit Model(Robot robot, Formulation formulation = Formulation::exact);
 
-  [[nodiscard]] const Robot& robot() const noexcept { return robot_; }
+  [[nodiscard]] const Robot& robot() const noexcept { return *robot_; }
   [[nodiscard]] Formulation formulation() const noexcept { return formulation_; }
   [[nodiscard]] Index num_sections() const noexcept { return stiffness_.size(); }
   /// The size d of q: two for each section of constant curvature.
@@ -63,7 +63,7 @@ class Model {
   [[nodiscard]] const std::shared_ptr<const Parts>& parts() const noexcept { return parts_; }
 
  private:
-  Robot robot_;
+  std::shared_ptr<const Robot> robot_;  // shared by copies of a model
   std::vector<Cable> cables_;
   std::vector<Index> cable_rows_;
   Formulation formulation_;

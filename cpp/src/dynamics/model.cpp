@@ -29,18 +29,18 @@ detail::SectionSeries series_of(const Section& section, double payload, Formulat
 }  // namespace
 
 Model::Model(Robot robot, Formulation formulation)
-    : robot_(std::move(robot)), formulation_(formulation) {
-  validate(robot_);
-  const auto n = static_cast<Index>(robot_.sections.size());
-  cables_ = robot_.all_cables();
+    : robot_(std::make_shared<const Robot>(std::move(robot))), formulation_(formulation) {
+  validate(*robot_);
+  const auto n = static_cast<Index>(robot_->sections.size());
+  cables_ = robot_->all_cables();
   stiffness_.resize(n);
   damping_.resize(n);
   for (Index i = 0; i < n; ++i) {
-    const Section& section = robot_.sections[i];
+    const Section& section = robot_->sections[i];
     stiffness_[i] = section.stiffness();
     damping_[i] = section.damping;
   }
-  const auto parts = std::make_shared<Parts>(Parts{detail::Chain(robot_), std::nullopt});
+  const auto parts = std::make_shared<Parts>(Parts{detail::Chain(*robot_), std::nullopt});
   first_ = parts->chain.first;
   coordinate_stiffness_.resize(parts->chain.num_coordinates());
   for (Index i = 0; i < n; ++i) {
@@ -57,7 +57,7 @@ Model::Model(Robot robot, Formulation formulation)
     for (Index k = 0; k <= cable.end_section; ++k) {
       actuation_.col(j).segment<detail::ConstantCurvature<double>::m>(first_[k]) =
           detail::ConstantCurvature<double>::actuation(cable.radius, cable.angle);
-      straight_lengths_[j] += robot_.sections[k].length;
+      straight_lengths_[j] += robot_->sections[k].length;
     }
   }
 
@@ -65,22 +65,22 @@ Model::Model(Robot robot, Formulation formulation)
   for (Index j = 0; j < num_cables; ++j) {
     const Cable& cable = cables_[j];
     for (Index k = 0; k <= cable.end_section; ++k) {
-      friction_(k, j) = cable.friction.value_or(robot_.sections[k].cable_friction);
+      friction_(k, j) = cable.friction.value_or(robot_->sections[k].cable_friction);
     }
     if (cable.length_driven()) has_plain_cables_ = false;
   }
   has_friction_ = (friction_.array() > 0.0).any();
   has_plain_cables_ = has_plain_cables_ && !has_friction_;
-  root_gravity_ = robot_.base_orientation.transpose() * robot_.gravity;
-  has_gravity_ = robot_.gravity != Vector3d::Zero();
+  root_gravity_ = robot_->base_orientation.transpose() * robot_->gravity;
+  has_gravity_ = robot_->gravity != Vector3d::Zero();
 
-  const bool point = robot_.payload_position.isZero(0.0) && robot_.payload_inertia.isZero(0.0);
-  const Section& first = robot_.sections[0];
+  const bool point = robot_->payload_position.isZero(0.0) && robot_->payload_inertia.isZero(0.0);
+  const Section& first = robot_->sections[0];
   const bool alike =
       first.disk_positions.empty() && first.disk_masses.empty() && first.disk_diameters.empty();
   if (n == 1 && point && (alike || formulation == Formulation::exact)) {
     parts->single =
-        detail::SingleSection{detail::ShapeTable(series_of(first, robot_.payload, formulation)),
+        detail::SingleSection{detail::ShapeTable(series_of(first, robot_->payload, formulation)),
                               first.length,
                               stiffness_[0],
                               damping_[0],
