@@ -4,6 +4,9 @@ SI units and radians throughout. q stacks one bending vector per section, base t
 q_i = theta_i (cos phi_i, sin phi_i). Arrays are float64 with time on axis 0.
 """
 
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
 try:
     from cdcr import _core
 except ImportError as error:  # pragma: no cover
@@ -12,7 +15,7 @@ except ImportError as error:  # pragma: no cover
         "('pip install .' in the project's folder) and do not import it from its source folder."
     ) from error
 
-from cdcr import paper, robots, scenarios
+from cdcr import robots
 from cdcr._core import Controller, Equilibrium, Simulator, Stats, Status, max_bending, taylor_range
 from cdcr.model.coordinates import bending, polar
 from cdcr.model.inverse_kinematics import InverseKinematics
@@ -31,6 +34,9 @@ from cdcr.runs.command import TensionTable
 from cdcr.runs.pid import Pid
 from cdcr.runs.simulate import simulate
 from cdcr.runs.trajectory import SlackEvent, Trajectory
+
+if TYPE_CHECKING:
+    from cdcr import paper, scenarios
 
 __version__: str = _core.__version__
 
@@ -69,6 +75,13 @@ __all__ = [
     "subdivide_state",
     "taylor_range",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Load what few programs need when it is asked for."""
+    if name in ("paper", "scenarios"):
+        return import_module(f"cdcr.{name}")
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:
