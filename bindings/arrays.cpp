@@ -85,13 +85,13 @@ void check_bending(const Model& model, const Array& q, const char* name) {
 }
 
 /// Refuses a negative command, in any state.
-void check_tension(const Model& model, const Array& tension) {
+void check_tension(const Model& model, const Array& tension, const char* name) {
   const double* data = tension.data();
   for (Index i = 0, end = tension.size(); i < end; ++i) {
     if (data[i] >= 0.0) continue;
     const Index cable = i % model.num_cables();
     std::ostringstream text;
-    text << "tension" << index_text(i, sizes_of(tension)) << " must be >= 0 ";
+    text << name << index_text(i, sizes_of(tension)) << " must be >= 0 ";
     if (model.cables()[static_cast<std::size_t>(cable)].length_driven()) {
       text << "m (the length commanded of a length-driven cable)";
     } else {
@@ -135,9 +135,9 @@ VectorArgument read_bending(const Model& model, const py::handle& object, const 
   return VectorArgument(std::move(q));
 }
 
-VectorArgument read_tension(const Model& model, const py::handle& object) {
-  Array tension = read_array(object, "tension", {model.num_cables()});
-  check_tension(model, tension);
+VectorArgument read_tension(const Model& model, const py::handle& object, const char* name) {
+  Array tension = read_array(object, name, {model.num_cables()});
+  check_tension(model, tension, name);
   return VectorArgument(std::move(tension));
 }
 
@@ -153,7 +153,7 @@ StateArgument read_rates(const Model& model, const py::handle& object, const cha
 
 StateArgument read_tensions(const Model& model, const py::handle& object) {
   StateArgument tension("tension", object, model.num_cables());
-  check_tension(model, tension.array);
+  check_tension(model, tension.array, tension.name);
   return tension;
 }
 

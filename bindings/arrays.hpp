@@ -52,7 +52,8 @@ struct StateArgument {
                                           const char* name);
 
 /// Commands of the cables (num_cables), tensions or lengths: also refuses a negative one.
-[[nodiscard]] VectorArgument read_tension(const Model& model, const py::handle& object);
+[[nodiscard]] VectorArgument read_tension(const Model& model, const py::handle& object,
+                                          const char* name = "tension");
 
 /// The same of arrays of states: any leading dimensions go before the last one.
 [[nodiscard]] StateArgument read_bendings(const Model& model, const py::handle& object);

@@ -125,12 +125,14 @@ void bind_simulate(py::module_& m) {
   py::class_<CommandInput>(m, "TensionInput", "Commands of the cables as a function of time.")
       .def_static(
           "constant",
-          [](const Model& model, const py::object& tension) {
-            return CommandInput::constant(*read_tension(model, tension));
+          [](const Model& model, const py::object& tension, const std::string& name) {
+            return CommandInput::constant(*read_tension(model, tension, name.c_str()));
           },
-          "model"_a, "tension"_a,
-          Doc("The same commands at all times.", {docs::model, docs::one_tension}, an_input,
-              docs::bad_argument))
+          "model"_a, "tension"_a, "name"_a = "tension",
+          Doc("The same commands at all times.",
+              {docs::model, docs::one_tension,
+               "name : str, default \"tension\"\n    What messages call it.\n"},
+              an_input, docs::bad_argument))
       .def_static(
           "table",
           [](const Model& model, const py::object& t, const py::object& tension, bool linear) {

@@ -52,7 +52,9 @@ void bind_simulator(py::module_& m) {
               throw py::value_error(
                   "give either tension or command, two names for one thing, not both or none");
             }
-            return self.step(*read_tension(self.model(), tension.is_none() ? command : tension),
+            const bool by_tension = command.is_none();
+            return self.step(*read_tension(self.model(), by_tension ? tension : command,
+                                           by_tension ? "tension" : "command"),
                              read_wrenches(self.model(), wrenches));
           },
           "tension"_a = py::none(), "wrenches"_a = py::tuple(), py::kw_only(),

@@ -13,7 +13,6 @@ from cdcr._core_robot import Robot as Robot
 from cdcr._core_robot import Section as Section
 from cdcr._core_robot import _Bound, _FloatArray
 from cdcr._core_statics import Allocation as Allocation
-from cdcr._core_statics import CoreModes as CoreModes
 from cdcr._core_statics import Equilibrium as Equilibrium
 from cdcr.model.wrench import Wrench
 
@@ -119,7 +118,7 @@ class Model(metaclass=_Bound):
     def commands(self, q: ArrayLike, tension: ArrayLike) -> _FloatArray: ...
     def _modes(
         self, q: ArrayLike, tension: ArrayLike, wrenches: Wrench | Sequence[Wrench]
-    ) -> CoreModes: ...
+    ) -> tuple[_FloatArray, ...]: ...
     def find_tension(
         self,
         force: ArrayLike,
@@ -181,7 +180,7 @@ class Stats(metaclass=_Bound):
 @final
 class TensionInput(metaclass=_Bound):
     @staticmethod
-    def constant(model: Model, tension: ArrayLike) -> TensionInput: ...
+    def constant(model: Model, tension: ArrayLike, name: str = "tension") -> TensionInput: ...
     @staticmethod
     def table(model: Model, t: ArrayLike, tension: ArrayLike, linear: bool) -> TensionInput: ...
     @staticmethod

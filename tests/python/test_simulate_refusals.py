@@ -180,3 +180,13 @@ def test_tension_and_controller(model: cdcr.Model) -> None:
         run(model, command=[1.0, 0.0, 0.0], controller=pid)
     with refuses("give either tension or command, two names for one thing, not both"):
         run(model, tension=[1.0, 0.0, 0.0], command=[1.0, 0.0, 0.0])
+
+
+def test_messages_call_the_commands_what_the_caller_does(model: cdcr.Model) -> None:
+    sentence = r"^command\[1\] must be >= 0 N \(a cable cannot push\), got -1$"
+    with pytest.raises(ValueError, match=sentence):
+        run(model, command=[0.0, -1.0, 0.0])
+    simulator = cdcr.Simulator(model)
+    simulator.reset([0.0, 0.0], [0.0, 0.0])
+    with pytest.raises(ValueError, match=sentence):
+        simulator.step(command=[0.0, -1.0, 0.0])

@@ -73,9 +73,9 @@ def _takes_state(function: Callable[..., Any]) -> bool:
 
 
 def command_input(
-    model: Model, command: Command, break_points: Sequence[float] = ()
+    model: Model, command: Command, break_points: Sequence[float] = (), name: str = "tension"
 ) -> _core.TensionInput:
-    """Turn what a user gives as command or tension into the core's input."""
+    """Turn what a user gives as command or tension into the core's input; messages say `name`."""
     if command is None:
         command = model.rest_command()
     if callable(command):
@@ -90,5 +90,5 @@ def command_input(
         linear = command.interpolation == "linear"
         return _core.TensionInput.table(model, command.t, command.tension, linear)
     if isinstance(command, tuple) and len(command) == 2 and np.ndim(command[1]) == 2:
-        return command_input(model, TensionTable(*command))
-    return _core.TensionInput.constant(model, cast("ArrayLike", command))
+        return command_input(model, TensionTable(*command), name=name)
+    return _core.TensionInput.constant(model, cast("ArrayLike", command), name)

@@ -111,19 +111,18 @@ def simulate(
         raise ValueError(f"method must be one of {known}, got {method!r}") from None
     if tension is not None and command is not None:
         raise ValueError("give either tension or command, two names for one thing, not both")
-    asked = tension if command is None else command
+    name, asked = ("tension", tension) if command is None else ("command", command)
     given = {"rtol": rtol, "atol": atol, "step": step, "max_step": max_step, "max_steps": max_steps}
     told: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     options = _core.Options(**told)
     if controller is not None:
         if asked is not None or len(break_points) > 0:
-            name = "tension" if command is None else "command"
             raise ValueError(f"give either {name} or controller, not both")
         raw = _core.simulate_controlled(
             model, q0, qd0, t, controller, chosen, options, progress, loads(wrenches)
         )
     else:
-        source = command_input(model, asked, break_points)
+        source = command_input(model, asked, break_points, name)
         raw = _core.simulate(model, q0, qd0, t, source, chosen, options, progress, loads(wrenches))
     run = Trajectory(
         model=model,
