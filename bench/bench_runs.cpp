@@ -121,6 +121,6 @@ int main(int argc, char** argv) {
       .measure_adaptive("1e-8", 50);
   Runs(harness, {"step-tension", 0.0, 0.0, {5.0, 0.0, 0.0}}).measure_defaults();
   // Some two thousand times the damping that lets the paper's robot settle: a stiff problem.
-  const Runs honey(harness, {"return through honey", 2.0, bench::quarter_pi, none});
-  honey.measure_adaptive("1e-8", 100);
+  const Runs damped(harness, {"strongly damped return", 2.0, bench::quarter_pi, none});
+  damped.measure_adaptive("1e-8", 100);
 }
