@@ -40,7 +40,7 @@ void bind_model(py::module_& m) {
   bind_dynamics(model);
   bind_energy(model);
   bind_statics(m, model);
-  bind_modes(m, model);
+  bind_modes(model);
 }
 
 }  // namespace cdcr::python

@@ -2,9 +2,6 @@
 
 from typing import final
 
-import numpy as np
-from numpy.typing import NDArray
-
 from cdcr._core import Status
 from cdcr._core_robot import _Bound, _FloatArray
 
@@ -45,20 +42,3 @@ class Allocation(metaclass=_Bound):
     def limiting(self) -> list[int]: ...
     @property
     def limits(self) -> list[str]: ...
-
-@final
-class CoreModes(metaclass=_Bound):
-    """Small vibrations about a shape."""
-
-    @property
-    def squared_frequency(self) -> _FloatArray: ...
-    @property
-    def frequency(self) -> _FloatArray: ...
-    @property
-    def shape(self) -> _FloatArray: ...
-    @property
-    def damping_ratio(self) -> _FloatArray: ...
-    @property
-    def eigenvalues(self) -> NDArray[np.complex128]: ...
-    @property
-    def stable(self) -> bool: ...

@@ -70,7 +70,7 @@ def test_a_buckled_column_falls_away() -> None:
 
 
 def test_refusals(model: cdcr.Model, found: cdcr.Modes) -> None:
-    with pytest.raises(ValueError, match=r"^q must have shape \(6,\), got \(2,\)$"):
+    with pytest.raises(ValueError, match=r"^q must have shape \(\.\.\., 6\), got \(2,\)$"):
         model.modes([0.0, 0.0], np.zeros(9))
     with pytest.raises(ValueError, match=r"has no (inertia|dynamics)"):
         cdcr.Model(cdcr.robots.rao2021()).modes(np.zeros(4), np.zeros(6))
@@ -78,6 +78,10 @@ def test_refusals(model: cdcr.Model, found: cdcr.Modes) -> None:
         plot_modes(found, 0)
     with pytest.raises(ValueError, match=r"^deflection must be > 0 and <= 1, got 2$"):
         plot_modes(found, deflection=2)
+    many = model.modes(np.zeros((2, 6)), np.zeros(9))
+    assert repr(many) == "<Modes at shapes of leading dimensions (2,)>"
+    with pytest.raises(ValueError, match=r"got those of an array of shape \(2,\)$"):
+        plot_modes(many)
 
 
 def test_the_picture_names_frequencies(found: cdcr.Modes, tmp_path: Path) -> None:

@@ -2,7 +2,7 @@
 
 import math
 import re
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
@@ -32,6 +32,7 @@ FUNCTIONS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "cable_energy": (("q", "tension"), ("",)),
     "static_stiffness": (("q", "tension"), ("dd",)),
     "commands": (("q", "tension"), ("m",)),
+    "modes": (("q", "tension"), ("d", "d", "d", "dd", "d", "s")),
     "pose": (("q",), ("33", "3")),
     "jacobian": (("q",), ("6d",)),
     "wrench_force": (("q",), ("d",)),
@@ -71,6 +72,8 @@ def states(model: cdcr.Model, **leading: tuple[int, ...]) -> dict[str, NDArray[n
 
 def answers(model: cdcr.Model, name: str, arguments: list[Any]) -> tuple[Any, ...]:
     found = getattr(model, name)(*arguments, *MORE.get(name, ()))
+    if isinstance(found, cdcr.Modes):
+        return tuple(getattr(found, item.name) for item in fields(found)[1:-1])
     return found if isinstance(found, tuple) else (found,)
 
 

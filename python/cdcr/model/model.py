@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import fields
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
@@ -148,9 +147,9 @@ class Model(_core.Model):
 
         Parameters
         ----------
-        q : (2n,) array_like
-            The shape, at rest there or held [rad].
-        tension : (num_cables,) array_like
+        q : (..., 2n) array_like
+            The shape, at rest there or held [rad]; or an array of shapes.
+        tension : (..., num_cables) array_like
             Cable tensions [N]; lengths [m] for cables driven by length.
         wrenches : Wrench or sequence of Wrench, optional
             Constant forces and moments on the backbone.
@@ -158,6 +157,12 @@ class Model(_core.Model):
         Returns
         -------
         Modes
+            Its arrays have the leading dimensions of `q` and `tension`, broadcast.
+
+        Raises
+        ------
+        ValueError
+            For arguments that are no states or commands, and for a robot without inertia there.
 
         Examples
         --------
@@ -166,10 +171,13 @@ class Model(_core.Model):
         >>> model.modes([0.0, 0.0], [0.0, 0.0, 0.0])
         <Modes at 1.448, 1.448 Hz, stable>
         """
-        found = self._modes(q, tension, wrenches)
-        names = [item.name for item in fields(Modes)][2:]
-        answers = {name: getattr(found, name) for name in names}
-        return Modes(model=self, q=np.array(q, dtype=np.float64), **answers)
+        frequency, squared, mode, ratio, pairs, stable = self._modes(q, tension, wrenches)
+        leading = stable.shape[:-1]
+        at = np.array(np.broadcast_to(q, frequency.shape), dtype=np.float64)
+        eigenvalues = pairs.view(np.complex128)[..., 0]
+        every = stable[..., 0] > 0.0
+        lasting = every if leading else bool(every)
+        return Modes(self, at, frequency, squared, mode, ratio, eigenvalues, lasting)
 
     @overload
     def allocate(

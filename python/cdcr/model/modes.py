@@ -23,20 +23,20 @@ class Modes:
     ----------
     model : Model
         The robot.
-    q : (2n,) array
+    q : (..., 2n) array
         The shape it vibrates about [rad].
-    frequency : (2n,) array
+    frequency : (..., 2n) array
         Natural frequencies of the undamped robot, increasing [rad/s]; 0 where the robot does not
         come back.
-    squared_frequency : (2n,) array
+    squared_frequency : (..., 2n) array
         Their squares [rad^2/s^2], negative in the directions in which the robot is unstable.
-    shape : (2n, 2n) array
+    shape : (..., 2n, 2n) array
         A mode shape in each column, of unit modal mass: shape.T @ M @ shape = 1 [rad/(m sqrt(kg))].
-    damping_ratio : (2n,) array
+    damping_ratio : (..., 2n) array
         Of each mode alone, 1 is critical; 0 where the frequency is 0 [-].
-    eigenvalues : (4n,) complex array
+    eigenvalues : (..., 4n) complex array
         Of the damped robot, couplings of the modes included, by magnitude [1/s].
-    stable : bool
+    stable : bool or (...) array of bool
         Whether every small motion stays small.
     """
 
@@ -47,21 +47,21 @@ class Modes:
     shape: FloatArray
     damping_ratio: FloatArray
     eigenvalues: NDArray[np.complex128]
-    stable: bool
+    stable: bool | NDArray[np.bool_]
 
     @property
     def frequency_hz(self) -> FloatArray:
-        """Natural frequencies (2n,) [Hz]."""
+        """Natural frequencies (..., 2n) [Hz]."""
         return self.frequency / (2.0 * math.pi)
 
     @property
     def damped_frequency(self) -> FloatArray:
-        """Frequencies (4n,) at which the damped robot swings, one of each eigenvalue [rad/s]."""
+        """Frequencies (..., 4n) of the damped robot, one of each eigenvalue [rad/s]."""
         return np.abs(self.eigenvalues.imag)
 
     @property
     def decay_rate(self) -> FloatArray:
-        """Rates (4n,) at which these motions decay, one of each eigenvalue [1/s]."""
+        """Rates (..., 4n) at which these motions decay, one of each eigenvalue [1/s]."""
         return -self.eigenvalues.real
 
     def plot(self, count: int = 4, **options: Any) -> Any:
@@ -83,6 +83,8 @@ class Modes:
         return plot_modes(self, count, **options)
 
     def __repr__(self) -> str:
+        if self.frequency.ndim > 1:
+            return f"<Modes at shapes of leading dimensions {self.frequency.shape[:-1]}>"
         shown = ", ".join(f"{f:.4g}" for f in self.frequency_hz[:4])
         more = ", ..." if len(self.frequency) > 4 else ""
         return f"<Modes at {shown}{more} Hz, {'' if self.stable else 'not '}stable>"

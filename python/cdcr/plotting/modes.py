@@ -43,6 +43,11 @@ def plot_modes(modes: Modes, count: int = 4, *, deflection: float = 0.15) -> Sty
         raise ValueError(f"count must be a whole number >= 1, got {count!r}")
     if not 0.0 < deflection <= 1.0:
         raise ValueError(f"deflection must be > 0 and <= 1, got {deflection!r}")
+    if modes.frequency.ndim > 1:
+        raise ValueError(
+            "modes must be those of one shape to be drawn, got those of an array of shape "
+            f"{modes.frequency.shape[:-1]}"
+        )
     shown = min(count, len(modes.frequency))
     rest = _backbone(modes.model, modes.q)
     swings = [_swings(modes, k, deflection * modes.model.robot.length) for k in range(shown)]
