@@ -53,9 +53,10 @@ def test_shapes_in_a_file(tmp_path: Path) -> None:
 
 STEP_KEYS = {"cable": 1, "shape": "step", "value": 5}
 SINE_KEYS = {"cable": 2, "shape": "sine", "mean": 1, "amplitude": 0.5, "frequency": 2}
+COMMAND = "a number [N], or [m] for a cable driven by length"
 NO_PUSH = (
-    "; what its shapes add up to must be >= 0 N at all times (a sine counts with its whole "
-    "amplitude), since a cable cannot push"
+    "; what its shapes add up to must be >= 0 at all times, as a tension or a length (a sine "
+    "counts with its whole amplitude)"
 )
 
 
@@ -73,7 +74,7 @@ NO_PUSH = (
         ),
         (
             {"cable": 1, "shape": "step"},
-            ": tension[0].value is missing; it must be a number [N]",
+            ": tension[0].value is missing; it must be " + COMMAND,
         ),
         (
             STEP_KEYS | {"att": 1},
@@ -90,19 +91,19 @@ NO_PUSH = (
         ),
         (
             STEP_KEYS | {"value": math.inf},
-            ": tension[0].value must be a number [N], got inf (float)",
+            ": tension[0].value must be " + COMMAND + ", got inf (float)",
         ),
         (
             STEP_KEYS | {"value": -2.0, "at": 1.5},
-            ", [[tension]]: cable 1 would go down to -2 N from t = 1.5 s on" + NO_PUSH,
+            ", [[tension]]: cable 1 would go down to -2 from t = 1.5 s on" + NO_PUSH,
         ),
         (
             SINE_KEYS | {"amplitude": 3},
-            ", [[tension]]: cable 2 would go down to -2 N from t = 0 s on" + NO_PUSH,
+            ", [[tension]]: cable 2 would go down to -2 from t = 0 s on" + NO_PUSH,
         ),
         (
             SINE_KEYS | {"amplitude": -1},
-            ": tension[0].amplitude must be a number >= 0 [N], got -1 (integer)",
+            ": tension[0].amplitude must be a number >= 0" + COMMAND[8:] + ", got -1 (integer)",
         ),
         (
             SINE_KEYS | {"phase": 0.5, "phase_deg": 30},
@@ -110,11 +111,11 @@ NO_PUSH = (
         ),
         (
             {"cable": 1, "shape": "pulse", "value": -1, "start": 1, "end": 2, "base": 0.5},
-            ", [[tension]]: cable 1 would go down to -1 N between t = 1 and 2 s" + NO_PUSH,
+            ", [[tension]]: cable 1 would go down to -1 between t = 1 and 2 s" + NO_PUSH,
         ),
         (
             {"cable": 1, "shape": "ramp", "from": -1, "to": 2, "start": 1, "end": 2},
-            ", [[tension]]: cable 1 would go down to -1 N before t = 1 s" + NO_PUSH,
+            ", [[tension]]: cable 1 would go down to -1 before t = 1 s" + NO_PUSH,
         ),
         (
             {"cable": 1, "shape": "ramp", "to": 2, "start": 2, "end": 2},
@@ -138,3 +139,22 @@ def test_one_shape_wants_two_brackets(tmp_path: Path) -> None:
     text = table(**STEP_KEYS).replace("[[tension]]", "[tension]")
     with pytest.raises(ValueError, match=r"a table with shape must be written \[\[tension\]\]"):
         load(tmp_path, text)
+
+
+def test_a_cable_driven_by_length_without_shapes_keeps_its_length(tmp_path: Path) -> None:
+    text = """\
+t_end = 0.1
+[robot]
+name = "amouri2020"
+[robot.each_section]
+cable_stiffness = 5e3
+[[tension]]
+cable = 2
+shape = "step"
+value = 0.8
+"""
+    path = tmp_path / "pull.toml"
+    path.write_text(text, encoding="utf-8")
+    run = load_scenario(path).simulate()
+    np.testing.assert_allclose(run.command, np.tile([0.802, 0.8, 0.802], (len(run), 1)))
+    assert 1.0 < run.tension.max() < 20.0  # 2 mm short, 5 N/mm

@@ -2,18 +2,61 @@
 
 import math
 import warnings
-from dataclasses import replace
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
 import cdcr
+from cdcr.scenarios.file.reader import load_scenario
 from cdcr.scenarios.file.shapes import TensionShapes, pulse, ramp, sine, step
 from tension_shapes import RAMP, ROUNDING, SINE, STEP, TIGHT, model
 
 # Of two runs at the tightest tolerance whose steps differ [rad], [rad/s].
 RUN = 1e-10
+
+LENGTHS = (
+    """\
+t_end = 0.4
+[robot]
+name = "amouri2020"
+[robot.each_section]
+cable_stiffness = 5e3
+damping = 0.02
+[output]
+num_samples = 41
+"""
+    + "".join(
+        f"""\
+[[tension]]
+cable = {cable}
+shape = "step"
+value = 0.802
+"""
+        for cable in (1, 2, 3)
+    )
+    + """\
+[[tension]]
+cable = 1
+shape = "ramp"
+to = -0.01
+start = 0.1
+end = 0.2
+[[tension]]
+cable = 2
+shape = "step"
+value = -0.004
+at = 0.15
+[[tension]]
+cable = 3
+shape = "sine"
+mean = 0.0
+amplitude = 0.002
+frequency = 5.0
+"""
+)
 
 
 def restarted(edges: list[float], rows: list[list[float]], at: float) -> NDArray[np.float64]:
@@ -114,22 +157,30 @@ def test_costs_and_failures_of_the_stretches_add_up() -> None:
     assert short.stats.steps < part.stats.steps
 
 
-def test_lengths_put_together_from_shapes_are_commands_and_no_tensions() -> None:
-    robot = cdcr.robots.amouri2020(damping=0.02)
-    section = replace(robot.sections[0], cable_stiffness=5e3)
-    model = cdcr.Model(replace(robot, sections=(section,)))
-    shapes = [(j, step(value=length)) for j, length in enumerate(model.rest_command())]
-    lengths = TensionShapes(3, [*shapes, (0, ramp(after=-0.01, start=0.1, end=0.2))])
-    t = np.linspace(0.0, 0.4, 41)
-    rest = np.zeros(2)
-    run, table = lengths.run(model, rest, rest, t), cdcr.TensionTable(t, lengths(t))
-    np.testing.assert_array_equal(run.command, lengths(t))
-    whole = cdcr.simulate(model, rest, rest, t=t, command=table)
-    np.testing.assert_allclose(run.tension, whole.tension, rtol=0, atol=1e-2)
-    assert 10.0 < run.tension.max() < 50.0
-    assert {event.cable for event in run.slack_events} == {
-        event.cable for event in whole.slack_events
-    }
+@pytest.mark.parametrize("method", ["bdf", "adams", "dopri5", "rk4"])
+def test_lengths_put_together_from_shapes_run_as_a_function(method: Any, tmp_path: Path) -> None:
+    """A scenario file's shapes: tensions in N, and each turn of a cable to slack or taut."""
+    file = tmp_path / "lengths.toml"
+    file.write_text(LENGTHS, encoding="utf-8")
+    scenario = load_scenario(file)
+    shapes: Any = scenario.input_source
+    run = scenario.simulate(method=method)
+    plain = cdcr.simulate(
+        scenario.model,
+        np.zeros(2),
+        np.zeros(2),
+        t=scenario.times(),
+        tension=shapes,
+        break_points=shapes.break_points,
+        method=method,
+    )
+    for name in ("t", "q", "qd", "tension", "command"):
+        np.testing.assert_array_equal(getattr(run, name), getattr(plain, name))
+    assert run.slack_events == plain.slack_events
+    np.testing.assert_array_equal(run.command, shapes(run.t))
+    assert 1.0 < run.tension.max() < 100.0
+    if method in ("bdf", "adams"):
+        assert run.slack_events
 
 
 def test_a_taylor_model_warns_once() -> None:

@@ -9,6 +9,7 @@ from pydantic import BaseModel, Field, create_model
 from cdcr.scenarios.file.schema import STRICT, Finite, optional
 
 _Values = Finite | list[Finite]
+_COMMAND = "a number [N], or [m] for a cable driven by length"
 _Rows = list[Finite] | list[list[Finite]]
 
 
@@ -28,24 +29,24 @@ class TensionShape(BaseModel):
 class StepTable(TensionShape):
     """Zero, then a value."""
 
-    value: float = _number("a number [N]")
+    value: float = _number(_COMMAND)
     at: float = _number("a number [s]", default=0.0)
 
 
 class PulseTable(TensionShape):
     """A value for some time."""
 
-    value: float = _number("a number [N]")
+    value: float = _number(_COMMAND)
     start: float = _number("a number [s]")
     end: float = _number("a number [s], later than start")
-    base: float = _number("a number [N]", default=0.0)
+    base: float = _number(_COMMAND, default=0.0)
 
 
 class SineTable(TensionShape):
     """A sine about a mean."""
 
-    mean: float = _number("a number [N]")
-    amplitude: float = _number("a number >= 0 [N]", ge=0.0)
+    mean: float = _number(_COMMAND)
+    amplitude: float = _number(_COMMAND.replace("number", "number >= 0"), ge=0.0)
     frequency: float = _number("a number > 0 [Hz]", gt=0.0)
     phase: float = optional("a number [rad]", allow_inf_nan=False)
     phase_deg: float = optional("a number [deg]", allow_inf_nan=False)
@@ -57,8 +58,8 @@ RampTable: type[BaseModel] = create_model(
     "RampTable",
     __base__=TensionShape,
     **{
-        "from": (float, _number("a number [N]", default=0.0)),
-        "to": (float, _number("a number [N]")),
+        "from": (float, _number(_COMMAND, default=0.0)),
+        "to": (float, _number(_COMMAND)),
         "start": (float, _number("a number [s]", default=0.0)),
         "end": (float, _number("a number [s], later than start")),
     },  # type: ignore[call-overload]

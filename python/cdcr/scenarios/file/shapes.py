@@ -1,14 +1,10 @@
-"""Tensions put together from steps, ramps, pulses and sines, smooth between known times."""
+"""Commands put together from steps, ramps, pulses and sines, smooth between known times."""
 
 from __future__ import annotations
 
 import math
-import warnings
 from bisect import bisect_right
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
-from functools import partial
-from itertools import pairwise
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,8 +12,7 @@ from numpy.typing import ArrayLike
 
 from cdcr.base.arrays import FloatArray
 from cdcr.model.model import Model
-from cdcr.runs.simulate import simulate, warn_beyond_taylor_range
-from cdcr.runs.stats import total
+from cdcr.runs.simulate import simulate
 from cdcr.runs.trajectory import Trajectory
 
 # Relative; what sums like 0.1 + 0.2 - 0.3 may lack of zero.
@@ -25,7 +20,10 @@ _ROUNDING = 1e-12
 
 
 class Piece(NamedTuple):
-    """A smooth function of time: level + slope (t - since) + amplitude sin(...)."""
+    """A smooth function of time: level + slope (t - since) + amplitude sin(...).
+
+    Its unit is that of the cable's command: N here and below, or m where driven by length.
+    """
 
     level: float  # [N]
     since: float = 0.0  # [s]
@@ -50,6 +48,11 @@ class Shape(NamedTuple):
 
     breaks: tuple[float, ...]  # times at which it is not smooth, increasing [s]
     pieces: tuple[Piece, ...]  # what it is before, between and after them
+
+
+def constant(*, value: float) -> Shape:
+    """Return `value` [N] at all times."""
+    return Shape((), (Piece(value),))
 
 
 def step(*, value: float, at: float = 0.0) -> Shape:
@@ -90,7 +93,7 @@ class TensionShapes:
     """Commands of all cables as sums of shapes, never below zero.
 
     Made of the number of cables, and of pairs: the index of a cable, and what adds to its command.
-    A cable without shapes is slack. `break_points` are the times at which the commands jump or
+    A cable without shapes is told 0. `break_points` are the times at which the commands jump or
     bend, increasing [s]. Where the shapes of a cable add up to less than zero or are not finite,
     a ValueError names the cable, counted from 1.
     """
@@ -116,123 +119,41 @@ class TensionShapes:
             ends = edges[stretch : stretch + 2]
             for cable, pieces in enumerate(cables):
                 if not np.isfinite([number for piece in pieces for number in piece]).all():
-                    raise ValueError(f"cable {cable + 1} must have finite tensions at all times")
+                    raise ValueError(f"cable {cable + 1} must have finite commands at all times")
                 lowest = min(_lowest(pieces, t) for t in ends)
                 scale = sum(abs(piece.level) + piece.amplitude for piece in pieces)
                 if lowest < -_ROUNDING * scale:
                     raise ValueError(_pushing(cable, lowest, *ends))
 
     def __call__(self, t: ArrayLike) -> FloatArray:
-        """Return tensions (num_cables,) or (N, num_cables) [N] at t or (N,) [s].
+        """Return commands (num_cables,) or (N, num_cables) [N], [m] at t or (N,) [s].
 
         At a jump, the value after it.
         """
         times = np.asarray(t, dtype=np.float64)
-        flat = times.ravel()
-        tension = np.zeros((flat.size, self.num_cables))
-        stretches = np.searchsorted(self.break_points, flat, side="right")
+        if times.ndim == 0:
+            return self._within(bisect_right(self.break_points, float(times)), times)
+        command = np.zeros((*times.shape, self.num_cables))
+        stretches = np.searchsorted(self.break_points, times, side="right")
         for stretch in np.unique(stretches):
             inside = stretches == stretch
-            tension[inside] = self.within(int(stretch), flat[inside])
-        return tension.reshape(*times.shape, self.num_cables)
+            command[inside] = self._within(int(stretch), times[inside])
+        return command
 
-    def within(self, stretch: int, t: ArrayLike) -> FloatArray:
-        """Return the tensions (..., num_cables) [N] of one stretch, its two ends included.
-
-        Stretch 0 is before the first break point, k after the k-th: at a break point, the two
-        stretches that meet there give the values before and after.
-        """
-        times = np.asarray(t, dtype=np.float64)
-        tension = np.zeros((*times.shape, self.num_cables))
+    def _within(self, stretch: int, times: FloatArray) -> FloatArray:
+        command = np.zeros((*times.shape, self.num_cables))
         for cable, pieces in enumerate(self._stretches[stretch]):
             for piece in pieces:
-                tension[..., cable] += piece(times)
-        return np.maximum(tension, 0.0)
+                command[..., cable] += piece(times)
+        return np.maximum(command, 0.0)
 
     def run(
-        self,
-        model: Model,
-        q0: ArrayLike,
-        qd0: ArrayLike,
-        t: ArrayLike,
-        *,
-        max_steps: int | None = None,
-        **options: Any,
+        self, model: Model, q0: ArrayLike, qd0: ArrayLike, t: ArrayLike, **options: Any
     ) -> Trajectory:
-        """Run the robot under these tensions, stretch by stretch; see `cdcr.simulate`.
-
-        An integrator evaluates the tensions at both ends of its steps. A plain function of time has
-        only one value at a jump; here each stretch has its own function, so that both sides of a
-        jump are exact.
-        """
-        times = np.asarray(t, dtype=np.float64)
-        inner = [b for b in self.break_points if times[0] < b < times[-1]]
-        parts: list[Trajectory] = []
-        edges = [float(times[0]), *inner, float(times[-1])]
-        for start, end in pairwise(edges):
-            stretch = bisect_right(self.break_points, start)
-            within = times[(times > start) & (times < end)]
-            with warn_once():
-                part = simulate(
-                    model,
-                    q0,
-                    qd0,
-                    t=np.concatenate([[start], within, [end]]),
-                    tension=self._source(stretch),
-                    max_steps=max_steps,
-                    **options,
-                )
-            parts.append(part)
-            if not part.success:
-                break
-            q0, qd0 = part.q[-1], part.qd[-1]
-            if max_steps is not None:
-                max_steps = max(1, max_steps - part.stats.steps)
-        return self._joined(parts, times)
-
-    def _source(self, stretch: int) -> FloatArray | Callable[[float], FloatArray]:
-        """Return what `simulate` takes for one stretch: numbers where nothing changes."""
-        pieces = [piece for cable in self._stretches[stretch] for piece in cable]
-        if any(piece.slope or piece.amplitude for piece in pieces):
-            return partial(self.within, stretch)
-        return self.within(stretch, 0.0)
-
-    def _joined(self, parts: list[Trajectory], times: FloatArray) -> Trajectory:
-        """Return the parts as one run, sampled at the output times alone."""
-        last = parts[-1]
-        # A break point stands in two parts, at the end of one and the start of the next.
-        before = [slice(0, -1)] * (len(parts) - 1)
-        rows = list(zip(parts, [*before, slice(None)], strict=True))
-        t = np.concatenate([part.t[row] for part, row in rows])
-        q = np.concatenate([part.q[row] for part, row in rows])
-        qd = np.concatenate([part.qd[row] for part, row in rows])
-        tension = np.concatenate([part.tension[row] for part, row in rows])
-        wanted = np.isin(t, times)
-        asked = self(t[wanted])
-        driven = [cable.length_driven for cable in last.model.robot.all_cables]
-        run = Trajectory(
-            model=last.model,
-            t=t[wanted],
-            q=q[wanted],
-            qd=qd[wanted],
-            tension=np.where(driven, tension[wanted], asked),
-            status=last.status,
-            message=last.message,
-            stats=total(part.stats for part in parts),
-            method=last.method,
-            command=asked,
-            slack_events=tuple(event for part in parts for event in part.slack_events),
+        """Run the robot under these commands; see `cdcr.simulate`."""
+        return simulate(
+            model, q0, qd0, t=t, command=self, break_points=self.break_points, **options
         )
-        warn_beyond_taylor_range(run.model, run.q)
-        return run
-
-
-@contextmanager
-def warn_once() -> Iterator[None]:
-    """Keep back the warning about a Taylor formulation, which is given for the run as a whole."""
-    with warnings.catch_warnings():
-        warnings.filterwarnings("ignore", message="formulation .* holds for")
-        yield
 
 
 def _lowest(pieces: list[Piece], t: float) -> float:
@@ -244,6 +165,6 @@ def _pushing(cable: int, lowest: float, start: float, end: float) -> str:
     if math.isfinite(start) and math.isfinite(end):
         when = f"between t = {start:g} and {end:g} s"
     return (
-        f"cable {cable + 1} would go down to {lowest:g} N {when}; what its shapes add up to must "
-        "be >= 0 N at all times (a sine counts with its whole amplitude), since a cable cannot push"
+        f"cable {cable + 1} would go down to {lowest:g} {when}; what its shapes add up to must be "
+        ">= 0 at all times, as a tension or a length (a sine counts with its whole amplitude)"
     )

@@ -22,7 +22,7 @@ from cdcr.model.model import Model
 from cdcr.robot.file import doubled
 from cdcr.runs.command import Interpolation, TensionTable, command_input
 from cdcr.scenarios.file import values
-from cdcr.scenarios.file.shapes import Shape, TensionShapes, pulse, ramp, sine, step
+from cdcr.scenarios.file.shapes import Shape, TensionShapes, constant, pulse, ramp, sine, step
 from cdcr.scenarios.file.start import carrying
 from cdcr.scenarios.file.trajectory import shape_errors
 
@@ -182,6 +182,9 @@ def _shapes(tables: list[dict[str, Any]], model: Model, file: Path, name: str) -
     for i, table in enumerate(tables):
         with values.error_prefix(f"{file}: {name}[{i}]"):
             shapes.append((table["cable"] - 1, _shape(table)))
+    given = {cable for cable, _ in shapes}
+    rest = enumerate(model.rest_command())
+    shapes += [(j, constant(value=value)) for j, value in rest if j not in given]
     with values.error_prefix(f"{file}, [[{name}]]"):
         return TensionShapes(model.num_cables, shapes)
 

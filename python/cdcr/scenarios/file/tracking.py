@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from contextlib import nullcontext
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +20,6 @@ from cdcr.runs.command import Command, TensionTable
 from cdcr.runs.simulate import simulate
 from cdcr.runs.stats import total
 from cdcr.runs.trajectory import Trajectory
-from cdcr.scenarios.file.shapes import warn_once
 from cdcr.scenarios.file.values import error_prefix
 from cdcr.scenarios.metrics import Metric, run_metrics
 from cdcr.scenarios.scenario import Scenario
@@ -107,7 +108,7 @@ class TrackedMotion:
         """Run the robot under the commands needed, or return the motion itself with them."""
         if self.simulate:
             command = self.command(model, t)
-            with nullcontext() if driven_by_length(model) else warn_once():
+            with nullcontext() if driven_by_length(model) else _warn_once():
                 return simulate(model, q0, qd0, t=t, command=command, **options)
         needed = self.inverse(model, t)
         return Trajectory(
@@ -132,7 +133,7 @@ class TrackedMotion:
         needed = self.inverse(model, t)  # refuses what is out of reach at any output time
         if self.step is None:
             return needed.tension_at
-        with warn_once():
+        with _warn_once():
             return self.inverse(model, times).to_table()
 
     def first_command(self, model: Model) -> FloatArray:
@@ -149,7 +150,7 @@ class TrackedMotion:
         """Return what every run shows, the tensions needed, and how well they lead the robot."""
         if driven_by_length(run.model):
             return (*run_metrics(scenario, run), *self._errors(run))
-        with warn_once():
+        with _warn_once():
             needed = self.inverse(run.model, run.t)
         found = [*run_metrics(scenario, run)]
         for j, tension in enumerate(needed.tension.T):
@@ -191,6 +192,14 @@ class TrackedMotion:
                 axes.plot(run.t, np.rad2deg(angles), color="black", linewidth=1.0, dashes=(6, 4))
                 axes.set_title("dashed: asked for", loc="left", fontsize=9.5)
         return figure
+
+
+@contextmanager
+def _warn_once() -> Iterator[None]:
+    """Keep back the warning about a Taylor formulation, which is given for the run as a whole."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="formulation .* holds for")
+        yield
 
 
 def _out_of_reach(needed: InverseRun) -> str:
