@@ -2,6 +2,9 @@
 #include <pybind11/stl.h>
 
 #include <memory>
+#include <optional>
+#include <tuple>
+#include <vector>
 
 #include "arrays.hpp"
 #include "bind.hpp"
@@ -32,11 +35,27 @@ CommandInput call_python(py::function function, Index num_cables,
       num_cables, std::move(break_points));
 }
 
+/// A Python function as event: called with t, q, qd, like one of tensions.
+Event call_event(py::function function, int direction, int terminal) {
+  const auto shared = std::make_shared<py::function>(std::move(function));
+  return {[shared](double t, const ConstVectorRef& q, const ConstVectorRef& qd) {
+            const py::gil_scoped_acquire locked;
+            const py::object value = (*shared)(t, to_array(q), to_array(qd));
+            return *read_array(value, "the value of an event", {}).data();
+          },
+          direction, terminal};
+}
+
 /// `source` is a const CommandInput or a Controller.
 template <class Source>
 Trajectory run(const Model& model, const py::object& q0, const py::object& qd0, const py::object& t,
                Source& source, Method method, const Options& options, const py::object& progress,
-               const WrenchInput& loads) {
+               const WrenchInput& loads,
+               const std::vector<std::tuple<py::function, int, int>>& events) {
+  Events watched;
+  for (const auto& [function, direction, terminal] : events) {
+    watched.push_back(call_event(function, direction, terminal));
+  }
   const VectorXd q = *read_bending(model, q0, "q0");
   const VectorXd qd = *VectorArgument(qd0, "qd0", model.num_coordinates());
   const VectorXd times = *VectorArgument(t, "t", -1);
@@ -48,13 +67,21 @@ Trajectory run(const Model& model, const py::object& q0, const py::object& qd0, 
   };
   const py::gil_scoped_release unlocked;
   return simulate(model, q, qd, times, source, method, options, make_cvode_integrator, report,
-                  loads);
+                  loads, watched);
 }
 
 py::list slack_events(const Trajectory& run) {
   py::list events;
   for (const SlackEvent& event : run.slack_events) {
     events.append(py::make_tuple(event.time, event.cable, event.slack));
+  }
+  return events;
+}
+
+py::list events_of(const Trajectory& run) {
+  py::list events;
+  for (const EventRecord& event : run.events) {
+    events.append(py::make_tuple(event.time, event.event, to_array(event.q), to_array(event.qd)));
   }
   return events;
 }
@@ -73,7 +100,8 @@ void bind_simulate(py::module_& m) {
 
   const Options defaults;
   py::class_<Options>(m, "Options", "Tolerances, steps and limits of a run.")
-      .def(py::init([](double rtol, double atol, double step, double max_step, long max_steps) {
+      .def(py::init([](double rtol, double atol, double step, double max_step,
+                       std::optional<long> max_steps) {
              Options options;
              options.rtol = rtol;
              options.atol = atol;
@@ -89,14 +117,15 @@ void bind_simulate(py::module_& m) {
            Doc("Take the options of ``cdcr.simulate``.",
                {"rtol, atol : float\n    Tolerances of one step [-], [rad] and [rad/s].\n",
                 "step, max_step : float\n    Step of rk4, largest step of the others [s].\n",
-                "max_steps : int\n    Internal steps in one run.\n"},
+                "max_steps : int or None\n    Internal steps in one run; None: a million, and a\n"
+                "    hundred more for each stretch between break points.\n"},
                "", docs::bad_argument))
       .def_readonly("rtol", &Options::rtol, "Relative tolerance of one step [-].")
       .def_readonly("atol", &Options::atol, "Absolute tolerance of one step [rad], [rad/s].")
       .def_readonly("step", &Options::step, "Step of rk4 [s].")
       .def_readonly("max_step", &Options::max_step,
                     "Largest step of adaptive methods [s]; 0: no limit.")
-      .def_readonly("max_steps", &Options::max_steps, "Internal steps in one run.");
+      .def_readonly("max_steps", &Options::max_steps, "Internal steps in one run; None: as said.");
 
   py::class_<Stats>(m, "Stats", "What a run cost, counted by the integrator.")
       .def_readonly("steps", &Stats::steps, "Internal steps accepted.")
@@ -182,6 +211,10 @@ void bind_simulate(py::module_& m) {
           "What was asked of the cables (N, num_cables), [N] or [m].")
       .def_property_readonly("slack_events", &slack_events,
                              "Time [s], cable and whether slack, in the order of time.")
+      .def_property_readonly(
+          "events", &events_of,
+          "Time [s], which event, q (d,) [rad] and qd (d,) [rad/s] there, in the "
+          "order of time.")
       .def_readonly("status", &Trajectory::status, "How the run ended.")
       .def_readonly("message", &Trajectory::message, "Empty for ok; else when, why, what to try.")
       .def_readonly("stats", &Trajectory::stats, "What the run cost.");
@@ -193,15 +226,16 @@ void bind_simulate(py::module_& m) {
       "method : Method\n    How to integrate.\n"
       "options : Options\n    Tolerances, steps and limits.\n"
       "progress : callable or None\n    Told the time reached [s] now and then.\n"
-      "loads : Loads\n    Wrenches over time.\n";
+      "loads : Loads\n    Wrenches over time.\n"
+      "events : sequence\n    Of each its function f(t, q, qd), direction and terminal [1].\n";
   constexpr const char* a_run = "Trajectory\n    The samples up to the end, or to a failure.";
   m.def("simulate", &run<const CommandInput>, "model"_a, "q0"_a, "qd0"_a, "t"_a, "input"_a,
-        "method"_a, "options"_a, "progress"_a, "loads"_a,
+        "method"_a, "options"_a, "progress"_a, "loads"_a, "events"_a,
         Doc("A run under commands; see cdcr.simulate.",
             {docs::model, start, "input : TensionInput\n    Commands over time.\n", rest}, a_run,
             docs::bad_argument));
   m.def("simulate_controlled", &run<Controller>, "model"_a, "q0"_a, "qd0"_a, "t"_a, "controller"_a,
-        "method"_a, "options"_a, "progress"_a, "loads"_a,
+        "method"_a, "options"_a, "progress"_a, "loads"_a, "events"_a,
         Doc("A run under a controller; see cdcr.simulate.",
             {docs::model, start, "controller : Controller\n    Asked once each period.\n", rest},
             a_run, docs::bad_argument));

@@ -36,6 +36,7 @@ class Status(enum.Enum):
     invalid_tension = 7
     not_converged = 8
     interrupted = 9
+    event = 10
 
 class Method(enum.Enum):
     """How to integrate."""
@@ -147,7 +148,7 @@ class Options(metaclass=_Bound):
         atol: float = ...,
         step: float = ...,
         max_step: float = ...,
-        max_steps: int = ...,
+        max_steps: int | None = None,
     ) -> None: ...
     @property
     def rtol(self) -> float: ...
@@ -158,7 +159,7 @@ class Options(metaclass=_Bound):
     @property
     def max_step(self) -> float: ...
     @property
-    def max_steps(self) -> int: ...
+    def max_steps(self) -> int | None: ...
 
 @final
 class Stats(metaclass=_Bound):
@@ -203,6 +204,8 @@ class Trajectory(metaclass=_Bound):
     @property
     def slack_events(self) -> list[tuple[float, int, bool]]: ...
     @property
+    def events(self) -> list[tuple[float, int, _FloatArray, _FloatArray]]: ...
+    @property
     def status(self) -> Status: ...
     @property
     def message(self) -> str: ...
@@ -219,6 +222,7 @@ def simulate(
     options: Options,
     progress: Callable[[float], object] | None,
     loads: Loads,
+    events: Sequence[tuple[Callable[..., object], int, int]],
 ) -> Trajectory: ...
 def simulate_controlled(
     model: Model,
@@ -230,6 +234,7 @@ def simulate_controlled(
     options: Options,
     progress: Callable[[float], object] | None,
     loads: Loads,
+    events: Sequence[tuple[Callable[..., object], int, int]],
 ) -> Trajectory: ...
 
 class Controller(metaclass=_Bound):

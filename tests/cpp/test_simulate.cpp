@@ -94,8 +94,8 @@ TEST_CASE("a jump in a table is hit exactly: the run goes on as one that starts 
         simulate(model, last_row(before.q), last_row(before.qd), Eigen::Vector2d(jump, 1.0),
                  CommandInput::constant(rows.row(1)), method);
     CHECK(whole.q.row(1) == before.q.row(1));
-    CHECK(whole.q.row(2) == after.q.row(1));
-    CHECK(whole.qd.row(2) == after.qd.row(1));
+    CHECK(residual(whole.q.row(2), after.q.row(1)) <= tolerance::run);
+    CHECK(residual(whole.qd.row(2), after.qd.row(1)) <= tolerance::run);
     CHECK(whole.tension.row(0) == rows.row(0));
     CHECK(whole.tension.row(1) == rows.row(1));  // at a jump, the value after it
   }
@@ -168,8 +168,12 @@ TEST_CASE("a function of time and state drives the robot, feedback included") {
   };
   for (const Method method : own_methods) {
     const VectorXd times = even_times(0.0, 0.5, 6);
-    const Trajectory plain = run_of(model, times, CommandInput::constant(constant), method);
-    const Trajectory called = run_of(model, times, CommandInput::function(recorded, 3), method);
+    Options options;
+    options.max_step = 0.01;
+    const Trajectory plain =
+        run_of(model, times, CommandInput::constant(constant), method, options);
+    const Trajectory called =
+        run_of(model, times, CommandInput::function(recorded, 3), method, options);
     CHECK(called.q == plain.q);
     CHECK(last_time == 0.5);
   }

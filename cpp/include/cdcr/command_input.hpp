@@ -19,6 +19,11 @@ class CommandInput : public Signal {
   [[nodiscard]] static CommandInput function(Function function, Index num_cables,
                                              std::vector<double> break_points = {});
 
+  /// The same commands, time counted from `start` [s].
+  [[nodiscard]] CommandInput since(double start) const {
+    return CommandInput(Signal::since(start));
+  }
+
   [[nodiscard]] Index num_cables() const noexcept { return size(); }
 
  private:

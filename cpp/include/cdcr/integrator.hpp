@@ -1,7 +1,7 @@
 #pragma once
 
 #include <memory>
-#include <vector>
+#include <optional>
 
 #include "cdcr/robot_ode.hpp"
 #include "cdcr/status.hpp"
@@ -15,18 +15,12 @@ enum class Method { rk4, dopri5, bdf, adams };
 /// How to integrate. The defaults put theta(t) of the scenario step-tension within 1e-6 rad of
 /// the truth over 10 s with bdf; bench/README.md has the figure of each method.
 struct Options {
-  double rtol = 1e-10;       ///< relative tolerance of one step, adaptive methods
-  double atol = 1e-12;       ///< absolute tolerance of one step [rad], [rad/s]
-  double step = 1e-3;        ///< step of rk4 [s]
-  double max_step = 0.0;     ///< largest step of adaptive methods [s]; 0: no limit
-  long max_steps = 1000000;  ///< internal steps in one run
-};
-
-/// A length-driven cable turned slack or taut.
-struct SlackEvent {
-  double time = 0.0;  ///< [s]
-  Index cable = 0;
-  bool slack = false;  ///< slack from here on, or taut again
+  double rtol = 1e-10;            ///< relative tolerance of one step, adaptive methods
+  double atol = 1e-12;            ///< absolute tolerance of one step [rad], [rad/s]
+  double step = 1e-3;             ///< step of rk4 [s]
+  double max_step = 0.0;          ///< largest step of adaptive methods [s]; 0: no limit
+  std::optional<long> max_steps;  ///< internal steps in one run; by default a million, and a
+                                  ///< hundred more for each stretch between break points
 };
 
 /// What a run cost.
@@ -53,11 +47,11 @@ class Integrator {
   virtual Status step() = 0;
   /// State at a time within the last step.
   virtual void interpolate(double t, VectorXd& y) = 0;
+  /// Whether steps end where the force of a cable bends; those of a fixed step do not.
+  [[nodiscard]] virtual bool stops_at_kinks() const noexcept { return true; }
   [[nodiscard]] virtual double time() const noexcept = 0;
   [[nodiscard]] virtual const VectorXd& state() const noexcept = 0;
   [[nodiscard]] virtual Stats stats() const noexcept = 0;
-  /// Slack events located so far, where the method looks for them.
-  [[nodiscard]] virtual std::vector<SlackEvent> slack_events() const { return {}; }
 };
 
 /// Makes the integrator for a method; the equation must outlive it.

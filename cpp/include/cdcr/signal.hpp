@@ -32,6 +32,9 @@ class Signal {
   [[nodiscard]] static Signal function(const char* item, Function function, Index size,
                                        std::vector<double> break_points);
 
+  /// The same values, time counted from `start` [s]; a function is still given its own time.
+  [[nodiscard]] Signal since(double start) const;
+
   [[nodiscard]] Index size() const noexcept { return size_; }
   [[nodiscard]] bool is_function() const noexcept { return static_cast<bool>(function_); }
   [[nodiscard]] const std::vector<double>& break_points() const noexcept { return times_; }
@@ -49,6 +52,8 @@ class Signal {
  private:
   Index size_ = 0;
   std::vector<double> times_;  // break points
+  std::vector<double> given_;  // the same as given; of a function alone
+  double start_ = 0.0;         // from which time counts
   MatrixXd values_;            // (size, max(1, N)), one column a time
   Interpolation interpolation_ = Interpolation::previous;
   Function function_;

@@ -14,6 +14,7 @@ enum class Status {
   invalid_tension,    ///< wrong number of tensions, a negative or a non-finite one
   not_converged,      ///< an equilibrium search ended without an answer
   interrupted,        ///< stopped by the caller
+  event,              ///< stopped by an event that ends the run
 };
 
 /// One sentence: what happened and what to try next; empty for ok. Real-time safe.

@@ -35,6 +35,10 @@ class WrenchInput {
   [[nodiscard]] bool empty() const noexcept { return wrenches_.empty(); }
   /// Whether all wrenches are constant over a stretch without break points.
   [[nodiscard]] bool hold() const noexcept { return hold_; }
+  /// Whether a profile is a function.
+  [[nodiscard]] bool has_function() const noexcept;
+  /// The same wrenches, time counted from `start` [s].
+  [[nodiscard]] WrenchInput since(double start) const;
   /// Times at which a profile is not smooth, increasing [s].
   [[nodiscard]] const std::vector<double>& break_points() const noexcept { return break_points_; }
 

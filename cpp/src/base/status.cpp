@@ -31,6 +31,8 @@ const char* message(Status status) noexcept {
              "robot may have none within the bending limit.";
     case Status::interrupted:
       return "The run was stopped before its end; the samples up to then are kept.";
+    case Status::event:
+      return "An event that ends the run happened.";
   }
   return "Unknown status.";
 }
@@ -57,6 +59,8 @@ const char* name(Status status) noexcept {
       return "not_converged";
     case Status::interrupted:
       return "interrupted";
+    case Status::event:
+      return "event";
   }
   return "unknown";
 }

@@ -18,6 +18,25 @@ namespace {
 
 using detail::Owner;
 
+/// Counts what happens in step after step: `most` times with no more than `most_free` steps free
+/// of it between any two.
+class Streak {
+ public:
+  void happens() noexcept {
+    ++count_;
+    free_ = 0;
+  }
+  void step() noexcept {
+    if (++free_ > most_free) count_ = 0;
+  }
+  [[nodiscard]] bool too_long() const noexcept { return count_ >= most; }
+
+ private:
+  static constexpr int most = 20;
+  static constexpr int most_free = 40;  // a step cut grows again after its order, 12, plus one
+  int count_ = 0, free_ = 0;
+};
+
 /// For calls that fail only when this file is wrong or memory has run out.
 void require(int flag, const char* call) {
   if (flag == CV_SUCCESS) return;
@@ -61,25 +80,22 @@ class Cvode final : public Integrator {
   [[nodiscard]] double time() const noexcept override { return time_; }
   [[nodiscard]] const VectorXd& state() const noexcept override { return state_; }
   [[nodiscard]] Stats stats() const noexcept override;
-  [[nodiscard]] std::vector<SlackEvent> slack_events() const override { return slack_events_; }
 
  private:
   // What CVODE calls: 0 means done, 1 try a smaller step, -1 give up.
   static int derivative(double t, N_Vector y, N_Vector dydt, void* self) noexcept;
   static int jacobian(double t, N_Vector y, N_Vector dydt, SUNMatrix J, void* self, N_Vector,
                       N_Vector, N_Vector) noexcept;
-  static int pulls(double t, N_Vector y, double* pull, void* self) noexcept;
   template <typename Function>
   int guarded(Function function) noexcept;
 
   Status begin(double t, const VectorXd& y, double t_stop);
   void reinitialise();
-  void note_slack();
-  void note_jump();
   Status evaluate(double t, const double* y, VectorRef slope);
   [[nodiscard]] double norm(const VectorXd& v) const noexcept;
   double first_step();
   Status advance();
+  Status attempt();
 
   RobotOde& ode_;
   Options options_;
@@ -92,9 +108,7 @@ class Cvode final : public Integrator {
   double time_ = 0.0, stop_ = 0.0;
   VectorXd state_, slope_, moved_, slope_there_;
   Status status_ = Status::not_started;
-  bool at_event_ = false;   // the last step ended where a cable turned slack or taut
-  VectorXd pulls_, signs_;  // of length-driven cables; the signs at the last event or restart
-  std::vector<SlackEvent> slack_events_;
+  Streak limit_hits_, restarts_;    // steps that the bending limit blocked; new starts
   Status rhs_status_ = Status::ok;  // why a derivative wanted for the step at hand does not exist
   std::exception_ptr exception_;    // thrown during a call of CVODE
   Stats stats_;  // without the failures that CVODE has counted since the last restart
@@ -115,9 +129,7 @@ Cvode::Cvode(RobotOde& ode, Method method, const Options& options)
       state_(VectorXd::Zero(ode.num_states())),
       slope_(state_),
       moved_(state_),
-      slope_there_(state_),
-      pulls_(VectorXd::Zero(static_cast<Index>(ode.length_driven().size()))),
-      signs_(pulls_) {
+      slope_there_(state_) {
   void* const cvode = cvode_.get();
   const auto silent = [](int, const char*, const char*, char*, void*) {};
   require(CVodeSetErrHandlerFn(cvode, silent, nullptr), "CVodeSetErrHandlerFn");
@@ -128,10 +140,6 @@ Cvode::Cvode(RobotOde& ode, Method method, const Options& options)
   require(CVodeSetJacFn(cvode, jacobian), "CVodeSetJacFn");
   require(CVodeSetMaxStep(cvode, options.max_step), "CVodeSetMaxStep");
   require(CVodeSetMaxHnilWarns(cvode, -1), "CVodeSetMaxHnilWarns");
-  const auto num_events = static_cast<int>(ode.length_driven().size());
-  if (num_events == 0) return;
-  require(CVodeRootInit(cvode, num_events, pulls), "CVodeRootInit");
-  require(CVodeSetNoInactiveRootWarn(cvode), "CVodeSetNoInactiveRootWarn");
 }
 
 /// Keeps exceptions out of CVODE, which is C and could not pass them on.
@@ -165,20 +173,14 @@ int Cvode::jacobian(double t, N_Vector y, N_Vector /*dydt*/, SUNMatrix J, void* 
   });
 }
 
-int Cvode::pulls(double t, N_Vector y, double* pull, void* self) noexcept {
-  Cvode& me = *static_cast<Cvode*>(self);
-  return me.guarded([&] {
-    me.ode_.pulls(t, NV_DATA_S(y), pull);
-    return true;
-  });
-}
-
 Status Cvode::restart(double t, const VectorXd& y, double t_stop) {
   if (y.size() != state_.size() || !(t_stop > t)) {
     detail::refuse("restart takes ", state_.size(), " states and t_stop > t, got ", y.size(),
                    " states, t = ", t, " s and t_stop = ", t_stop, " s");
   }
   status_ = Status::not_started;  // also if the tension function throws
+  if (limit_hits_.too_long()) limit_hits_ = {};
+  if (restarts_.too_long()) restarts_ = {};
   return status_ = begin(t, y, t_stop);
 }
 
@@ -188,7 +190,6 @@ Status Cvode::begin(double t, const VectorXd& y, double t_stop) {
   state_ = y;
   const Status status = evaluate(time_, state_.data(), slope_);
   if (status != Status::ok) return status;
-  if (pulls_.size() > 0) note_jump();
   reinitialise();
   return Status::ok;
 }
@@ -202,7 +203,6 @@ void Cvode::reinitialise() {
   require(CVodeReInit(cvode, time_, trial_.get()), "CVodeReInit");
   require(CVodeSetInitStep(cvode, h), "CVodeSetInitStep");
   require(CVodeSetStopTime(cvode, stop_), "CVodeSetStopTime");
-  at_event_ = false;
 }
 
 /// y' at (t, y), which the tension function gets to see only where the model holds.
@@ -252,24 +252,29 @@ Status Cvode::step() {
   return status_;
 }
 
+/// Where CVODE gives a step up, a new start with small steps of order 1 passes most of what no
+/// step of the method passes: a jump of the commands, a kink of friction.
 Status Cvode::advance() {
-  double t = time_;
-  rhs_status_ = Status::ok;
-  if (at_event_) {
-    // Tensions bend there, so what the method remembers would mislead it.
-    const Status status = evaluate(time_, state_.data(), slope_);
-    if (status != Status::ok) return status;
+  while (true) {
+    const Status status = attempt();
+    const bool may_pass = status == Status::step_too_small || status == Status::tolerance_not_met;
+    if (!may_pass || exception_ || restarts_.too_long()) return status;
+    restarts_.happens();
+    const Status at_start = evaluate(time_, state_.data(), slope_);
+    if (at_start != Status::ok) return at_start;
     reinitialise();
   }
+}
+
+Status Cvode::attempt() {
+  double t = time_;
+  rhs_status_ = Status::ok;
   const auto too_small = [this] {  // with the cause, where it is known
     return rhs_status_ == Status::ok ? Status::step_too_small : rhs_status_;
   };
   switch (CVode(cvode_.get(), stop_, trial_.get(), &t, CV_ONE_STEP)) {
     case CV_SUCCESS:
     case CV_TSTOP_RETURN:
-      break;
-    case CV_ROOT_RETURN:
-      at_event_ = true;
       break;
     case CV_ERR_FAILURE:
     case CV_REPTD_RHSFUNC_ERR:
@@ -284,31 +289,12 @@ Status Cvode::advance() {
   state_ = view(trial_);
   time_ = t;
   ++stats_.steps;
-  if (at_event_) note_slack();
-  return Status::ok;
-}
-
-void Cvode::note_slack() {
-  const auto& cables = ode_.length_driven();
-  std::vector<int> found(cables.size());
-  require(CVodeGetRootInfo(cvode_.get(), found.data()), "CVodeGetRootInfo");
-  for (std::size_t i = 0; i < cables.size(); ++i) {
-    if (found[i] == 0) continue;
-    slack_events_.push_back({time_, cables[i], found[i] < 0});
-    signs_[static_cast<Index>(i)] = found[i];
-  }
-}
-
-/// Cables that turn slack or taut because their command jumps; a pull of zero has not turned yet.
-void Cvode::note_jump() {
-  const auto& cables = ode_.length_driven();
-  ode_.pulls(time_, state_.data(), pulls_.data());
-  for (std::size_t i = 0; i < cables.size(); ++i) {
-    const double pull = pulls_[static_cast<Index>(i)];
-    double& sign = signs_[static_cast<Index>(i)];
-    if (pull * sign < 0.0) slack_events_.push_back({time_, cables[i], pull < 0.0});
-    if (pull != 0.0) sign = pull > 0.0 ? 1.0 : -1.0;
-  }
+  restarts_.step();
+  // Against the bending limit CVODE cuts its step, grows it and cuts it again, ever nearer to the
+  // limit and never there.
+  if (rhs_status_ == Status::bending_limit) limit_hits_.happens();
+  limit_hits_.step();
+  return limit_hits_.too_long() ? Status::bending_limit : Status::ok;
 }
 
 void Cvode::interpolate(double t, VectorXd& y) {

@@ -22,7 +22,8 @@ void validate(const Options& o) {
   require(o.step > 0.0 && std::isfinite(o.step), "step", o.step, "> 0 s and finite");
   require(o.max_step >= 0.0 && std::isfinite(o.max_step), "max_step", o.max_step,
           ">= 0 s and finite (0: no limit)");
-  require(o.max_steps >= 1, "max_steps", static_cast<double>(o.max_steps), "at least 1");
+  const long most = o.max_steps.value_or(1);
+  require(most >= 1, "max_steps", static_cast<double>(most), "at least 1");
 }
 
 std::unique_ptr<Integrator> make_integrator(RobotOde& ode, Method method, const Options& options) {

@@ -46,6 +46,7 @@ class Rk4 final : public Integrator {
   Status restart(double t, const VectorXd& y, double t_stop) override;
   Status step() override;
   void interpolate(double t, VectorXd& y) override;
+  [[nodiscard]] bool stops_at_kinks() const noexcept override { return false; }
   [[nodiscard]] double time() const noexcept override { return t_; }
   [[nodiscard]] const VectorXd& state() const noexcept override { return y_; }
   [[nodiscard]] Stats stats() const noexcept override { return stats_; }

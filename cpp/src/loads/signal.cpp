@@ -42,8 +42,15 @@ Signal Signal::function(const char* item, Function function, Index size,
   require_times("break_points", break_points);
   Signal signal;
   signal.size_ = size;
-  signal.times_ = std::move(break_points);
+  signal.times_ = signal.given_ = std::move(break_points);
   signal.function_ = std::move(function);
+  return signal;
+}
+
+Signal Signal::since(double start) const {
+  Signal signal = *this;
+  for (double& time : signal.times_) time -= start;
+  signal.start_ += start;
   return signal;
 }
 
@@ -60,8 +67,12 @@ void Signal::evaluate(double t, Index segment, const ConstVectorRef& q, const Co
                       VectorRef value) const {
   if (function_) {
     // A break point belongs to the segment after it; the one before sees the value just before it.
-    const bool beyond = segment < static_cast<Index>(times_.size()) && t >= times_[segment];
-    function_(beyond ? std::nextafter(times_[segment], -HUGE_VAL) : t, q, qd, value);
+    double at = start_ + t;
+    if (segment > 0) at = std::max(at, given_[segment - 1]);
+    if (segment < static_cast<Index>(given_.size())) {
+      at = std::min(at, std::nextafter(given_[segment], -HUGE_VAL));
+    }
+    function_(at, q, qd, value);
     return;
   }
   const Index from = std::clamp<Index>(segment - 1, 0, values_.cols() - 1);

@@ -58,6 +58,18 @@ void WrenchInput::add(const Wrench& wrench, Profile profile) {
   factors_.push_back(std::move(factor));
 }
 
+bool WrenchInput::has_function() const noexcept {
+  return std::any_of(factors_.begin(), factors_.end(),
+                     [](const Signal& factor) { return factor.is_function(); });
+}
+
+WrenchInput WrenchInput::since(double start) const {
+  WrenchInput input = *this;
+  for (Signal& factor : input.factors_) factor = factor.since(start);
+  for (double& time : input.break_points_) time -= start;
+  return input;
+}
+
 void WrenchInput::evaluate(double t, double start, Wrenches& now) const {
   const VectorXd no_state;
   Eigen::Matrix<double, 1, 1> factor;

@@ -14,6 +14,7 @@ from cdcr.base.arrays import FloatArray
 from cdcr.model.model import Model
 from cdcr.model.wrench import Wrench, loads
 from cdcr.runs.command import Command, command_input
+from cdcr.runs.events import EventFunction, EventRecord, watched
 from cdcr.runs.trajectory import SlackEvent, Trajectory
 
 MethodName = Literal["bdf", "adams", "dopri5", "rk4"]
@@ -50,6 +51,7 @@ def simulate(
     max_step: float | None = None,
     max_steps: int | None = None,
     break_points: Sequence[float] = (),
+    events: EventFunction | Sequence[EventFunction] = (),
     progress: Callable[[float], object] | None = None,
     throw: bool = False,
 ) -> Trajectory:
@@ -89,11 +91,19 @@ def simulate(
     step : float, optional
         Step of rk4 [s].
     max_step : float, optional
-        Largest step of the adaptive methods [s].
+        Largest step of the adaptive methods [s]. Where tensions or a wrench are a callable, no
+        step is longer than a thousandth of the run, or than the mean distance of the output times,
+        unless this says so: what is shorter than a step may be missed.
     max_steps : int, optional
-        Limit of internal steps in the run.
+        Limit of internal steps in the run; by default a million, and a hundred more for each
+        stretch between break points or periods of a controller.
     break_points : sequence of float, optional
         Times at which a callable `command` is not smooth [s]; the run stops exactly there.
+    events : callable or sequence of callable, optional
+        What to look for, as SciPy's solve_ivp does: functions ``f(t, q, qd)``, ``f(t, y)`` with
+        y = (q, qd), or ``f(t)``, that go through zero. An attribute ``terminal`` (True, or a
+        number of times) ends the run there; ``direction`` > 0 counts upward, < 0 downward
+        crossings alone. They are located on the interpolant of the method; see ``run.events``.
     progress : callable, optional
         Told the time reached, every few hundred steps.
     throw : bool, optional
@@ -115,15 +125,18 @@ def simulate(
     given = {"rtol": rtol, "atol": atol, "step": step, "max_step": max_step, "max_steps": max_steps}
     told: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     options = _core.Options(**told)
+    watch = watched(events)
     if controller is not None:
         if asked is not None or len(break_points) > 0:
             raise ValueError(f"give either {name} or controller, not both")
         raw = _core.simulate_controlled(
-            model, q0, qd0, t, controller, chosen, options, progress, loads(wrenches)
+            model, q0, qd0, t, controller, chosen, options, progress, loads(wrenches), watch
         )
     else:
         source = command_input(model, asked, break_points, name)
-        raw = _core.simulate(model, q0, qd0, t, source, chosen, options, progress, loads(wrenches))
+        raw = _core.simulate(
+            model, q0, qd0, t, source, chosen, options, progress, loads(wrenches), watch
+        )
     run = Trajectory(
         model=model,
         t=raw.t,
@@ -136,6 +149,7 @@ def simulate(
         method=method,
         command=raw.command,
         slack_events=tuple(SlackEvent(*event) for event in raw.slack_events),
+        events=tuple(EventRecord(*event) for event in raw.events),
     )
     warn_beyond_taylor_range(model, run.q)
     if throw and not run.success:

@@ -13,6 +13,7 @@ import numpy as np
 from cdcr import _core
 from cdcr.base.arrays import FloatArray, read_only
 from cdcr.base.check import count
+from cdcr.runs.events import EventRecord
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -73,7 +74,9 @@ class Trajectory:
     command : ndarray, shape (N, num_cables), optional
         What was asked of the cables: tensions [N], lengths [m] of those driven by length.
     slack_events : tuple of SlackEvent
-        When length-driven cables turned slack or taut; located by bdf and adams.
+        When length-driven cables turned slack or taut.
+    events : tuple of EventRecord
+        The events of `simulate`, in the order of time.
     """
 
     model: Model
@@ -87,6 +90,7 @@ class Trajectory:
     method: str = ""
     command: FloatArray = None  # type: ignore[assignment]  # the tensions
     slack_events: tuple[SlackEvent, ...] = ()
+    events: tuple[EventRecord, ...] = ()
 
     def __post_init__(self) -> None:
         """Take copies nobody else can write to, and check that they fit together."""
@@ -135,8 +139,8 @@ class Trajectory:
 
     @property
     def success(self) -> bool:
-        """Whether the run reached its last output time."""
-        return self.status.name == "ok"
+        """Whether the run reached its last output time, or an event that ends it."""
+        return self.status.name in ("ok", "event")
 
     # cached_property writes to the instance's __dict__, which a frozen dataclass leaves open.
 

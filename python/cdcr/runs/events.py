@@ -1,0 +1,82 @@
+"""What a run looks for on its way: functions of time and state that go through zero."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+
+from cdcr.base.arrays import FloatArray
+
+EventFunction: TypeAlias = Callable[..., Any]
+Watched: TypeAlias = tuple[EventFunction, int, int]
+
+
+class EventRecord(NamedTuple):
+    """An event of a run: one of its functions went through zero.
+
+    Attributes
+    ----------
+    time : float
+        When [s].
+    event : int
+        Index of the function among those given.
+    q, qd : (2n,) array
+        Bending vectors [rad] and their rates [rad/s] there.
+    """
+
+    time: float
+    event: int
+    q: FloatArray
+    qd: FloatArray
+
+
+def watched(events: EventFunction | Sequence[EventFunction]) -> list[Watched]:
+    """Return what the core looks for, of functions with attributes as SciPy's solve_ivp has them.
+
+    Raises
+    ------
+    TypeError, ValueError
+        For what is no function, takes other arguments, or has other attributes.
+    """
+    functions = [events] if callable(events) else events
+    return [_watched(function, i) for i, function in enumerate(functions)]
+
+
+def _watched(function: EventFunction, i: int) -> Watched:
+    item = f"events[{i}]"
+    if not callable(function):
+        raise TypeError(f"{item} must be a function, got {type(function).__name__}")
+    direction = getattr(function, "direction", 0)
+    if not isinstance(direction, (int, float)) or not np.isfinite(direction):
+        raise ValueError(f"direction of {item} must be a number, got {direction!r}")
+    terminal = getattr(function, "terminal", False)
+    if not isinstance(terminal, int) or terminal < 0:
+        raise ValueError(
+            f"terminal of {item} must be True, False or a number of times, got {terminal!r}"
+        )
+    return _of_state(function, item), int(np.sign(direction)), int(terminal)
+
+
+def _of_state(function: EventFunction, item: str) -> EventFunction:
+    """Return a function of t, q and qd."""
+    try:
+        parameters = inspect.signature(function).parameters.values()
+    except (TypeError, ValueError):
+        return function
+    positional = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
+    if any(p.kind is p.VAR_POSITIONAL for p in parameters):
+        return function
+    needed = sum(p.kind in positional and p.default is p.empty for p in parameters)
+    if needed == 3:
+        return function
+    if needed == 2:
+        return lambda t, q, qd: function(t, np.concatenate([q, qd]))
+    if needed == 1:
+        return lambda t, q, qd: function(t)
+    raise ValueError(
+        f"{item} must take (t, q, qd), (t, y) with y = (q, qd), or (t), "
+        f"got a function that needs {needed} arguments"
+    )
