@@ -37,6 +37,8 @@ class Status(enum.Enum):
     invalid_tension = 7
     not_converged = 8
     interrupted = 9
+    wrong_size = 10
+    invalid_wrench = 11
 
 class Method(enum.Enum):
     """How to integrate."""

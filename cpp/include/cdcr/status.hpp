@@ -14,6 +14,8 @@ enum class Status {
   invalid_tension,    ///< wrong number of tensions, a negative or a non-finite one
   not_converged,      ///< an equilibrium search ended without an answer
   interrupted,        ///< stopped by the caller
+  wrong_size,         ///< a vector that does not fit the robot
+  invalid_wrench,     ///< a wrench beyond the robot, or not finite
 };
 
 /// One sentence: what happened and what to try next; empty for ok. Real-time safe.

@@ -174,10 +174,7 @@ int Cvode::pulls(double t, N_Vector y, double* pull, void* self) noexcept {
 }
 
 Status Cvode::restart(double t, const VectorXd& y, double t_stop) {
-  if (y.size() != state_.size() || !(t_stop > t)) {
-    detail::refuse("restart takes ", state_.size(), " states and t_stop > t, got ", y.size(),
-                   " states, t = ", t, " s and t_stop = ", t_stop, " s");
-  }
+  ode_.require_stretch(t, y, t_stop);
   status_ = Status::not_started;  // also if the tension function throws
   return status_ = begin(t, y, t_stop);
 }
