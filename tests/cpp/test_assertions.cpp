@@ -1,17 +1,15 @@
 // Vectors of the wrong size, indices out of range and what was made for another model: a Status
 // where there is one to return, elsewhere an assertion of debug builds.
 #include <doctest/doctest.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <csignal>
-#include <cstdio>
 #include <limits>
+#include <utility>
 
 #include "cdcr/cdcr.hpp"
 #include "support/allocations.hpp"
 #include "support/cases.hpp"
+#include "support/child.hpp"
 #include "support/throws.hpp"
 
 namespace cdcr::test {
@@ -25,21 +23,10 @@ constexpr bool asserted = false;
 constexpr bool asserted = true;
 #endif
 
-/// Whether a call ends the program by an assertion, tried in a process of its own.
+/// Whether a call ends the program by an assertion.
 template <class Call>
 bool stops(Call&& call) {
-  const pid_t child = fork();
-  if (child == 0) {
-    std::signal(SIGABRT, SIG_DFL);
-    const rlimit no_core = {0, 0};
-    setrlimit(RLIMIT_CORE, &no_core);
-    if (std::freopen("/dev/null", "w", stderr) == nullptr) _exit(2);
-    call();
-    _exit(0);
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WIFSIGNALED(status) && WTERMSIG(status) == SIGABRT;
+  return signal_of(std::forward<Call>(call)) == SIGABRT;
 }
 
 Robot two_sections() {

@@ -12,6 +12,7 @@
 #include "base/arguments.hpp"
 #include "integration/small_vector.hpp"
 #include "integration/sundials_handles.hpp"
+#include "integration/sundials_spare.hpp"
 
 namespace cdcr {
 namespace {
@@ -21,6 +22,7 @@ using detail::Owner;
 /// For calls that fail only when this file is wrong or memory has run out.
 void require(int flag, const char* call) {
   if (flag == CV_SUCCESS) return;
+  if (flag == CV_MEM_FAIL) throw std::bad_alloc();
   throw std::runtime_error(std::string(call) + " failed with code " + std::to_string(flag));
 }
 
@@ -41,6 +43,10 @@ Owner<N_Vector> make_vector(Index size, SUNContext context) {
   detail::use_small_operations(vector.get());
   N_VConst(0.0, vector.get());
   return vector;
+}
+
+Owner<SUNMatrix> make_matrix(Index size, SUNContext context) {
+  return own(SUNDenseMatrix(size, size, context));
 }
 
 Eigen::Map<VectorXd> view(const Owner<N_Vector>& v) {
@@ -86,6 +92,7 @@ class Cvode final : public Integrator {
   Owner<SUNContext> context_;
   Owner<N_Vector> trial_, between_;  // the end of a step, a point within it
   Owner<SUNMatrix> matrix_;
+  detail::Spare spare_;
   Owner<SUNLinearSolver> linear_solver_;
   Owner<void*> cvode_;
 
@@ -109,7 +116,9 @@ Cvode::Cvode(RobotOde& ode, Method method, const Options& options)
       context_(make_context()),
       trial_(make_vector(ode.num_states(), context_.get())),
       between_(make_vector(ode.num_states(), context_.get())),
-      matrix_(own(SUNDenseMatrix(ode.num_states(), ode.num_states(), context_.get()))),
+      matrix_(make_matrix(ode.num_states(), context_.get())),
+      spare_(make_vector(ode.num_states(), context_.get()),
+             make_matrix(ode.num_states(), context_.get())),
       linear_solver_(own(SUNLinSol_Dense(trial_.get(), matrix_.get(), context_.get()))),
       cvode_(own(CVodeCreate(method == Method::bdf ? CV_BDF : CV_ADAMS, context_.get()))),
       state_(VectorXd::Zero(ode.num_states())),
@@ -119,19 +128,26 @@ Cvode::Cvode(RobotOde& ode, Method method, const Options& options)
       pulls_(VectorXd::Zero(static_cast<Index>(ode.length_driven().size()))),
       signs_(pulls_) {
   void* const cvode = cvode_.get();
+  const detail::Spare::Use spare(spare_);
+  detail::Spare::serve(trial_.get(), matrix_.get());
   const auto silent = [](int, const char*, const char*, char*, void*) {};
   require(CVodeSetErrHandlerFn(cvode, silent, nullptr), "CVodeSetErrHandlerFn");
   require(CVodeSetUserData(cvode, this), "CVodeSetUserData");
-  require(CVodeInit(cvode, derivative, time_, trial_.get()), "CVodeInit");
+  if (CVodeInit(cvode, derivative, time_, trial_.get()) != CV_SUCCESS) {
+    (void)cvode_.release();  // has freed its vectors, and would free them again
+    throw std::bad_alloc();
+  }
   require(CVodeSStolerances(cvode, options.rtol, options.atol), "CVodeSStolerances");
   require(CVodeSetLinearSolver(cvode, linear_solver_.get(), matrix_.get()), "CVodeSetLinearSolver");
   require(CVodeSetJacFn(cvode, jacobian), "CVodeSetJacFn");
   require(CVodeSetMaxStep(cvode, options.max_step), "CVodeSetMaxStep");
   require(CVodeSetMaxHnilWarns(cvode, -1), "CVodeSetMaxHnilWarns");
   const auto num_events = static_cast<int>(ode.length_driven().size());
-  if (num_events == 0) return;
-  require(CVodeRootInit(cvode, num_events, pulls), "CVodeRootInit");
-  require(CVodeSetNoInactiveRootWarn(cvode), "CVodeSetNoInactiveRootWarn");
+  if (num_events > 0) {
+    require(CVodeRootInit(cvode, num_events, pulls), "CVodeRootInit");
+    require(CVodeSetNoInactiveRootWarn(cvode), "CVodeSetNoInactiveRootWarn");
+  }
+  if (spare_.used()) throw std::bad_alloc();
 }
 
 /// Keeps exceptions out of CVODE, which is C and could not pass them on.
@@ -261,7 +277,10 @@ Status Cvode::advance() {
   const auto too_small = [this] {  // with the cause, where it is known
     return rhs_status_ == Status::ok ? Status::step_too_small : rhs_status_;
   };
-  switch (CVode(cvode_.get(), stop_, trial_.get(), &t, CV_ONE_STEP)) {
+  const detail::Spare::Use spare(spare_);
+  const int flag = CVode(cvode_.get(), stop_, trial_.get(), &t, CV_ONE_STEP);
+  if (spare_.used()) throw std::bad_alloc();  // in the first step
+  switch (flag) {
     case CV_SUCCESS:
     case CV_TSTOP_RETURN:
       break;
