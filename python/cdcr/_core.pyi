@@ -37,6 +37,8 @@ class Status(enum.Enum):
     not_converged = 8
     interrupted = 9
     event = 10
+    wrong_size = 11
+    invalid_wrench = 12
 
 class Method(enum.Enum):
     """How to integrate."""

@@ -208,7 +208,8 @@ TEST_CASE("a controller's failure ends the run") {
       return ++calls_ > 3 ? Status::invalid_tension : Status::ok;
     }
     double period() const noexcept override { return 0.125; }
-    Index num_cables() const noexcept override { return 3; }
+    Index num_coordinates() const noexcept override { return any_size; }
+    Index num_cables() const noexcept override { return any_size; }
 
    private:
     int calls_ = 0;
@@ -220,12 +221,51 @@ TEST_CASE("a controller's failure ends the run") {
   CHECK(found.t[found.t.size() - 1] == 0.375 - 1.0 / 64.0);
 }
 
-TEST_CASE("a controller for another number of cables is refused") {
+/// Two sections with three cables in all, those of the first or of the second alone.
+Robot two_sections(bool cables_at_first) {
   Robot robot = amouri2020();
-  robot.sections[0].cable_angles = {0.0, 1.0};
-  Pid pid(Model(robot), gains(1.0));
-  CHECK_THROWS_SENTENCE(run(Model(amouri2020()), pid, even_times(0.0, 1.0, 2)),
-                        "tension must have one value for each of the 3 cables, got 2");
+  robot.sections.push_back(robot.sections[0]);
+  robot.sections[cables_at_first ? 1 : 0].cable_angles.clear();
+  return robot;
+}
+
+/// A run of `robot` under a Pid made for another one.
+void check_refused(const Robot& robot, const Robot& other, const char* sentence) {
+  const Model model(robot);
+  Pid pid(Model(other), gains(1.0, 1.0));
+  const VectorXd zero = VectorXd::Zero(model.num_coordinates());
+  CHECK_THROWS_SENTENCE(simulate(model, zero, zero, even_times(0.0, 1.0, 2), pid), sentence);
+}
+
+TEST_CASE("a controller for a robot of other sizes is refused") {
+  Robot two_cables = amouri2020();
+  two_cables.sections[0].cable_angles = {0.0, 1.0};
+  check_refused(amouri2020(), two_cables,
+                "the controller was made for a robot of 2 coordinates and 2 cables, but the model "
+                "has 2 coordinates and 3 cables");
+  for (const bool at_first : {false, true}) {
+    check_refused(two_sections(at_first), amouri2020(),
+                  "the controller was made for a robot of 2 coordinates and 3 cables, but the "
+                  "model has 4 coordinates and 3 cables");
+    check_refused(amouri2020(), two_sections(at_first),
+                  "the controller was made for a robot of 4 coordinates and 3 cables, but the "
+                  "model has 2 coordinates and 3 cables");
+  }
+}
+
+TEST_CASE("a controller that gives tensions does not drive a cable by length") {
+  Robot by_length = amouri2020();
+  by_length.sections[0].cable_stiffness = 1e3;
+  check_refused(by_length, amouri2020(),
+                "the controller drives cables by tension, but cable 1 of the robot is driven by "
+                "length (its stiffness is not 0)");
+}
+
+TEST_CASE("a controller of a model that is not exact drives the robot all the same") {
+  Robot heavier = amouri2020();
+  heavier.payload = 0.01;
+  Pid pid(Model(heavier), gains(1.0));
+  CHECK(run(Model(amouri2020()), pid, even_times(0.0, 0.1, 2)).status == Status::ok);
 }
 
 TEST_SUITE_END();

@@ -15,8 +15,9 @@
 namespace cdcr::test {
 namespace {
 
-// not_started and invalid_tension come from the simulator (test_simulator.cpp), tolerance_not_met
-// from an implicit method (test_cvode_promises.cpp); all others are produced here.
+// not_started, invalid_tension and invalid_wrench come from the simulator (test_simulator.cpp),
+// wrong_size from what takes vectors (test_assertions.cpp), tolerance_not_met from an implicit
+// method (test_cvode_promises.cpp); all others are produced here.
 const std::vector<Status> all = {
     Status::ok,
     Status::not_started,
@@ -28,6 +29,8 @@ const std::vector<Status> all = {
     Status::invalid_tension,
     Status::not_converged,
     Status::interrupted,
+    Status::wrong_size,
+    Status::invalid_wrench,
 };
 
 const Eigen::Vector2d q_start(0.5, 0.0), at_rest(0.0, 0.0);

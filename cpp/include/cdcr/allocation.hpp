@@ -35,7 +35,8 @@ class Allocator {
  public:
   explicit Allocator(const Model& model, const TensionLimits& limits = {});
 
-  /// Solves for force (d) [N m]; true when the force is met.
+  /// Solves for force (d) [N m]; true when the force is met. One of another size is not, and
+  /// leaves the last answer in place.
   bool solve(const ConstVectorRef& force) noexcept;
 
   /// Tensions found (num_cables) [N]; zero for cables that may not be used.
@@ -94,6 +95,7 @@ struct Allocation {
                                   const TensionLimits& limits = {});
 
 /// "cable 2 of section 1": the second of those that end there. Counts from 1, in their order.
+/// Throws std::invalid_argument for a cable that the robot has not.
 [[nodiscard]] std::string cable_name(const Model& model, Index cable);
 
 /// Commands (num_cables) that hold the tensions [N] at rest in q: the tension itself, or for a

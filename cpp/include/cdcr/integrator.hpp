@@ -41,7 +41,8 @@ class Integrator {
  public:
   virtual ~Integrator() = default;
 
-  /// Starts anew from y = (q, qd) at t; steps will end exactly at t_stop > t.
+  /// Starts anew from y = (q, qd) at t; steps will end exactly at t_stop > t. Throws
+  /// std::invalid_argument for a y of another size or another t_stop.
   virtual Status restart(double t, const VectorXd& y, double t_stop) = 0;
   /// One internal step. On failure the state is the one before the step.
   virtual Status step() = 0;

@@ -28,7 +28,8 @@ enum class IkStatus {
   off_surface,       ///< the tip of one section moves on a surface, and the point is beside it
   too_few_sections,  ///< fewer coordinates than a position and an orientation ask for
   not_found,         ///< no start came near enough; the point may be out of reach or not
-  not_finite         ///< what was asked for is infinite or not a number
+  not_finite,        ///< what was asked for is infinite or not a number
+  wrong_size         ///< q0 has neither a value for each coordinate nor none
 };
 using Reach = IkStatus;  ///< its earlier name
 
@@ -92,7 +93,9 @@ class InverseSolver {
   VectorXd max_theta_;                // (n) [rad]
   Vector3d p_ = Vector3d::Zero();     // as asked for [m]
   Matrix3d R_ = Matrix3d::Identity();
-  bool with_rotation_ = false, finite_ = false;
+  bool with_rotation_ = false;
+  IkStatus asked_ =
+      IkStatus::not_finite;  // what is wrong with what was asked for; reached: nothing
   // The same in the frame of the unbent robot, in its plane of bending.
   Eigen::Vector2d towards_ = Eigen::Vector2d::UnitX();
   double rho_ = 0.0, z_ = 0.0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cassert>
 #include <memory>
 #include <vector>
 
@@ -23,7 +24,10 @@ class Model {
   /// The size d of q: two for each section of constant curvature.
   [[nodiscard]] Index num_coordinates() const noexcept { return actuation_.rows(); }
   /// Where the coordinates of a section begin in q; for num_sections, where they end.
-  [[nodiscard]] Index first_coordinate(Index section) const noexcept { return first_[section]; }
+  [[nodiscard]] Index first_coordinate(Index section) const noexcept {
+    assert(section >= 0 && section <= num_sections());
+    return first_[section];
+  }
   [[nodiscard]] Index num_cables() const noexcept { return actuation_.cols(); }
 
   /// Every cable, in the order of tensions (num_cables).

@@ -34,7 +34,9 @@ class Pid final : public Controller {
   [[nodiscard]] Status update(double t, const ConstVectorRef& q, const ConstVectorRef& qd,
                               VectorRef tension) noexcept override;
   [[nodiscard]] double period() const noexcept override { return options_.period; }
-  [[nodiscard]] Index num_cables() const noexcept override { return allocator_.tension().size(); }
+  [[nodiscard]] Index num_coordinates() const noexcept override { return model_.num_coordinates(); }
+  [[nodiscard]] Index num_cables() const noexcept override { return model_.num_cables(); }
+  [[nodiscard]] bool gives_tensions() const noexcept override { return true; }
 
  private:
   Model model_;

@@ -19,7 +19,8 @@ class RobotOde {
   /// Throws std::invalid_argument when the robot has no inertia, the input's cables differ or a
   /// wrench is out of range.
   RobotOde(const Model& model, const CommandInput& input, const WrenchInput& loads = no_loads());
-  /// Under a controller, sampled at its own period with zero-order hold.
+  /// Under a controller, sampled at its own period with zero-order hold. Throws also where it was
+  /// made for a robot of other sizes, or gives tensions to a cable driven by length.
   RobotOde(const Model& model, Controller& controller, const WrenchInput& loads = no_loads());
 
   [[nodiscard]] const Model& model() const noexcept { return *model_; }
@@ -45,12 +46,14 @@ class RobotOde {
   [[nodiscard]] const std::vector<Index>& length_driven() const noexcept { return length_driven_; }
   void pulls(double t, const double* y, double* pull);
 
+  /// Throws std::invalid_argument unless an integrator can go from state y at t to t_stop.
+  void require_stretch(double t, const VectorXd& y, double t_stop) const;
   /// check_state of y.
   [[nodiscard]] Status check(const double* y) const noexcept;
 
  private:
   RobotOde(const Model& model, const CommandInput* input, Controller* controller,
-           const WrenchInput& loads, Index num_cables);
+           const WrenchInput& loads);
   /// Brings command_ up to date.
   void update_command(double t, const ConstVectorRef& q, const ConstVectorRef& qd);
 
@@ -68,7 +71,7 @@ class RobotOde {
   bool command_holds_ = false;  // over the whole segment
 };
 
-/// ok, non_finite_state or bending_limit for a state (q, qd) (2d). Real-time safe.
+/// ok, wrong_size, non_finite_state or bending_limit for a state (q, qd) (2d). Real-time safe.
 [[nodiscard]] Status check_state(const Model& model, const ConstVectorRef& y) noexcept;
 
 /// ok, or invalid_tension for a wrong size, a negative or a non-finite command. Real-time safe.

@@ -23,7 +23,8 @@ class Simulator {
   void reset(const VectorXd& q, const VectorXd& qd, double time = 0.0);
 
   /// Advances one period under constant commands (num_cables), tensions [N] or lengths [m], each
-  /// >= 0, and constant wrenches that validate() accepts. Real-time safe.
+  /// >= 0, and constant wrenches; invalid_tension and invalid_wrench tell what it does not take.
+  /// Real-time safe.
   [[nodiscard]] Status step(const ConstVectorRef& tension) noexcept;
   [[nodiscard]] Status step(const ConstVectorRef& tension, const Wrenches& wrenches) noexcept;
 

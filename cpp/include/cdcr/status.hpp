@@ -15,6 +15,8 @@ enum class Status {
   not_converged,      ///< an equilibrium search ended without an answer
   interrupted,        ///< stopped by the caller
   event,              ///< stopped by an event that ends the run
+  wrong_size,         ///< a vector that does not fit the robot
+  invalid_wrench,     ///< a wrench beyond the robot, or not finite
 };
 
 /// One sentence: what happened and what to try next; empty for ok. Real-time safe.

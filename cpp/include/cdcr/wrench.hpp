@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "cdcr/model.hpp"
+#include "cdcr/status.hpp"
 #include "cdcr/types.hpp"
 
 namespace cdcr {
@@ -27,6 +28,8 @@ using Wrenches = std::vector<Wrench>;
 /// Throws std::invalid_argument with a sentence that names the wrench, what is wrong with it and
 /// what is allowed.
 void validate(const Model& model, const Wrenches& wrenches);
+/// ok, or invalid_wrench where validate() throws. Real-time safe.
+[[nodiscard]] Status check_wrenches(const Model& model, const Wrenches& wrenches) noexcept;
 
 /// Adds the generalised force (d) [N m] of the wrenches, eq. (35), to `force`. Real-time
 /// safe for wrenches that validate() accepts.

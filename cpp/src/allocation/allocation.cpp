@@ -7,6 +7,7 @@
 
 #include "base/arguments.hpp"
 #include "cdcr/kinematics.hpp"
+#include "dynamics/sizes.hpp"
 
 namespace cdcr {
 namespace {
@@ -25,7 +26,7 @@ void check(const Model& model, const TensionLimits& limits) {
                   "tension limits must satisfy min_tension <= max_tension, got min_tension ",
                   limits.min_tension, " N and max_tension ", limits.max_tension, " N");
   for (const Index cable : limits.cables) {
-    detail::require(cable >= 0 && cable < model.num_cables(), "cables must be indices from 0 to ",
+    detail::require(detail::is_cable(model, cable), "cables must be indices from 0 to ",
                     model.num_cables() - 1, ", got ", cable);
   }
 }
@@ -83,6 +84,7 @@ void Allocator::find_triples(const Model& model) {
 }
 
 bool Allocator::at_limit(Index cable) const noexcept {
+  assert(cable >= 0 && cable < F_.size());
   return place_[cable] == Place::lower || place_[cable] == Place::upper;
 }
 
@@ -222,6 +224,7 @@ void Allocator::search() noexcept {
 }
 
 bool Allocator::solve(const ConstVectorRef& force) noexcept {
+  if (force.size() != Q_.size()) return false;
   Q_ = force / scale_;
   if (!solve_in_closed_form()) search();
   tension_ = F_;
@@ -257,6 +260,8 @@ Allocation allocate(const Model& model, const VectorXd& force, const TensionLimi
 }
 
 std::string cable_name(const Model& model, Index cable) {
+  detail::require(detail::is_cable(model, cable), "cable must be an index from 0 to ",
+                  model.num_cables() - 1, ", got ", cable);
   const int section = model.cables()[static_cast<std::size_t>(cable)].end_section;
   int number = 0;
   for (Index j = 0; j <= cable; ++j) {
@@ -267,6 +272,7 @@ std::string cable_name(const Model& model, Index cable) {
 
 void cable_commands(const Model& model, const ConstVectorRef& q, const ConstVectorRef& tension,
                     VectorRef command) noexcept {
+  assert(detail::of_coordinates(model, q) && detail::of_cables(model, tension, command));
   cable_lengths(model, q, command);
   for (Index j = 0; j < model.num_cables(); ++j) {
     const Cable& cable = model.cables()[static_cast<std::size_t>(j)];

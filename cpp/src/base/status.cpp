@@ -33,6 +33,12 @@ const char* message(Status status) noexcept {
       return "The run was stopped before its end; the samples up to then are kept.";
     case Status::event:
       return "An event that ends the run happened.";
+    case Status::wrong_size:
+      return "A vector has another size than the robot it is for: q and qd have one value for each "
+             "coordinate, tensions one for each cable.";
+    case Status::invalid_wrench:
+      return "A wrench must be finite and act on a section of the robot at a fraction from 0 to 1; "
+             "the state was left as it was.";
   }
   return "Unknown status.";
 }
@@ -61,6 +67,10 @@ const char* name(Status status) noexcept {
       return "interrupted";
     case Status::event:
       return "event";
+    case Status::wrong_size:
+      return "wrong_size";
+    case Status::invalid_wrench:
+      return "invalid_wrench";
   }
   return "unknown";
 }

@@ -2,6 +2,7 @@
 
 #include "cdcr/dynamics.hpp"
 #include "dynamics/bending.hpp"
+#include "dynamics/sizes.hpp"
 
 namespace cdcr {
 namespace {
@@ -13,14 +14,6 @@ void check(const PidOptions& o) {
   detail::require_positive("period", o.period, "s");
 }
 
-void require_tension_drive(const Model& model) {
-  for (std::size_t j = 0; j < model.cables().size(); ++j) {
-    detail::require(!model.cables()[j].length_driven(),
-                    "a Pid drives cables by tension, but cable ", j + 1,
-                    " of the robot is driven by length (its stiffness is not 0)");
-  }
-}
-
 }  // namespace
 
 Pid::Pid(const Model& model, PidOptions options)
@@ -30,7 +23,7 @@ Pid::Pid(const Model& model, PidOptions options)
       allocator_(model, options_.limits),
       reference_(VectorXd::Zero(model.num_coordinates())) {
   check(options_);
-  require_tension_drive(model_);
+  detail::require_tension_drive("a Pid", model_);
   hold_ = integral_ = force_ = reference_;
   set_reference(reference_);
 }
@@ -47,6 +40,8 @@ void Pid::set_reference(const VectorXd& q) {
 
 Status Pid::update(double /*t*/, const ConstVectorRef& q, const ConstVectorRef& qd,
                    VectorRef tension) noexcept {
+  const bool fits = detail::of_coordinates(model_, q, qd) && detail::of_cables(model_, tension);
+  if (!fits) return Status::wrong_size;
   if (!q.allFinite() || !qd.allFinite()) return Status::non_finite_state;
   force_ = hold_ + options_.kp * (reference_ - q) + options_.ki * integral_ - options_.kd * qd;
   const bool met = allocator_.solve(force_);

@@ -3,21 +3,26 @@
 #include "chain/dual.hpp"
 #include "chain/gradient.hpp"
 #include "dynamics/kept.hpp"
+#include "dynamics/sizes.hpp"
 #include "loads/cable_force.hpp"
 
 namespace cdcr {
 
 namespace closed_form = detail::closed_form;
 using detail::chain_of;
+using detail::of_coordinates;
 using detail::single_of;
 
 void mass_matrix(const Model& model, Data& data, const ConstVectorRef& q, MatrixRef M) noexcept {
+  assert(data.belongs_to(model) && of_coordinates(model, q));
+  assert(detail::has_size(M, model.num_coordinates(), model.num_coordinates()));
   if (model.has_closed_form()) return closed_form::mass_matrix(single_of(model), q, M);
   detail::mass_matrix(chain_of(model), data.kept()->at(model, q.data()), M);
 }
 
 void bias(const Model& model, Data& data, const ConstVectorRef& q, const ConstVectorRef& qd,
           VectorRef h) noexcept {
+  assert(data.belongs_to(model) && of_coordinates(model, q, qd, h));
   if (model.has_closed_form()) return closed_form::bias(single_of(model), q, qd, h);
   const auto& state = data.kept()->at(model, q.data(), qd.data());
   detail::inverse_motion(chain_of(model), state, nullptr, h.data());
@@ -26,6 +31,7 @@ void bias(const Model& model, Data& data, const ConstVectorRef& q, const ConstVe
 void forward_dynamics_force(const Model& model, Data& data, const ConstVectorRef& q,
                             const ConstVectorRef& qd, const ConstVectorRef& force,
                             VectorRef qdd) noexcept {
+  assert(data.belongs_to(model) && of_coordinates(model, q, qd, force, qdd));
   if (model.has_closed_form()) {
     closed_form::forward_dynamics(single_of(model), q.data(), qd.data(), force.data(), qdd.data());
     return;
@@ -37,6 +43,8 @@ void forward_dynamics_force(const Model& model, Data& data, const ConstVectorRef
 void forward_dynamics(const Model& model, Data& data, const ConstVectorRef& q,
                       const ConstVectorRef& qd, const ConstVectorRef& tension,
                       VectorRef qdd) noexcept {
+  assert(data.belongs_to(model) && of_coordinates(model, q, qd, qdd));
+  assert(detail::of_cables(model, tension));
   if (model.has_closed_form() && model.has_plain_cables()) {
     double force[2];
     detail::single_actuation_force(model, tension.data(), force);
@@ -50,6 +58,7 @@ void forward_dynamics(const Model& model, Data& data, const ConstVectorRef& q,
 void forward_dynamics(const Model& model, Data& data, const ConstVectorRef& q,
                       const ConstVectorRef& qd, const ConstVectorRef& tension,
                       const Wrenches& wrenches, VectorRef qdd) noexcept {
+  assert(data.belongs_to(model));
   total_force(model, q, qd, tension, wrenches, data.force);
   forward_dynamics_force(model, data, q, qd, data.force, qdd);
 }
@@ -57,6 +66,7 @@ void forward_dynamics(const Model& model, Data& data, const ConstVectorRef& q,
 void inverse_dynamics(const Model& model, Data& data, const ConstVectorRef& q,
                       const ConstVectorRef& qd, const ConstVectorRef& qdd,
                       VectorRef force) noexcept {
+  assert(data.belongs_to(model) && of_coordinates(model, q, qd, qdd, force));
   if (model.has_closed_form()) {
     return closed_form::inverse_dynamics(single_of(model), q, qd, qdd, force);
   }
@@ -66,18 +76,21 @@ void inverse_dynamics(const Model& model, Data& data, const ConstVectorRef& q,
 
 double kinetic_energy(const Model& model, Data& data, const ConstVectorRef& q,
                       const ConstVectorRef& qd) noexcept {
+  assert(data.belongs_to(model) && of_coordinates(model, q, qd));
   if (model.has_closed_form()) return closed_form::kinetic_energy(single_of(model), q, qd);
   const auto& state = data.kept()->at(model, q.data(), qd.data());
   return detail::kinetic_energy(chain_of(model), state, qd.data());
 }
 
 double potential_energy(const Model& model, Data& data, const ConstVectorRef& q) noexcept {
+  assert(data.belongs_to(model) && of_coordinates(model, q));
   if (model.has_closed_form()) return closed_form::potential_energy(single_of(model), q);
   return detail::potential_energy(chain_of(model), data.kept()->at(model, q.data()), q.data());
 }
 
 void potential_gradient(const Model& model, Data& data, const ConstVectorRef& q,
                         VectorRef gradient) noexcept {
+  assert(data.belongs_to(model) && of_coordinates(model, q, gradient));
   if (model.has_closed_form()) {
     return closed_form::potential_gradient(single_of(model), q, gradient);
   }
@@ -87,6 +100,8 @@ void potential_gradient(const Model& model, Data& data, const ConstVectorRef& q,
 
 void potential_hessian(const Model& model, Data& /*data*/, const ConstVectorRef& q,
                        MatrixRef H) noexcept {
+  assert(of_coordinates(model, q));
+  assert(detail::has_size(H, model.num_coordinates(), model.num_coordinates()));
   if (model.has_closed_form()) return closed_form::potential_hessian(single_of(model), q, H);
   const auto m = static_cast<int>(model.num_coordinates());
   detail::ArcChainState<detail::Dual> state;

@@ -2,10 +2,13 @@
 
 #include "chain/arcs.hpp"
 #include "dynamics/parts.hpp"
+#include "dynamics/sizes.hpp"
 
 namespace cdcr {
 
 Pose pose(const Model& model, const ConstVectorRef& q, Index section, double fraction) noexcept {
+  assert(detail::of_coordinates(model, q) && detail::is_section(model, section));
+  assert(detail::is_fraction(fraction));
   detail::Arcs<double> arcs;
   arcs.update(detail::chain_of(model), q.data(), section, fraction);
   return {arcs.frame.rotation(), arcs.p};
@@ -17,6 +20,8 @@ Pose tip(const Model& model, const ConstVectorRef& q) noexcept {
 
 void jacobian(const Model& model, const ConstVectorRef& q, Index section, double fraction,
               MatrixRef J) noexcept {
+  assert(detail::of_coordinates(model, q) && detail::is_section(model, section));
+  assert(detail::is_fraction(fraction) && detail::has_size(J, 6, model.num_coordinates()));
   detail::Arcs<double> arcs;
   arcs.update(detail::chain_of(model), q.data(), section, fraction);
   J.setZero();
@@ -32,6 +37,7 @@ void jacobian(const Model& model, const ConstVectorRef& q, Index section, double
 }
 
 void cable_lengths(const Model& model, const ConstVectorRef& q, VectorRef lengths) noexcept {
+  assert(detail::of_coordinates(model, q) && detail::of_cables(model, lengths));
   lengths = model.straight_lengths();
   lengths.noalias() -= model.actuation_matrix().transpose() * q;
 }

@@ -3,6 +3,7 @@
 #include "cdcr/dynamics.hpp"
 #include "chain/dual.hpp"
 #include "chain/forward.hpp"
+#include "dynamics/sizes.hpp"
 #include "loads/total_force.hpp"
 
 namespace cdcr {
@@ -58,6 +59,9 @@ void state_jacobian(const Model& model, Data& data, const ConstVectorRef& q,
                     const ConstVectorRef& qd, const ConstVectorRef& command,
                     const Wrenches& wrenches, MatrixRef A) noexcept {
   const Index m = model.num_coordinates();
+  assert(data.belongs_to(model) && detail::has_size(A, 2 * m, 2 * m));
+  assert(detail::of_coordinates(model, q, qd) && detail::of_cables(model, command));
+  assert(check_wrenches(model, wrenches) == Status::ok);
   set_upper_rows(m, A);
   if (model.has_closed_form() && force_is_constant(model, wrenches)) {
     actuation_force(model, command, data.force);
@@ -73,6 +77,8 @@ void linearize(const Model& model, Data& data, const ConstVectorRef& q, const Co
                const ConstVectorRef& command, const Wrenches& wrenches, MatrixRef A,
                MatrixRef B) noexcept {
   const Index m = model.num_coordinates();
+  assert(detail::has_size(B, 2 * m, model.num_cables()));
+  if (model.num_cables() == 0) return state_jacobian(model, data, q, qd, command, wrenches, A);
   B.topRows(m).setZero();
   if (model.has_closed_form() && force_is_constant(model, wrenches)) {
     state_jacobian(model, data, q, qd, command, wrenches, A);
@@ -80,6 +86,9 @@ void linearize(const Model& model, Data& data, const ConstVectorRef& q, const Co
                                     B.bottomRows(m));
     return;
   }
+  assert(data.belongs_to(model) && detail::has_size(A, 2 * m, 2 * m));
+  assert(detail::of_coordinates(model, q, qd) && detail::of_cables(model, command));
+  assert(check_wrenches(model, wrenches) == Status::ok);
   set_upper_rows(m, A);
   differentiate_motion(model, q, qd, command, wrenches, A, &B);
 }

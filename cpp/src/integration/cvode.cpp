@@ -12,6 +12,7 @@
 #include "base/arguments.hpp"
 #include "integration/small_vector.hpp"
 #include "integration/sundials_handles.hpp"
+#include "integration/sundials_spare.hpp"
 
 namespace cdcr {
 namespace {
@@ -40,6 +41,7 @@ class Streak {
 /// For calls that fail only when this file is wrong or memory has run out.
 void require(int flag, const char* call) {
   if (flag == CV_SUCCESS) return;
+  if (flag == CV_MEM_FAIL) throw std::bad_alloc();
   throw std::runtime_error(std::string(call) + " failed with code " + std::to_string(flag));
 }
 
@@ -60,6 +62,10 @@ Owner<N_Vector> make_vector(Index size, SUNContext context) {
   detail::use_small_operations(vector.get());
   N_VConst(0.0, vector.get());
   return vector;
+}
+
+Owner<SUNMatrix> make_matrix(Index size, SUNContext context) {
+  return own(SUNDenseMatrix(size, size, context));
 }
 
 Eigen::Map<VectorXd> view(const Owner<N_Vector>& v) {
@@ -102,6 +108,7 @@ class Cvode final : public Integrator {
   Owner<SUNContext> context_;
   Owner<N_Vector> trial_, between_;  // the end of a step, a point within it
   Owner<SUNMatrix> matrix_;
+  detail::Spare spare_;
   Owner<SUNLinearSolver> linear_solver_;
   Owner<void*> cvode_;
 
@@ -123,7 +130,9 @@ Cvode::Cvode(RobotOde& ode, Method method, const Options& options)
       context_(make_context()),
       trial_(make_vector(ode.num_states(), context_.get())),
       between_(make_vector(ode.num_states(), context_.get())),
-      matrix_(own(SUNDenseMatrix(ode.num_states(), ode.num_states(), context_.get()))),
+      matrix_(make_matrix(ode.num_states(), context_.get())),
+      spare_(make_vector(ode.num_states(), context_.get()),
+             make_matrix(ode.num_states(), context_.get())),
       linear_solver_(own(SUNLinSol_Dense(trial_.get(), matrix_.get(), context_.get()))),
       cvode_(own(CVodeCreate(method == Method::bdf ? CV_BDF : CV_ADAMS, context_.get()))),
       state_(VectorXd::Zero(ode.num_states())),
@@ -131,15 +140,21 @@ Cvode::Cvode(RobotOde& ode, Method method, const Options& options)
       moved_(state_),
       slope_there_(state_) {
   void* const cvode = cvode_.get();
+  const detail::Spare::Use spare(spare_);
+  detail::Spare::serve(trial_.get(), matrix_.get());
   const auto silent = [](int, const char*, const char*, char*, void*) {};
   require(CVodeSetErrHandlerFn(cvode, silent, nullptr), "CVodeSetErrHandlerFn");
   require(CVodeSetUserData(cvode, this), "CVodeSetUserData");
-  require(CVodeInit(cvode, derivative, time_, trial_.get()), "CVodeInit");
+  if (CVodeInit(cvode, derivative, time_, trial_.get()) != CV_SUCCESS) {
+    (void)cvode_.release();  // has freed its vectors, and would free them again
+    throw std::bad_alloc();
+  }
   require(CVodeSStolerances(cvode, options.rtol, options.atol), "CVodeSStolerances");
   require(CVodeSetLinearSolver(cvode, linear_solver_.get(), matrix_.get()), "CVodeSetLinearSolver");
   require(CVodeSetJacFn(cvode, jacobian), "CVodeSetJacFn");
   require(CVodeSetMaxStep(cvode, options.max_step), "CVodeSetMaxStep");
   require(CVodeSetMaxHnilWarns(cvode, -1), "CVodeSetMaxHnilWarns");
+  if (spare_.used()) throw std::bad_alloc();
 }
 
 /// Keeps exceptions out of CVODE, which is C and could not pass them on.
@@ -174,10 +189,7 @@ int Cvode::jacobian(double t, N_Vector y, N_Vector /*dydt*/, SUNMatrix J, void* 
 }
 
 Status Cvode::restart(double t, const VectorXd& y, double t_stop) {
-  if (y.size() != state_.size() || !(t_stop > t)) {
-    detail::refuse("restart takes ", state_.size(), " states and t_stop > t, got ", y.size(),
-                   " states, t = ", t, " s and t_stop = ", t_stop, " s");
-  }
+  ode_.require_stretch(t, y, t_stop);
   status_ = Status::not_started;  // also if the tension function throws
   if (limit_hits_.too_long()) limit_hits_ = {};
   if (restarts_.too_long()) restarts_ = {};
@@ -272,7 +284,10 @@ Status Cvode::attempt() {
   const auto too_small = [this] {  // with the cause, where it is known
     return rhs_status_ == Status::ok ? Status::step_too_small : rhs_status_;
   };
-  switch (CVode(cvode_.get(), stop_, trial_.get(), &t, CV_ONE_STEP)) {
+  const detail::Spare::Use spare(spare_);
+  const int flag = CVode(cvode_.get(), stop_, trial_.get(), &t, CV_ONE_STEP);
+  if (spare_.used()) throw std::bad_alloc();  // in the first step
+  switch (flag) {
     case CV_SUCCESS:
     case CV_TSTOP_RETURN:
       break;

@@ -39,6 +39,7 @@ void Dopri5::derivative(double t, const VectorXd& y, VectorXd& dydt) {
 }
 
 Status Dopri5::restart(double t, const VectorXd& y, double t_stop) {
+  ode_.require_stretch(t, y, t_stop);
   t_ = t_before_ = t;
   stop_ = t_stop;
   y_ = y_before_ = y;

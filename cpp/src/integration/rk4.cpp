@@ -14,6 +14,7 @@ Rk4::Rk4(RobotOde& ode, const Options& options)
       slope_before_(y_) {}
 
 Status Rk4::restart(double t, const VectorXd& y, double t_stop) {
+  ode_.require_stretch(t, y, t_stop);
   start_ = t_ = t_before_ = t;
   stop_ = t_stop;
   count_ = 0;

@@ -7,11 +7,33 @@
 #include "cdcr/dynamics.hpp"
 #include "cdcr/linearization.hpp"
 #include "dynamics/bending.hpp"
+#include "dynamics/sizes.hpp"
 
 namespace cdcr {
+namespace {
+
+using detail::require;
+
+void require_fit(const Model& model, const CommandInput& input) {
+  require(input.num_cables() == model.num_cables(), "tension must have one value for each of the ",
+          model.num_cables(), " cables, got ", input.num_cables());
+}
+
+void require_fit(const Model& model, const Controller& controller) {
+  const Index d = controller.num_coordinates(), c = controller.num_cables();
+  const bool fits = (d == Controller::any_size || d == model.num_coordinates()) &&
+                    (c == Controller::any_size || c == model.num_cables());
+  require(fits, "the controller was made for a robot of ", d, " coordinates and ", c,
+          " cables, but the model has ", model.num_coordinates(), " coordinates and ",
+          model.num_cables(), " cables");
+  detail::require_positive("the controller's period", controller.period(), "s");
+  if (controller.gives_tensions()) detail::require_tension_drive("the controller", model);
+}
+
+}  // namespace
 
 RobotOde::RobotOde(const Model& model, const CommandInput* input, Controller* controller,
-                   const WrenchInput& loads, Index num_cables)
+                   const WrenchInput& loads)
     : model_(&model),
       input_(input),
       controller_(controller),
@@ -21,8 +43,6 @@ RobotOde::RobotOde(const Model& model, const CommandInput* input, Controller* co
       force_(VectorXd::Zero(model.num_coordinates())),
       wrenches_(loads.wrenches()) {
   require_inertia(model);
-  detail::require(num_cables == model.num_cables(), "tension must have one value for each of the ",
-                  model.num_cables(), " cables, got ", num_cables);
   validate(model, loads.wrenches());
   for (Index j = 0; j < model.num_cables(); ++j) {
     if (model.cables()[static_cast<std::size_t>(j)].length_driven()) length_driven_.push_back(j);
@@ -30,14 +50,18 @@ RobotOde::RobotOde(const Model& model, const CommandInput* input, Controller* co
 }
 
 RobotOde::RobotOde(const Model& model, const CommandInput& input, const WrenchInput& loads)
-    : RobotOde(model, &input, nullptr, loads, input.num_cables()) {}
+    : RobotOde(model, &input, nullptr, loads) {
+  require_fit(model, input);
+}
 
 RobotOde::RobotOde(const Model& model, Controller& controller, const WrenchInput& loads)
-    : RobotOde(model, nullptr, &controller, loads, controller.num_cables()) {
+    : RobotOde(model, nullptr, &controller, loads) {
+  require_fit(model, controller);
   segment_ = -1;
 }
 
 Status RobotOde::start_segment(double t, const VectorXd& y) {
+  assert(y.size() == num_states());
   const Index m = model_->num_coordinates();
   Status status = Status::ok;
   if (controller_ == nullptr) {
@@ -106,6 +130,7 @@ void RobotOde::jacobian(double t, const double* y, double* J) {
 }
 
 void RobotOde::cables(double t, const VectorXd& y, VectorRef command, VectorRef tension) {
+  assert(y.size() == num_states() && detail::of_cables(*model_, command, tension));
   const Index m = model_->num_coordinates();
   if (!command_holds_) update_command(t, y.head(m), y.tail(m));
   command = command_;
@@ -121,11 +146,18 @@ void RobotOde::pulls(double t, const double* y, double* pull) {
   }
 }
 
+void RobotOde::require_stretch(double t, const VectorXd& y, double t_stop) const {
+  detail::require(y.size() == num_states() && t_stop > t, "restart takes ", num_states(),
+                  " states and t_stop > t, got ", y.size(), " states, t = ", t,
+                  " s and t_stop = ", t_stop, " s");
+}
+
 Status RobotOde::check(const double* y) const noexcept {
   return check_state(*model_, Eigen::Map<const VectorXd>(y, num_states()));
 }
 
 Status check_state(const Model& model, const ConstVectorRef& y) noexcept {
+  if (y.size() != 2 * model.num_coordinates()) return Status::wrong_size;
   if (!y.allFinite()) return Status::non_finite_state;
   const bool within = detail::largest_bending(model, y) <= max_bending;
   return within ? Status::ok : Status::bending_limit;

@@ -52,6 +52,8 @@ Status Simulator::step(const ConstVectorRef& tension, const Wrenches& wrenches) 
   if (!started_) return Status::not_started;
   const Status tension_status = check_tension(model_, tension);
   if (tension_status != Status::ok) return tension_status;
+  const Status wrench_status = check_wrenches(model_, wrenches);
+  if (wrench_status != Status::ok) return wrench_status;
 
   const Index m = model_.num_coordinates();
   const bool force_holds = force_is_constant(model_, wrenches);

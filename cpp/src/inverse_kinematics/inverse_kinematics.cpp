@@ -126,11 +126,13 @@ const InverseKinematics& InverseSolver::solve(const Vector3d& p, const std::opti
   answer_.seeds = answer_.iterations = 0;
   set_target(p, R);
   best_.setZero();
-  finite_ = p.allFinite() && R_.allFinite() && q0.allFinite();
-  if (finite_ && model_->num_sections() == 1 && !with_rotation_) {
+  const bool fits = q0.size() == 0 || q0.size() == q_.size();
+  const bool finite = p.allFinite() && R_.allFinite() && q0.allFinite();
+  asked_ = !fits ? IkStatus::wrong_size : finite ? IkStatus::reached : IkStatus::not_finite;
+  if (asked_ == IkStatus::reached && model_->num_sections() == 1 && !with_rotation_) {
     best_ = one_section_angle(rho_, z_, max_theta_[0]) * towards_;
     keep_within_limits(best_);
-  } else if (finite_) {
+  } else if (asked_ == IkStatus::reached) {
     search(q0);
   }
   conclude();
@@ -165,7 +167,7 @@ void InverseSolver::conclude() noexcept {
 }
 
 IkStatus InverseSolver::why() const noexcept {
-  if (!finite_) return IkStatus::not_finite;
+  if (asked_ != IkStatus::reached) return asked_;
   if (answer_.reachable) return IkStatus::reached;
   if (p_.stableNorm() > length_ + tolerance_) return IkStatus::too_far;
   for (Index i = 0; i < max_theta_.size(); ++i) {
@@ -184,6 +186,9 @@ std::string InverseSolver::message() const {
       return "";
     case IkStatus::not_finite:
       return "p, R and q0 must be finite";
+    case IkStatus::wrong_size:
+      return "q0 must have a value for each of the " + std::to_string(q_.size()) +
+             " coordinates, or none at all";
     case IkStatus::too_far:
       text << "p is " << p_.stableNorm() << " m from the base, farther than the robot's " << length_
            << " m";

@@ -1,15 +1,20 @@
 #include "cdcr/cables.hpp"
 
+#include "dynamics/sizes.hpp"
 #include "loads/cable_force.hpp"
 
 namespace cdcr {
 
+using detail::of_cables, detail::of_coordinates;
+
 void actuation_force(const Model& model, const ConstVectorRef& tension, VectorRef force) noexcept {
+  assert(of_cables(model, tension) && of_coordinates(model, force));
   detail::actuation_force(model, tension.data(), force.data());
 }
 
 void cable_tensions(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
                     const ConstVectorRef& command, VectorRef tension) noexcept {
+  assert(of_coordinates(model, q, qd) && of_cables(model, command, tension));
   for (Index j = 0; j < model.num_cables(); ++j) {
     tension[j] = detail::base_tension(model, j, q.data(), qd.data(), command[j]);
   }
@@ -17,16 +22,20 @@ void cable_tensions(const Model& model, const ConstVectorRef& q, const ConstVect
 
 void cable_force(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
                  const ConstVectorRef& command, VectorRef force) noexcept {
+  assert(of_coordinates(model, q, qd, force) && of_cables(model, command));
   detail::cable_force(model, q.data(), qd.data(), command.data(), force.data());
 }
 
 double cable_pull(const Model& model, Index cable, const ConstVectorRef& q,
                   const ConstVectorRef& qd, double command) noexcept {
+  assert(detail::is_cable(model, cable) && of_coordinates(model, q, qd));
   return detail::spring_force(model, cable, q.data(), qd.data(), command);
 }
 
 void tensions_along(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
                     const ConstVectorRef& command, MatrixRef tension) noexcept {
+  assert(of_coordinates(model, q, qd) && of_cables(model, command));
+  assert(detail::has_size(tension, model.num_sections() + 1, model.num_cables()));
   double unused[max_coordinates] = {};
   tension.setZero();
   for (Index j = 0; j < model.num_cables(); ++j) {
@@ -38,6 +47,7 @@ void tensions_along(const Model& model, const ConstVectorRef& q, const ConstVect
 
 double friction_power(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
                       const ConstVectorRef& command) noexcept {
+  assert(of_coordinates(model, q, qd) && of_cables(model, command));
   if (!model.has_friction()) return 0.0;
   double lost = 0.0, force[max_coordinates] = {};
   for (Index j = 0; j < model.num_cables(); ++j) {
@@ -50,6 +60,7 @@ double friction_power(const Model& model, const ConstVectorRef& q, const ConstVe
 
 double cable_energy(const Model& model, const ConstVectorRef& q,
                     const ConstVectorRef& command) noexcept {
+  assert(of_coordinates(model, q) && of_cables(model, command));
   double energy = 0.0;
   for (Index j = 0; j < model.num_cables(); ++j) {
     const Cable& cable = model.cables()[static_cast<std::size_t>(j)];
@@ -61,6 +72,7 @@ double cable_energy(const Model& model, const ConstVectorRef& q,
 }
 
 void rest_command(const Model& model, VectorRef command) noexcept {
+  assert(of_cables(model, command));
   for (Index j = 0; j < model.num_cables(); ++j) {
     const bool by_length = model.cables()[static_cast<std::size_t>(j)].length_driven();
     command[j] = by_length ? model.straight_lengths()[j] : 0.0;

@@ -1,6 +1,7 @@
 #include "cdcr/signal.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -59,12 +60,14 @@ Index Signal::segment(double t) const noexcept {
 }
 
 bool Signal::is_constant(Index segment) const noexcept {
+  assert(segment >= 0 && segment <= static_cast<Index>(times_.size()));
   if (function_) return false;
   return interpolation_ == Interpolation::previous || segment == 0 || segment >= values_.cols();
 }
 
 void Signal::evaluate(double t, Index segment, const ConstVectorRef& q, const ConstVectorRef& qd,
                       VectorRef value) const {
+  assert(segment >= 0 && segment <= static_cast<Index>(times_.size()) && value.size() == size_);
   if (function_) {
     // A break point belongs to the segment after it; the one before sees the value just before it.
     double at = start_ + t;

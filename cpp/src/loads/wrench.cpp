@@ -2,6 +2,7 @@
 
 #include "base/arguments.hpp"
 #include "dynamics/parts.hpp"
+#include "dynamics/sizes.hpp"
 #include "loads/wrench_force.hpp"
 
 namespace cdcr {
@@ -15,9 +16,9 @@ void validate(const Model& model, const Wrenches& wrenches) {
   for (std::size_t i = 0; i < wrenches.size(); ++i) {
     const Wrench& w = wrenches[i];
     const std::string item = detail::sentence("wrenches[", i, "].");
-    detail::require(w.section >= 0 && w.section < model.num_sections(), item,
-                    "section must be 0 to ", model.num_sections() - 1, ", got ", w.section);
-    detail::require(w.fraction >= 0.0 && w.fraction <= 1.0, item, "fraction must be 0 to 1, got ",
+    detail::require(detail::is_section(model, w.section), item, "section must be 0 to ",
+                    model.num_sections() - 1, ", got ", w.section);
+    detail::require(detail::is_fraction(w.fraction), item, "fraction must be 0 to 1, got ",
                     w.fraction);
     detail::require(w.force.allFinite(), item, "force must be three finite numbers of N, got [",
                     w.force.transpose(), "]");
@@ -26,8 +27,19 @@ void validate(const Model& model, const Wrenches& wrenches) {
   }
 }
 
+Status check_wrenches(const Model& model, const Wrenches& wrenches) noexcept {
+  for (const Wrench& w : wrenches) {
+    const bool sound = detail::is_section(model, w.section) && detail::is_fraction(w.fraction) &&
+                       w.force.allFinite() && w.moment.allFinite();
+    if (!sound) return Status::invalid_wrench;
+  }
+  return Status::ok;
+}
+
 void add_wrench_force(const Model& model, const ConstVectorRef& q, const Wrenches& wrenches,
                       VectorRef force) noexcept {
+  assert(detail::of_coordinates(model, q, force));
+  assert(check_wrenches(model, wrenches) == Status::ok);
   detail::add_wrench_force<double>(detail::chain_of(model), q.data(), wrenches, force.data());
 }
 

@@ -1,6 +1,7 @@
 #include "cdcr/wrench_input.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -71,6 +72,7 @@ WrenchInput WrenchInput::since(double start) const {
 }
 
 void WrenchInput::evaluate(double t, double start, Wrenches& now) const {
+  assert(now.size() == wrenches_.size());
   const VectorXd no_state;
   Eigen::Matrix<double, 1, 1> factor;
   for (std::size_t i = 0; i < wrenches_.size(); ++i) {

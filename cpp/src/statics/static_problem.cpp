@@ -9,6 +9,7 @@
 #include "chain/dual.hpp"
 #include "chain/gradient.hpp"
 #include "dynamics/parts.hpp"
+#include "dynamics/sizes.hpp"
 #include "loads/cable_force.hpp"
 #include "loads/wrench_force.hpp"
 
@@ -110,6 +111,8 @@ void static_stiffness(const Model& model, const ConstVectorRef& q, const ConstVe
                       const Wrenches& wrenches, MatrixRef K) noexcept {
   using detail::Dual;
   const Index m = model.num_coordinates();
+  assert(detail::of_coordinates(model, q) && detail::of_cables(model, command));
+  assert(check_wrenches(model, wrenches) == Status::ok && detail::has_size(K, m, m));
   if (model.has_closed_form() && wrenches.empty()) {
     detail::closed_form::potential_hessian(detail::single_of(model), q, K);
   } else {

@@ -4,11 +4,22 @@
 #include <cstdlib>  // also defines __GLIBC__, which allocations.hpp asks for
 
 namespace {
-thread_local long count = 0;
+
+thread_local long count = 0, failing = -1;
+
+/// Counts an allocation; whether it is the one to fail.
+[[maybe_unused]] bool fails() {
+  return count++ == failing;
 }
+
+}  // namespace
 
 long cdcr::test::allocations() noexcept {
   return count;
+}
+
+void cdcr::test::fail_allocation(long n) noexcept {
+  failing = count + n;
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && defined(__GLIBC__)
@@ -21,23 +32,19 @@ void* __libc_realloc(void* block, std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
 
 void* malloc(std::size_t size) {
-  ++count;
-  return __libc_malloc(size);
+  return fails() ? nullptr : __libc_malloc(size);
 }
 
 void* calloc(std::size_t number, std::size_t size) {
-  ++count;
-  return __libc_calloc(number, size);
+  return fails() ? nullptr : __libc_calloc(number, size);
 }
 
 void* realloc(void* block, std::size_t size) {
-  ++count;
-  return __libc_realloc(block, size);
+  return fails() ? nullptr : __libc_realloc(block, size);
 }
 
 void* aligned_alloc(std::size_t alignment, std::size_t size) {
-  ++count;
-  return __libc_memalign(alignment, size);
+  return fails() ? nullptr : __libc_memalign(alignment, size);
 }
 }
 

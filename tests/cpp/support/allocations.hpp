@@ -14,6 +14,9 @@ inline constexpr bool allocations_counted = true;
 /// Allocations of this thread so far.
 long allocations() noexcept;
 
+/// Lets the n-th allocation of this thread from here on fail, 0 being the next.
+void fail_allocation(long n) noexcept;
+
 /// Allocations made by a call.
 template <class Call>
 long allocations_of(Call&& call) {
