@@ -6,6 +6,8 @@
 #include <sstream>
 #include <vector>
 
+#include "bind.hpp"
+#include "docs.hpp"
 #include "states.hpp"
 
 namespace cdcr::python {
@@ -42,9 +44,54 @@ std::string index_text(Index flat, const std::vector<Index>& sizes) {
   throw py::value_error(text.str());
 }
 
+/// An attribute of NumPy, held for as long as the process lives.
+py::handle held(const char* name) {
+  return py::getattr(py::module_::import("numpy"), name).release();
+}
+
+/// Whether an array masks entries, or one in lists within lists does.
+bool is_masked(const py::handle& object, int depth = 0) {
+  constexpr int deepest = 64;  // dimensions that NumPy can count
+  if (depth < deepest && (py::isinstance<py::list>(object) || py::isinstance<py::tuple>(object))) {
+    return std::any_of(object.begin(), object.end(),
+                       [depth](const py::handle& item) { return is_masked(item, depth + 1); });
+  }
+  return py::isinstance<py::array>(object) && py::hasattr(object, "mask") &&
+         object.attr("mask").attr("any")().cast<bool>();
+}
+
+bool holds_reals(const py::array& array) {
+  const char kind = array.dtype().kind();
+  return kind == 'f' || kind == 'i' || kind == 'u' || kind == 'b';
+}
+
+/// Whether Python takes an object for a real number of its own accord: no text, no complex number,
+/// no duration, although NumPy makes numbers of them.
+bool is_real(const py::handle& item) {
+  static const py::handle scalar = held("generic");
+  if (py::isinstance<py::array>(item) || py::isinstance(item, scalar)) {
+    return holds_reals(py::array(py::reinterpret_borrow<py::object>(item)));
+  }
+  const PyNumberMethods* methods = Py_TYPE(item.ptr())->tp_as_number;
+  return methods != nullptr && (methods->nb_float != nullptr || methods->nb_index != nullptr);
+}
+
+/// What entries other than real numbers are, as in "complex128"; nothing where there are none.
+std::string other_entries(const py::array& array) {
+  if (holds_reals(array)) return "";
+  const char kind = array.dtype().kind();
+  if (kind == 'U' || kind == 'S') return "text";
+  if (kind != 'O') return py::str(array.dtype().attr("name"));
+  for (const py::handle item : array.attr("flat")) {
+    if (!is_real(item)) return py::str(py::type::of(item).attr("__name__"));
+  }
+  return "";
+}
+
 Array convert(const py::handle& object, const char* name, std::initializer_list<Index> shape) {
   // An array that is already right is taken as it is, past the conversion.
-  if (py::isinstance<py::array>(object)) {
+  static const py::handle plain_array = held("ndarray");
+  if (py::type::handle_of(object).is(plain_array)) {
     static const py::handle float64 = py::dtype::of<double>().release();
     const auto array = py::reinterpret_borrow<py::array>(object);
     const bool in_rows = (static_cast<unsigned>(array.flags()) & unsigned{py::array::c_style}) != 0;
@@ -52,15 +99,28 @@ Array convert(const py::handle& object, const char* name, std::initializer_list<
       return py::reinterpret_borrow<Array>(object);
     }
   }
+  std::string got = py::str(py::type::of(object).attr("__name__"));
   try {
-    return Array(py::reinterpret_borrow<py::object>(object));
+    if (is_masked(object)) {
+      got += " with masked entries";
+    } else {
+      const py::array array(py::reinterpret_borrow<py::object>(object));
+      const std::string others = other_entries(array);
+      if (others.empty()) return Array(array);
+      if (array.ndim() > 0) got += " of " + others;
+    }
   } catch (const py::error_already_set& error) {
     // Ctrl-C may strike in the middle of a conversion, and is not the argument's fault.
-    if (!error.matches(PyExc_TypeError) && !error.matches(PyExc_ValueError)) throw;
+    if (error.matches(PyExc_OverflowError)) {
+      got += " with a number too large for float64";
+    } else if (!error.matches(PyExc_TypeError) && !error.matches(PyExc_ValueError)) {
+      throw;
+    }
   }
   std::ostringstream text;
-  text << name << " must be numbers of shape " << shape_text(shape) << ", got "
-       << py::str(py::type::of(object).attr("__name__")).cast<std::string>();
+  text << name << " must be numbers";
+  if (!(shape.size() == 1 && *shape.begin() == leading)) text << " of shape " << shape_text(shape);
+  text << ", got " << got;
   refuse(text);
 }
 
@@ -179,6 +239,20 @@ py::array_t<double> to_array(const Eigen::Ref<const VectorXd>& vector) {
 
 py::array_t<double> to_rows(const RowMatrixXd& matrix) {
   return py::array_t<double>({matrix.rows(), matrix.cols()}, matrix.data());
+}
+
+void bind_arrays(py::module_& m) {
+  m.def(
+      "finite",
+      [](const py::object& value, const std::string& name) {
+        return read_array(value, name.c_str(), {leading});
+      },
+      py::arg("value"), py::arg("name"),
+      Doc("A value as an array of finite numbers, float64 in the order of C.",
+          {"value : (...) array_like\n    Real numbers of any type, in any unit [-].\n",
+           "name : str\n    What a refusal calls it.\n"},
+          "(...) array\n    In that unit [-]; the value itself where it is such an array.",
+          docs::bad_argument));
 }
 
 Data& scratch(const Model& model) {

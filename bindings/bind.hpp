@@ -9,6 +9,7 @@ namespace cdcr::python {
 
 using PyModel = pybind11::class_<Model>;
 
+void bind_arrays(pybind11::module_& m);
 void bind_status(pybind11::module_& m);
 void bind_robot(pybind11::module_& m);
 void bind_coordinates(pybind11::module_& m);

@@ -11,6 +11,7 @@ PYBIND11_MODULE(_core, m) {
   m.attr("__version__") = cdcr::version;
   m.attr("max_bending") = cdcr::max_bending;
   m.attr("taylor_range") = cdcr::taylor_range;
+  cdcr::python::bind_arrays(m);
   cdcr::python::bind_status(m);
   cdcr::python::bind_robot(m);
   cdcr::python::bind_coordinates(m);

@@ -174,29 +174,37 @@ def test_our_own_mistakes_are_not_taken_for_the_users(
 
 
 @pytest.mark.parametrize("as_json", [False, True])
-def test_a_failed_run_exits_with_1_and_writes_nothing(tmp_path: Path, as_json: bool) -> None:
+def test_a_failed_run_exits_with_1_and_keeps_what_it_has(tmp_path: Path, as_json: bool) -> None:
     path, out = tmp_path / "strong.toml", tmp_path / "out"
     path.write_text(TOO_STRONG)
     result = cdcr_("run", path, "--out", out, *(["--json"] if as_json else []))
     assert result.exit_code == 1
-    message = load_scenario(path).simulate().message
-    assert result.stderr == f"cdcr: {message} No file was written.\n"
-    assert not out.exists()
+    run = load_scenario(path).simulate()
+    files = [str(out / f"strong-incomplete.{suffix}") for suffix in ("csv", "nc")]
+    kept = ", ".join(files)
+    assert result.stderr == f"cdcr: {run.message} What was reached is in {kept}.\n"
+    assert everything_in(out) == ["strong-incomplete.csv", "strong-incomplete.nc"]
+    for file in files:
+        again = cdcr.Trajectory.load(file, model=run.model)
+        np.testing.assert_array_equal(again.q, run.q)
+    assert (again.status, again.message) == (run.status, run.message)
     if as_json:
         told = json.loads(result.stdout)
         assert (told["success"], told["status"]) == (False, "bending_limit")
         assert told["message"]
-        assert (told["files"], told["findings"]) == ([], {})
+        assert (told["files"], told["findings"]) == (files, {})
     else:
         assert "steps" in result.stdout
-        assert "wrote" not in result.stdout
+        assert result.stdout.count("wrote") == 2
+    # The next attempt replaces them, without --overwrite: they are no results.
+    assert cdcr_("run", path, "--out", out).exit_code == 1
 
 
 def test_too_few_steps_fail_with_what_to_try(tmp_path: Path) -> None:
     result = cdcr_("run", "step-tension", "--out", tmp_path, "--max-steps", 10)
     assert result.exit_code == 1
     assert "max_steps" in result.stderr
-    assert everything_in(tmp_path) == []
+    assert everything_in(tmp_path) == [f"step-tension-incomplete.{s}" for s in ("csv", "nc")]
 
 
 def test_ctrl_c_while_integrating(tmp_path: Path) -> None:
@@ -217,14 +225,14 @@ main(["run", "step-tension", "--out", "new/out", "--t-end", "1000"])
 
 
 @pytest.mark.usefixtures("quick")
-@pytest.mark.parametrize("when", ["figure", "save"])
+@pytest.mark.parametrize("when", ["figure", "write_run"])
 def test_ctrl_c_while_writing_leaves_what_was_there(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, when: str
 ) -> None:
     def interrupted(*args: object, **kwargs: object) -> None:
         raise KeyboardInterrupt
 
-    owner = cdcr.scenarios.Scenario if when == "figure" else cdcr.Trajectory
+    owner: object = cdcr.scenarios.Scenario if when == "figure" else cli_run
     monkeypatch.setattr(owner, when, interrupted)
     old = tmp_path / "old"
     old.mkdir()

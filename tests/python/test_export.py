@@ -205,12 +205,12 @@ def test_failing_half_way_leaves_nothing(
 def test_failing_half_way_keeps_the_old_file(
     run: cdcr.Trajectory, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def write_half(self: Any, path: Path, **options: Any) -> None:
-        path.write_bytes(b"half")
+    def write_half(self: Any, store: Any) -> None:
+        store.ds.attrs["half"] = 1
         raise KeyboardInterrupt
 
     old = run.save(tmp_path / "run.nc").read_bytes()
-    monkeypatch.setattr(xr.Dataset, "to_netcdf", write_half)
+    monkeypatch.setattr(xr.Dataset, "dump_to_store", write_half)
     with pytest.raises(KeyboardInterrupt):
         run.save(tmp_path / "run.nc", overwrite=True)
     assert (tmp_path / "run.nc").read_bytes() == old

@@ -295,7 +295,7 @@ def spin(kind: str, t: FloatArray) -> tuple[FloatArray, FloatArray]:
     [
         ((1.0, "exakt"), r"kind must be one of .*'printed-taylor'\), got 'exakt'"),
         ((math.nan,), "theta must be finite, got nan"),
-        (("far",), "theta must be numbers, got 'far'"),
+        (("far",), "theta must be numbers, got str"),
         (([0.0, -9.5],), r"theta must lie within cdcr.max_bending = 9.42478 rad .* got 9.5 rad"),
         ((1.0, "exact", 65), r"num_disks must be a whole number 0 to 64, got 65 \(int\)"),
         ((1.0, "taylor", 2.5), r"num_disks must be a whole number 0 to 64, got 2.5 \(float\)"),

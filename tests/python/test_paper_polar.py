@@ -211,7 +211,7 @@ def test_what_the_paper_does_not_cover_is_refused() -> None:
         ((10.0, 0.0, 0.0, 0.0, [0.0, 0.0, 0.0]), "theta must lie within cdcr.max_bending"),
         ((1.0, math.inf, 0.0, 0.0, [0.0, 0.0, 0.0]), "phi must be finite, got inf"),
         ((1.0, 0.0, math.nan, 0.0, [0.0, 0.0, 0.0]), "thetad must be finite, got nan"),
-        ((1.0, 0.0, 0.0, "fast", [0.0, 0.0, 0.0]), "phid must be numbers, got 'fast'"),
+        ((1.0, 0.0, 0.0, "fast", [0.0, 0.0, 0.0]), "phid must be numbers, got str"),
         ((1.0, 0.0, 0.0, 0.0, [0.0, 0.0]), r"tension must have shape \(3,\) or .* got \(2,\)"),
         ((1.0, 0.0, 0.0, 0.0, [0.0, -2.0, 0.0]), "tension must be >= 0 N, got -2 N"),
     ],

@@ -37,7 +37,7 @@ def refuses(sentence: str) -> Any:
         ),
         ({"qd0": [[0.0, 0.0]]}, "qd0 must have shape (2,), got (1, 2)"),
         ({"qd0": [INF, 0.0]}, "qd0[0] must be finite, got inf"),
-        ({"qd0": None}, "qd0 must have shape (2,), got ()"),
+        ({"qd0": None}, "qd0 must be numbers of shape (2,), got NoneType"),
         ({"t": 1.0}, "t must have shape (any,), got ()"),
         ({"t": []}, "t must hold at least one time, got none"),
         ({"t": [0.0, NAN]}, "t[1] must be finite, got nan"),
@@ -117,7 +117,7 @@ ROWS = np.ones((2, 3))
         ),
         (
             lambda t: None,
-            "the value of the tension function must have shape (3,), got ()",
+            "the value of the tension function must be numbers of shape (3,), got NoneType",
         ),
         (
             lambda t: "much",

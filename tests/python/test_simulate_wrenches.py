@@ -130,7 +130,7 @@ def test_a_profile_must_give_a_finite_number(model: cdcr.Model, method: Any, val
         (([0.0, np.nan], [1.0, 1.0]), "the times of a wrench's profile[1] must be finite, got nan"),
         (
             ([0.0], ["x"]),
-            "the factors of a wrench's profile must be numbers of shape (1,), got list",
+            "the factors of a wrench's profile must be numbers of shape (1,), got list of text",
         ),
     ],
 )

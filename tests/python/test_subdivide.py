@@ -280,7 +280,7 @@ def test_refusals_of_states() -> None:
         cdcr.subdivide_state(robot, 2, np.zeros(4))
     with pytest.raises(ValueError, match=r"^q must have shape \(\.\.\., 4\), got \(3, 2\)$"):
         cdcr.merge_state(robot, 2, np.zeros((3, 2)))
-    with pytest.raises(ValueError, match=r"^q must be finite, got "):
+    with pytest.raises(ValueError, match=r"^q\[0\] must be finite, got "):
         cdcr.merge_state(robot, 1, [math.nan, 0.0])
     model: Any = cdcr.Model(robot)
     with pytest.raises(TypeError, match=r"^robot must be a cdcr\.Robot, got Model$"):

@@ -3,20 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
+
+from cdcr._core import finite
+
+__all__ = ["FloatArray", "even_times", "finite", "read_only"]
 
 FloatArray = NDArray[np.float64]
-
-
-def finite(value: ArrayLike, name: str) -> FloatArray:
-    """Return a value as an array, or refuse it by its name."""
-    try:
-        array = np.asarray(value, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise ValueError(f"{name} must be numbers, got {value!r}") from None
-    if not np.isfinite(array).all():
-        raise ValueError(f"{name} must be finite, got {value!r}")
-    return array
 
 
 def read_only(array: FloatArray) -> FloatArray:

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 _C_INT = 2**31 - 1  # largest count that the core can be told
+_NO_NUMBERS = (bool, np.timedelta64)  # although Python and NumPy count them among these
 
 
 def format_value(value: object) -> str:
@@ -62,11 +63,11 @@ class Check:
     def number(
         self, item: str, value: object, requirement: str, above: float | None = None
     ) -> float:
-        """Return any real number, NumPy scalars included, as a float; a bool is no number.
+        """Return any real number, NumPy scalars included, as a float; no bool, no duration.
 
         Where it must be `above` a limit, it must be finite too.
         """
-        if isinstance(value, Real) and not isinstance(value, bool):
+        if isinstance(value, Real) and not isinstance(value, _NO_NUMBERS):
             with suppress(OverflowError):
                 number = float(value)
                 if above is None or above < number < math.inf:
@@ -78,7 +79,7 @@ class Check:
         self, item: str, value: object, requirement: str, low: int = -_C_INT, high: int = _C_INT
     ) -> int:
         """Return any whole number from `low` to `high`, NumPy scalars included, as an int."""
-        if isinstance(value, Integral) and not isinstance(value, bool):
+        if isinstance(value, Integral) and not isinstance(value, _NO_NUMBERS):
             count = int(value)
             if low <= count <= high:
                 return count

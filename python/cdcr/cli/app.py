@@ -131,7 +131,8 @@ def run_command(
     """Run a scenario; write a picture (.png) and the data (.csv, .nc); print a summary.
 
     Exit codes: 0 all went well, 1 the integration failed, 2 something in the command or in a file
-    has to be mended first, 130 interrupted. Files appear only when a run is complete.
+    has to be mended first, 130 interrupted. Files appear when all are complete; a run that failed
+    leaves its numbers, in files whose names end in -incomplete.
     """
     with _told_plainly():
         report = run.run(
@@ -150,7 +151,8 @@ def run_command(
         else:
             tables.print_report(Console(), report)
         if report.run is not None and not report.run.success:
-            raise run.RunFailed(f"{report.run.message} No file was written.")
+            kept = ", ".join(map(str, report.files))
+            raise run.RunFailed(f"{report.run.message} What was reached is in {kept}.")
 
 
 @app.command("new", short_help="Write a scenario file to start from.")

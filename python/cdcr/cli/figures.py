@@ -10,8 +10,8 @@ from rich.console import Console
 from cdcr import scenarios
 from cdcr.base.extras import require
 from cdcr.cli.page import page
-from cdcr.cli.run import DelayedBar, refuse_existing
-from cdcr.files.new_file import new_files
+from cdcr.cli.run import REPLACE, DelayedBar
+from cdcr.files.new_file import check_files, new_files
 from cdcr.scenarios import Scenario
 
 SUFFIXES = (".png", ".svg")
@@ -40,7 +40,7 @@ def write_figures(
     """
     drawn, files = paper_scenarios(), targets(out)
     tell = progress or (lambda done, name: None)
-    with new_files(files, overwrite=overwrite) as written:
+    with new_files(files, overwrite=overwrite, replace=REPLACE) as written:
         partial = {file.name: path for file, path in zip(files, written, strict=True)}
         for done, scenario in enumerate(drawn):
             tell(done, scenario.name)
@@ -56,7 +56,8 @@ def _draw(scenario: Scenario, partial: dict[str, Path]) -> None:
     for suffix in SUFFIXES:  # the layout found for the first serves all
         # Without the date, the same picture is the same file.
         metadata = {"Date": None} if suffix == ".svg" else None
-        figure.savefig(partial[f"{scenario.name}{suffix}"], metadata=metadata)
+        path = partial[f"{scenario.name}{suffix}"]
+        figure.savefig(path, format=suffix[1:], metadata=metadata)
         figure.set_layout_engine("none")
 
 
@@ -65,7 +66,7 @@ def figures(out: Path, *, overwrite: bool, console: Console) -> tuple[Path, ...]
 
     Returns the files written; the page is the last.
     """
-    refuse_existing(out, targets(out), overwrite=overwrite)
+    check_files(targets(out), overwrite=overwrite, replace=REPLACE)
     require("matplotlib", "plot")
     with DelayedBar(console, "figures", len(paper_scenarios())) as bar:
         return write_figures(out, overwrite=overwrite, progress=bar)

@@ -22,7 +22,5 @@ def write_scenario(path: Path, name: str | None, *, overwrite: bool) -> None:
     if path.suffix != ".toml":
         raise ValueError(f"the file name must end in .toml, got {path.name!r}")
     text = scenarios.source_file(name).read_text(encoding="utf-8") if name else template()
-    if path.exists() and not path.is_dir() and not overwrite:
-        raise FileExistsError(f"{path} exists already; give --overwrite to replace it")
-    with new_file(path, overwrite=overwrite) as part:
+    with new_file(path, overwrite=overwrite, replace="give --overwrite to replace it") as part:
         part.write_text(text, encoding="utf-8", newline="\n")

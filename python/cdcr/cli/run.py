@@ -14,8 +14,9 @@ from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, T
 
 from cdcr import robots, scenarios
 from cdcr.base.extras import require
-from cdcr.files.new_file import new_files
+from cdcr.files.new_file import check_files, new_files
 from cdcr.robot.robot import Robot
+from cdcr.runs.export import write_run
 from cdcr.runs.stats import STATS
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios import Scenario
@@ -28,7 +29,7 @@ NEEDED = {
     ".csv": (),
     ".nc": (("xarray", "data"), ("h5netcdf", "data"), ("h5py", "data")),
 }
-MAX_NAMED = 4  # files named in one sentence
+REPLACE = "give --overwrite to replace, or another folder with --out"
 BAR_DELAY = 1.0  # shorter runs show no progress bar [s]
 
 
@@ -87,7 +88,7 @@ class Report:
 
 
 def run(name: str, out: Path, *, overwrite: bool, console: Console, **options: Any) -> Report:
-    """Run a scenario by name or file and write its files; a failed run writes none.
+    """Run a scenario by name or file and write its files; of a failed run its numbers.
 
     `options` are those of `Scenario.simulate`, None where not given.
     """
@@ -97,7 +98,7 @@ def run(name: str, out: Path, *, overwrite: bool, console: Console, **options: A
         return _picture(scenario, out, overwrite=overwrite)
     files = scenario.files
     targets = tuple(out / f"{scenario.name}{suffix}" for suffix in files)
-    refuse_existing(out, targets, overwrite=overwrite)
+    check_files(targets, overwrite=overwrite, replace=REPLACE)
     for suffix in files:
         for module, extra in NEEDED[suffix]:
             require(module, extra)
@@ -106,16 +107,24 @@ def run(name: str, out: Path, *, overwrite: bool, console: Console, **options: A
         with mistakes():
             trajectory = scenario.simulate(**options, progress=bar)
         wall_time = time.perf_counter() - start
-    if trajectory.success:
-        write(scenario, trajectory, targets, overwrite=overwrite)
+    if not trajectory.success:
+        targets, overwrite = _incomplete(targets), True
+    write(scenario, trajectory, targets, overwrite=overwrite)
     return Report(
         scenario=scenario,
         method=options["method"] or scenario.method,
         run=trajectory,
         wall_time=wall_time,
         metrics=scenario.summary(trajectory) if trajectory.success else (),
-        files=targets if trajectory.success else (),
+        files=targets,
     )
+
+
+def _incomplete(targets: tuple[Path, ...]) -> tuple[Path, ...]:
+    """Return the files of numbers that a failed run leaves, under names that say so."""
+    numbers = [path for path in targets if path.suffix != ".png"]
+    numbers = numbers or [targets[0].with_suffix(".csv")]
+    return tuple(path.with_stem(f"{path.stem}-incomplete") for path in numbers)
 
 
 def _refuse_options(scenario: Scenario, given: dict[str, Any]) -> None:
@@ -129,7 +138,7 @@ def _refuse_options(scenario: Scenario, given: dict[str, Any]) -> None:
 def _picture(scenario: Scenario, out: Path, *, overwrite: bool) -> Report:
     """Draw a scenario in which nothing runs."""
     targets = (out / f"{scenario.name}.png",)
-    refuse_existing(out, targets, overwrite=overwrite)
+    check_files(targets, overwrite=overwrite, replace=REPLACE)
     require("matplotlib", "plot")
     write(scenario, None, targets, overwrite=overwrite)
     return Report(scenario=scenario, metrics=scenario.summary(), files=targets)
@@ -152,29 +161,16 @@ def _is_file(name: str, known: tuple[str, ...]) -> bool:
     return name not in known and (name.endswith(".toml") or Path(name).is_file())
 
 
-def refuse_existing(out: Path, targets: tuple[Path, ...], *, overwrite: bool) -> None:
-    """Refuse before the run what would stop it after."""
-    if out.exists() and not out.is_dir():
-        raise NotADirectoryError(f"{out} is a file, not a folder to write to")
-    existing = [str(path) for path in targets if path.exists()]
-    if existing and not overwrite:
-        named = existing if len(existing) <= MAX_NAMED else [existing[0], "and others"]
-        raise FileExistsError(
-            f"{', '.join(named)} exist{'s' if len(existing) == 1 else ''} already; "
-            "give --overwrite to replace, or another folder with --out"
-        )
-
-
 def write(
     scenario: Scenario, run: Trajectory | None, targets: tuple[Path, ...], *, overwrite: bool
 ) -> None:
     """Write pictures and data of a run; they appear together when all are complete."""
-    with new_files(targets, overwrite=overwrite) as partial:
-        for path in partial:
-            if path.suffix == ".png":
-                scenario.figure(run).savefig(path)
+    with new_files(targets, overwrite=overwrite, replace=REPLACE) as parts:
+        for part, target in zip(parts, targets, strict=True):
+            if target.suffix == ".png":
+                scenario.figure(run).savefig(part, format="png")
             elif run is not None:
-                run.save(path)
+                write_run(run, part, target.suffix)
 
 
 class DelayedBar:

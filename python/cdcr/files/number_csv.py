@@ -1,22 +1,43 @@
-"""Numbers over time in CSV files: a column t [s], then columns with known names."""
+"""Numbers over time in CSV files: a column of times, then columns with known names."""
 
 from __future__ import annotations
 
 import csv
+import io
 import math
+import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+from cdcr.files.text import read_text
+
 FloatRows = list[list[float]]
+RUN_TIME = "t [s]"  # the column of times in the files of runs
+_NUMBER = re.compile(r"[ \t]*[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?[ \t]*")
 
 
 class Layout(NamedTuple):
-    """Columns after t, and the smallest value in them."""
+    """Columns after that of times, and the smallest value in them.
+
+    In the file of a run, whose times are `RUN_TIME`, other columns may stand beside them.
+    """
 
     columns: tuple[str, ...]
     requirement: str  # of each value, as 'a number [rad]'
     low: float = -math.inf
+    time: str = "t"
+
+    def places(self, header: Sequence[str]) -> list[int] | None:
+        """Return where times and columns stand in a file with that header; None for another's."""
+        wanted = [self.time, *self.columns]
+        kinds = {_kind(name) for name in wanted}
+        same = [name for name in header if self.time != RUN_TIME or _kind(name) in kinds]
+        return [header.index(name) for name in wanted] if sorted(same) == sorted(wanted) else None
+
+
+def _kind(name: str) -> str:
+    return re.sub(r"[0-9]+", "#", name)
 
 
 def read_numbers(
@@ -31,42 +52,57 @@ def read_numbers(
     ValueError
         With file, line and column of what is wrong.
     """
-    try:
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            reader = csv.reader(file, strict=True)
-            layout = _layout([name.strip() for name in next(reader, [])], layouts, path)
-            table = [
-                _numbers(row, layout, f"{path}, line {reader.line_num}") for row in reader if row
-            ]
-    except FileNotFoundError:
-        raise FileNotFoundError(f"there is no {what} {path}") from None
-    except (csv.Error, UnicodeDecodeError) as error:
-        raise ValueError(f"{path} is not a CSV file: {error}") from None
-    if not table:
-        raise ValueError(f"{path} has no rows of numbers under its header")
+    header, rows = read_rows(path, what)
+    layout, places = _layout(header, layouts, path)
+    table = [_numbers([row[k] for k in places], layout, where) for where, row in rows]
     return layout, [row[0] for row in table], [row[1:] for row in table]
 
 
-def _layout(header: list[str], layouts: Sequence[Layout], path: Path) -> Layout:
+def read_rows(path: Path, what: str) -> tuple[list[str], list[tuple[str, list[str]]]]:
+    """Return the header, and the cells of each row beside where it stands: file and line."""
+    reader = csv.reader(io.StringIO(read_text(path, what), newline=""), strict=True)
+    try:
+        header = [name.strip() for name in next(reader, [])]
+        rows = [(f"{path}, line {reader.line_num}", row) for row in reader if row]
+    except csv.Error as error:
+        raise ValueError(f"{path} is not a CSV file: {error}") from None
+    for where, row in rows:
+        if len(row) != len(header):
+            raise ValueError(f"{where}: must have {len(header)} columns, got {len(row)}")
+    if header and not rows:
+        raise ValueError(f"{path} has no rows of numbers under its header")
+    return header, rows
+
+
+def number(text: str) -> float:
+    """Return the number that a cell holds, NaN where it holds none in ASCII digits."""
+    return float(text) if _NUMBER.fullmatch(text) else math.nan
+
+
+def _layout(header: list[str], layouts: Sequence[Layout], path: Path) -> tuple[Layout, list[int]]:
     for layout in layouts:
-        if header == ["t", *layout.columns]:
-            return layout
-    requirement = "; or ".join(", ".join(["t", *layout.columns]) for layout in layouts)
-    got = ", ".join(header) or "nothing"
+        places = layout.places(header)
+        if places is not None:
+            return layout, places
+    plain = [one for one in layouts if one.time != RUN_TIME]
+    requirement = "; or ".join(", ".join([one.time, *one.columns]) for one in plain)
+    # A header that is nothing like ours may be of a file that is nobody's business.
+    got = (
+        ", ".join(header)
+        if header[:1] in (["t"], [RUN_TIME])
+        else "others"
+        if header
+        else "nothing"
+    )
     raise ValueError(f"{path}, line 1: the columns must be {requirement}, got {got}")
 
 
 def _numbers(row: list[str], layout: Layout, where: str) -> list[float]:
-    columns = ("t", *layout.columns)
-    if len(row) != len(columns):
-        raise ValueError(f"{where}: must have {len(columns)} columns, got {len(row)}")
     numbers = []
-    for text, column in zip(row, columns, strict=True):
-        requirement, low = ("a time [s]", -math.inf) if column == "t" else layout[1:]
-        try:
-            value = float(text)
-        except ValueError:
-            value = math.nan
+    for text, column in zip(row, (layout.time, *layout.columns), strict=True):
+        is_time = column == layout.time
+        requirement, low = ("a time [s]", -math.inf) if is_time else layout[1:3]
+        value = number(text)
         if not (math.isfinite(value) and value >= low):
             raise ValueError(f"{where}: {column} must be {requirement}, got {text!r}")
         numbers.append(value)

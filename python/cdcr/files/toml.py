@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import sys
 from collections.abc import Iterable, Mapping
@@ -10,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from cdcr.base.check import nearest
+from cdcr.files.text import read_text
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
@@ -17,24 +19,36 @@ if TYPE_CHECKING:
 
 _TOML = import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
 _KINDS = {dict: "table", list: "array", str: "string", bool: "boolean", int: "integer"}
+MAX_DEPTH = 50  # of tables and arrays in one another
 
 
 def read_toml(path: Path, what: str) -> dict[str, Any]:
     """Return the content of a file; `what` names it in the sentences, as in 'robot file'."""
-    try:
-        text = path.read_bytes().decode("utf-8")
-    except FileNotFoundError:
-        raise FileNotFoundError(f"there is no {what} {path}") from None
-    except IsADirectoryError:
-        raise ValueError(f"{path} is a folder, not a {what}") from None
-    except UnicodeDecodeError as error:
-        line = error.object[: error.start].count(b"\n") + 1
-        raise ValueError(f"{path}, line {line}: not UTF-8 text") from None
+    text = read_text(path, what)
     try:
         table: dict[str, Any] = _TOML.loads(text)
     except _TOML.TOMLDecodeError as error:
         raise ValueError(f"{path}, {_place_and_reason(str(error), text)}") from None
-    return table
+    except RecursionError:
+        raise ValueError(f"{path} must be nested at most {MAX_DEPTH} deep") from None
+    except ValueError:  # Python's own, of an integer with thousands of digits
+        digits = re.search(r"[0-9_]{1000}", text)
+        line = text[: digits.start()].count("\n") + 1 if digits else 1
+        raise ValueError(f"{path}, line {line}: an integer must have 64 bits") from None
+    return {key: _plain(value, f"{path}: {key}") for key, value in table.items()}
+
+
+def _plain(value: Any, where: str, depth: int = 1) -> Any:
+    """Return a value with integers of more than 64 bits, TOML's own, as the floats nearest them."""
+    if depth > MAX_DEPTH:
+        raise ValueError(f"{where} must be nested at most {MAX_DEPTH} deep")
+    if isinstance(value, dict):
+        return {key: _plain(one, where, depth + 1) for key, one in value.items()}
+    if isinstance(value, list):
+        return [_plain(one, where, depth + 1) for one in value]
+    if isinstance(value, int) and not -(2**63) <= value < 2**63:
+        return float(value) if abs(value) < 2**1000 else math.copysign(math.inf, value > 0 or -1)
+    return value
 
 
 def _place_and_reason(message: str, text: str) -> str:
@@ -65,7 +79,8 @@ def schema_errors(schema: type[BaseModel], table: Mapping[str, Any], at: str = "
 def _sentence(schema: type[BaseModel], error: ErrorDetails, at: str) -> str:
     """Say what one error of pydantic means for the writer of the file."""
     key, *index = error["loc"]
-    path = f"{at}.{key}" if at else str(key)
+    name = str(key) if str(key).isprintable() else repr(key)
+    path = f"{at}.{name}" if at else name
     if error["type"] == "extra_forbidden":
         known = list(schema.model_fields)
         guess = nearest(str(key), known)

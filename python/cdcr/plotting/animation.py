@@ -66,7 +66,7 @@ def animate(
                 progress(done, len(times))
 
     with new_file(path, overwrite=overwrite) as partial:
-        write_film(partial, frames(), fps)
+        write_film(partial, path.suffix, frames(), fps)
     return path
 
 

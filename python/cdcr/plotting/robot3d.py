@@ -10,7 +10,7 @@ from matplotlib.colors import to_rgba
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # type: ignore[import-untyped]
 from numpy.typing import ArrayLike
 
-from cdcr.base.arrays import FloatArray
+from cdcr.base.arrays import FloatArray, finite
 from cdcr.plotting import panels, space
 from cdcr.plotting.geometry import base_plate, robot_shape, states_at
 from cdcr.plotting.style import BLACK, DISK, GREY, StyledFigure, line_colors, style
@@ -158,7 +158,7 @@ def plot_run_robot(
     """
     if times is None:
         times = np.linspace(run.t[0], run.t[-1], num)
-    chosen = np.atleast_1d(np.asarray(times, dtype=np.float64))
+    chosen = np.atleast_1d(finite(times, "times"))
     states = states_at(run, chosen)
     fading = np.linspace(FAINTEST, 1.0, len(chosen)) if len(chosen) > 1 else [1.0]
     with style():
@@ -199,7 +199,7 @@ def _finish(axes: Any) -> None:
 
 
 def _checked(name: str, value: ArrayLike, size: int) -> FloatArray:
-    array = np.asarray(value, dtype=np.float64)
+    array = finite(value, name)
     if array.shape != (size,):
         raise ValueError(f"{name} must have shape ({size},), got {array.shape}")
     return array

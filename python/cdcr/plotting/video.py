@@ -31,9 +31,9 @@ def film_path(path: Path) -> Path:
     return path
 
 
-def write_film(path: Path, frames: Iterable[Frame], fps: float) -> None:
-    """Write frames, at least one, to a .gif or .mp4."""
-    write = _write_gif if path.suffix == ".gif" else _write_mp4
+def write_film(path: Path, suffix: str, frames: Iterable[Frame], fps: float) -> None:
+    """Write frames, at least one, as a .gif or .mp4 to a file of any name."""
+    write = _write_gif if suffix == ".gif" else _write_mp4
     write(path, iter(frames), fps)
 
 
@@ -53,7 +53,8 @@ def _write_gif(path: Path, frames: Iterator[Frame], fps: float) -> None:
     # A GIF counts in hundredths of a second: round the frames' times, so that errors cancel.
     times = np.rint(np.arange(len(images) + 1) * 100.0 / fps).astype(int)
     durations = (10 * np.diff(times)).tolist()  # Pillow counts in milliseconds
-    images[0].save(path, save_all=True, append_images=images[1:], duration=durations, loop=0)
+    options = {"append_images": images[1:], "duration": durations, "loop": 0}
+    images[0].save(path, format="GIF", save_all=True, **options)
 
 
 def _rgb(frame: Frame) -> Image.Image:
@@ -65,7 +66,8 @@ def _write_mp4(path: Path, frames: Iterator[Frame], fps: float) -> None:
     height, width, _ = first.shape
     command = ["ffmpeg", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgba"]
     command += ["-s", f"{width}x{height}", "-r", f"{fps:.12g}", "-i", "-"]
-    command += ["-c:v", "h264", "-pix_fmt", "yuv420p", str(path)]  # what every player understands
+    command += ["-c:v", "h264", "-pix_fmt", "yuv420p"]  # what every player understands
+    command += ["-f", "mp4", "-y", str(path)]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE) as ffmpeg:
         assert ffmpeg.stdin is not None
         try:
@@ -80,4 +82,4 @@ def _write_mp4(path: Path, frames: Iterator[Frame], fps: float) -> None:
             raise
         _, complaint = ffmpeg.communicate()
     if ffmpeg.returncode:
-        raise RuntimeError(f"ffmpeg could not write {path.name}: {complaint.decode().strip()}")
+        raise RuntimeError(f"ffmpeg could not write the film: {complaint.decode().strip()}")

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cdcr import _core
+from cdcr.base.arrays import finite
 from cdcr.model.model import Model
 
 Interpolation = Literal["linear", "previous"]
@@ -83,7 +84,9 @@ def command_input(
         if not _takes_state(function):
             time_only = function
             function = lambda t, q, qd: time_only(t)  # noqa: E731
-        return _core.TensionInput.function(model, function, [float(b) for b in break_points])
+        return _core.TensionInput.function(
+            model, function, finite(break_points, "break_points").tolist()
+        )
     if len(break_points) > 0:
         raise ValueError("break_points go with a tension function; a table has its own")
     if isinstance(command, TensionTable):

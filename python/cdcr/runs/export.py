@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import csv
+import io
 import json
 import os
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -15,6 +17,7 @@ from cdcr import _core
 from cdcr.base.arrays import FloatArray
 from cdcr.base.extras import require
 from cdcr.files.new_file import new_file
+from cdcr.files.number_csv import RUN_TIME
 from cdcr.runs.stats import STATS
 
 if TYPE_CHECKING:
@@ -22,6 +25,15 @@ if TYPE_CHECKING:
 
     from cdcr.model.model import Model
     from cdcr.runs.trajectory import Trajectory
+
+
+# Dimensions after time and unit of what a run is made of.
+_STATE = {
+    "q": (("section", "component"), "rad"),
+    "qd": (("section", "component"), "rad/s"),
+    "tension": (("cable",), "N"),
+    "command": (("cable",), "N or m"),
+}
 
 
 class Quantity(NamedTuple):
@@ -42,11 +54,10 @@ def by_length(model: Model) -> bool:
 def quantities(run: Trajectory) -> list[Quantity]:
     """Everything a run has to say, first index time."""
     by_component = (len(run), run.model.num_sections, 2)
-    vector = ("section", "component")
     found = [
-        Quantity("q", vector, "rad", "bending vector", run.q.reshape(by_component)),
-        Quantity("qd", vector, "rad/s", "rate of the bending vector", run.qd.reshape(by_component)),
-        Quantity("tension", ("cable",), "N", "cable tension", run.tension),
+        Quantity("q", *_STATE["q"], "bending vector", run.q.reshape(by_component)),
+        Quantity("qd", *_STATE["qd"], "rate of the bending vector", run.qd.reshape(by_component)),
+        Quantity("tension", *_STATE["tension"], "cable tension", run.tension),
         Quantity("theta", ("section",), "rad", "bending angle", run.theta),
         Quantity("phi", ("section",), "rad", "orientation angle", run.phi),
         Quantity("tip", ("axis",), "m", "tip position in the base frame", run.tip),
@@ -57,7 +68,7 @@ def quantities(run: Trajectory) -> list[Quantity]:
     if by_length(run.model):
         what = "what was asked of the cable: tension [N], or length [m] where driven by length"
         found += [
-            Quantity("command", ("cable",), "N or m", what, run.command),
+            Quantity("command", *_STATE["command"], what, run.command),
             Quantity("cable_energy", (), "J", "energy in the cables' springs", run.cable_energy),
         ]
     return found
@@ -65,12 +76,24 @@ def quantities(run: Trajectory) -> list[Quantity]:
 
 def coordinates(run: Trajectory) -> dict[str, tuple[list[Any], str, str]]:
     """Labels, unit and meaning of each dimension."""
+    about = {
+        "section": ("1", "section number, 1 at the base"),
+        "component": ("1", "component of the bending vector"),
+        "cable": ("1", "cable number, from 1, section by section"),
+        "axis": ("1", "axis of the base frame"),
+    }
+    labels = _labels(run.model)
+    return {"time": (run.t.tolist(), "s", "time")} | {
+        name: (labels[name], *words) for name, words in about.items()
+    }
+
+
+def _labels(model: Model) -> dict[str, list[Any]]:
     return {
-        "time": (run.t.tolist(), "s", "time"),
-        "section": (_numbers(run.model.num_sections), "1", "section number, 1 at the base"),
-        "component": (["x", "y"], "1", "component of the bending vector"),
-        "cable": (_numbers(run.model.num_cables), "1", "cable number, from 1, section by section"),
-        "axis": (["x", "y", "z"], "1", "axis of the base frame"),
+        "section": _numbers(model.num_sections),
+        "component": ["x", "y"],
+        "cable": _numbers(model.num_cables),
+        "axis": ["x", "y", "z"],
     }
 
 
@@ -117,34 +140,51 @@ def _attributes(run: Trajectory) -> dict[str, str | int]:
 def save(run: Trajectory, path: str | os.PathLike[str], *, overwrite: bool = False) -> Path:
     """Write the run to a file; see Trajectory.save."""
     path = Path(path)
-    writers = {".nc": _write_netcdf, ".csv": _write_csv}
-    if path.suffix not in writers:
-        allowed = " or ".join(writers)
-        raise ValueError(f"the file name must end in {allowed}, got {path.name!r}")
-    with new_file(path, overwrite=overwrite) as partial:
-        writers[path.suffix](run, partial)
+    if path.suffix not in (".nc", ".csv"):
+        raise ValueError(f"the file name must end in .nc or .csv, got {path.name!r}")
+    with new_file(path, overwrite=overwrite) as part:
+        write_run(run, part, path.suffix)
     return path
 
 
+def write_run(run: Trajectory, path: Path, suffix: str) -> None:
+    """Write the run as .nc or .csv to a file of any name."""
+    (_write_netcdf if suffix == ".nc" else _write_csv)(run, path)
+
+
 def _write_netcdf(run: Trajectory, path: Path) -> None:
-    require("h5netcdf", "data")
-    to_xarray(run).to_netcdf(path, engine="h5netcdf")
+    h5netcdf: Any = require("h5netcdf", "data")
+    xr: Any = require("xarray", "data")
+    # In memory: the library crashes where a disk is full, and cannot write to a nameless file.
+    whole = io.BytesIO()
+    with h5netcdf.File(whole, "w") as stored:
+        to_xarray(run).dump_to_store(xr.backends.H5NetCDFStore(stored))
+    path.write_bytes(whole.getbuffer())
 
 
 def _write_csv(run: Trajectory, path: Path) -> None:
-    header, columns = ["t [s]"], [run.t]
-    labels = coordinates(run)
+    header, columns = [RUN_TIME], [run.t]
     for item in quantities(run):
-        names = [item.name]
-        for dim in item.dims:
-            names = [_column(name, label) for name in names for label in labels[dim][0]]
-        header += [f"{name} [{item.units}]" for name in names]
+        header += _columns(run.model, item.name, item.dims, item.units)
         columns += list(item.values.reshape(len(run), -1).T)
-    with path.open("x", encoding="utf-8", newline="") as file:
+    with path.open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(header)
         # The csv module writes a Python float with repr, from which every bit can be read back.
         writer.writerows(row.tolist() for row in np.stack(columns, axis=1))
+
+
+def columns_of(model: Model, name: str) -> list[str]:
+    """Return the columns of q, qd, tension or command in a CSV file."""
+    dims, units = _STATE[name]
+    return _columns(model, name, dims, units)
+
+
+def _columns(model: Model, name: str, dims: Sequence[str], units: str) -> list[str]:
+    names = [name]
+    for dim in dims:
+        names = [_column(one, label) for one in names for label in _labels(model)[dim]]
+    return [f"{one} [{units}]" for one in names]
 
 
 def _column(name: str, label: int | str) -> str:

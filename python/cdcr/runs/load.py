@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import csv
 import json
+import math
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -13,11 +13,12 @@ import numpy as np
 from cdcr._core import Status
 from cdcr.base.arrays import FloatArray
 from cdcr.base.extras import require
+from cdcr.files.number_csv import RUN_TIME, number, read_rows
 from cdcr.model.model import Model
 from cdcr.robot.cable import Cable
 from cdcr.robot.robot import Robot
 from cdcr.robot.section import Section
-from cdcr.runs.export import by_length
+from cdcr.runs.export import by_length, columns_of
 from cdcr.runs.stats import STATS, make_stats
 
 
@@ -71,9 +72,8 @@ def _model(described: dict[str, Any], formulation: str) -> Model:
 
 def _csv(file: Path, model: Model) -> dict[str, Any]:
     try:
-        with file.open(encoding="utf-8", newline="") as opened:
-            header, *rows = csv.reader(opened)
-        table = np.array(rows, dtype=np.float64).reshape(-1, len(header))
+        header, rows = read_rows(file, "run")
+        table = np.array([_numbers(*row) for row in rows]).reshape(-1, len(header))
     except ValueError as error:
         raise ValueError(f"{file} is no run that cdcr has written: {error}") from None
     columns = dict(zip(header, table.T, strict=True))
@@ -85,15 +85,13 @@ def _csv(file: Path, model: Model) -> dict[str, Any]:
         found = [columns[name] for name in names]
         return np.stack(found, axis=1) if found else np.empty((len(table), 0))
 
-    parts = [f"{i + 1}_{axis}" for i in range(model.num_sections) for axis in "xy"]
-    cables = range(1, model.num_cables + 1)
-    tension = values([f"tension{j} [N]" for j in cables])
-    asked = values([f"command{j} [N or m]" for j in cables]) if by_length(model) else tension
+    tension = values(columns_of(model, "tension"))
+    asked = values(columns_of(model, "command")) if by_length(model) else tension
     return {
         "model": model,
-        "t": values(["t [s]"])[:, 0],
-        "q": values([f"q{part} [rad]" for part in parts]),
-        "qd": values([f"qd{part} [rad/s]" for part in parts]),
+        "t": values([RUN_TIME])[:, 0],
+        "q": values(columns_of(model, "q")),
+        "qd": values(columns_of(model, "qd")),
         "tension": tension,
         "command": asked,
         "status": Status.ok,
@@ -101,3 +99,11 @@ def _csv(file: Path, model: Model) -> dict[str, Any]:
         "stats": make_stats(),
         "slack_events": [],
     }
+
+
+def _numbers(where: str, row: list[str]) -> list[float]:
+    found = [number(text) for text in row]
+    wrong = [text for text, value in zip(row, found, strict=True) if not math.isfinite(value)]
+    if wrong:
+        raise ValueError(f"{where}: {wrong[0]!r} is no number")
+    return found

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 import numpy as np
 
 from cdcr import _core
-from cdcr.base.arrays import FloatArray, read_only
+from cdcr.base.arrays import FloatArray, finite, read_only
 from cdcr.base.check import count
 from cdcr.runs.events import EventRecord
 
@@ -94,18 +94,18 @@ class Trajectory:
 
     def __post_init__(self) -> None:
         """Take copies nobody else can write to, and check that they fit together."""
-        num_samples, num_coordinates = np.size(self.t), self.model.num_coordinates
         if self.command is None:
             object.__setattr__(self, "command", self.tension)
+        num_samples, num_cables = np.size(finite(self.t, "t")), self.model.num_cables
         shapes = {
             "t": (num_samples,),
-            "q": (num_samples, num_coordinates),
-            "qd": (num_samples, num_coordinates),
-            "tension": (num_samples, self.model.num_cables),
-            "command": (num_samples, self.model.num_cables),
+            "q": (num_samples, self.model.num_coordinates),
+            "qd": (num_samples, self.model.num_coordinates),
+            "tension": (num_samples, num_cables),
+            "command": (num_samples, num_cables),
         }
         for name, shape in shapes.items():
-            array = np.array(getattr(self, name), dtype=np.float64)
+            array = np.array(finite(getattr(self, name), name))
             if array.shape != shape:
                 raise ValueError(f"{name} must have shape {shape}, got {array.shape}")
             object.__setattr__(self, name, read_only(array))

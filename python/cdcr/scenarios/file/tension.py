@@ -16,11 +16,12 @@ import numpy as np
 
 from cdcr.base.arrays import FloatArray, even_times
 from cdcr.base.check import count
-from cdcr.files.number_csv import Layout, read_numbers
+from cdcr.files.number_csv import RUN_TIME, Layout, read_numbers
 from cdcr.files.toml import format_toml, refuse, schema_errors
 from cdcr.model.model import Model
 from cdcr.robot.file import doubled
 from cdcr.runs.command import Interpolation, TensionTable, command_input
+from cdcr.runs.export import by_length, columns_of
 from cdcr.scenarios.file import values
 from cdcr.scenarios.file.shapes import Shape, TensionShapes, constant, pulse, ramp, sine, step
 from cdcr.scenarios.file.start import carrying
@@ -106,8 +107,10 @@ def _over_time(table: dict[str, Any], model: Model, file: Path) -> TensionTable:
     if "file" in table:
         where = str(file.parent / table["file"])
         columns = tuple(f"cable {j + 1}" for j in range(model.num_cables))
-        layout = Layout(columns, "a number >= 0 [N]", 0.0)
-        _, t, rows = read_numbers(Path(where), "tension file", [layout])
+        plain = Layout(columns, "a number >= 0 [N]", 0.0)
+        asked = columns_of(model, "command" if by_length(model) else "tension")
+        of_a_run = Layout(tuple(asked), plain.requirement, 0.0, RUN_TIME)
+        _, t, rows = read_numbers(Path(where), "tension file", [plain, of_a_run])
     else:
         where = f"{file}, [tension]"
         t, rows = table["t"], table["rows"]

@@ -17,12 +17,13 @@ import numpy as np
 
 from cdcr.base.arrays import FloatArray
 from cdcr.base.check import count, nearest
-from cdcr.files.number_csv import Layout, read_numbers
+from cdcr.files.number_csv import RUN_TIME, Layout, read_numbers
 from cdcr.files.toml import format_toml, refuse, schema_errors
 from cdcr.model.coordinates import bending
 from cdcr.model.model import Model
 from cdcr.motion.reference import Reference
 from cdcr.motion.splines import Motion, bending_vectors
+from cdcr.runs.export import columns_of
 from cdcr.scenarios.file.tracking import TrackedMotion, driven_by_length
 from cdcr.scenarios.file.values import error_prefix, of_sections, rival_errors
 
@@ -47,7 +48,7 @@ def read_trajectory(table: dict[str, Any], model: Model, t_end: float, file: Pat
     else:
         schema = TrajectoryFile if given == ["file"] else TrajectorySamples
         refuse(str(file), [*schema_errors(schema, table, AT), *rival_errors(table, AT)])
-        reference = _samples(table, num_sections, file)
+        reference = _samples(table, model, file)
         motion, error = reference.evaluate, reference.derivative_error
         if reference.t[0] > 0.0 or reference.t[-1] < t_end:
             reach = f"{reference.t[0]:g} to {reference.t[-1]:g} s"
@@ -172,13 +173,15 @@ def _rise(t: FloatArray, duration: float) -> FloatArray:
 _MOTIONS = {"circle": _circle, "line": _line, "swing": _swing, "move": _move}
 
 
-def _samples(table: dict[str, Any], num_sections: int, file: Path) -> Reference:
+def _samples(table: dict[str, Any], model: Model, file: Path) -> Reference:
     if "file" in table:
         path = file.parent / table["file"]
-        t, given = _read_csv(path, num_sections)
+        t, given = _read_csv(path, model)
         with error_prefix(str(path)):
             return _reference(t, given)
-    given = {key: np.array(_rows(table, key, num_sections, file)) for key in _SAMPLED & set(table)}
+    given = {
+        key: np.array(_rows(table, key, model.num_sections, file)) for key in _SAMPLED & set(table)
+    }
     for key, rows in given.items():
         if len(rows) != len(table["t"]):
             requirement = f"as many rows as t, {len(table['t'])}, got {len(rows)}"
@@ -215,17 +218,18 @@ def _reference(t: list[float], given: Mapping[str, FloatArray]) -> Reference:
     return Reference.from_angles(t, angles["theta"], angles["phi"])
 
 
-def _read_csv(path: Path, num_sections: int) -> tuple[list[float], dict[str, FloatArray]]:
-    sections = range(1, num_sections + 1)
+def _read_csv(path: Path, model: Model) -> tuple[list[float], dict[str, FloatArray]]:
+    sections = range(1, model.num_sections + 1)
     layouts = []
     for theta, phi, unit in (("theta_deg", "phi_deg", "deg"), ("theta", "phi", "rad")):
         columns = tuple(f"{key} {i}" for i in sections for key in (theta, phi))
         layouts.append(Layout(columns, f"a number [{unit}]"))
     columns = tuple(f"q {i} {axis}" for i in sections for axis in "xy")
     layouts.append(Layout(columns, "a number [rad]"))
+    layouts.append(Layout(tuple(columns_of(model, "q")), "a number [rad]", time=RUN_TIME))
     layout, t, rows = read_numbers(path, "trajectory file", layouts)
     values = np.array(rows)
-    if layout is layouts[-1]:
+    if layout in layouts[2:]:
         return t, {"q": values}
     suffix = "_deg" if layout is layouts[0] else ""
     return t, {f"theta{suffix}": values[:, 0::2], f"phi{suffix}": values[:, 1::2]}
