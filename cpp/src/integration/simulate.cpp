@@ -35,7 +35,9 @@ class ShiftedController final : public Controller {
     return inner_.update(start_ + t, q, qd, tension);
   }
   [[nodiscard]] double period() const noexcept override { return inner_.period(); }
+  [[nodiscard]] Index num_coordinates() const noexcept override { return inner_.num_coordinates(); }
   [[nodiscard]] Index num_cables() const noexcept override { return inner_.num_cables(); }
+  [[nodiscard]] bool gives_tensions() const noexcept override { return inner_.gives_tensions(); }
 
  private:
   Controller& inner_;
