@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bind.hpp"
+#include "cdcr/cables.hpp"
 #include "docs.hpp"
 #include "states.hpp"
 
@@ -195,7 +196,15 @@ VectorArgument read_bending(const Model& model, const py::handle& object, const 
   return VectorArgument(std::move(q));
 }
 
-VectorArgument read_tension(const Model& model, const py::handle& object, const char* name) {
+py::object command_or_rest(const Model& model, const py::handle& object) {
+  if (!object.is_none()) return py::reinterpret_borrow<py::object>(object);
+  VectorXd command(model.num_cables());
+  rest_command(model, command);
+  return to_array(command);
+}
+
+VectorArgument read_tension(const Model& model, const py::handle& given, const char* name) {
+  const py::object object = command_or_rest(model, given);
   Array tension = read_array(object, name, {model.num_cables()});
   check_tension(model, tension, name);
   return VectorArgument(std::move(tension));
@@ -211,7 +220,8 @@ StateArgument read_rates(const Model& model, const py::handle& object, const cha
   return {name, object, model.num_coordinates()};
 }
 
-StateArgument read_tensions(const Model& model, const py::handle& object) {
+StateArgument read_tensions(const Model& model, const py::handle& given) {
+  const py::object object = command_or_rest(model, given);
   StateArgument tension("tension", object, model.num_cables());
   check_tension(model, tension.array, tension.name);
   return tension;

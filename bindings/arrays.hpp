@@ -52,6 +52,8 @@ struct StateArgument {
                                           const char* name);
 
 /// Commands of the cables (num_cables), tensions or lengths: also refuses a negative one.
+/// None stands for the command of the straight robot at rest: no tension, the straight lengths.
+[[nodiscard]] py::object command_or_rest(const Model& model, const py::handle& object);
 [[nodiscard]] VectorArgument read_tension(const Model& model, const py::handle& object,
                                           const char* name = "tension");
 

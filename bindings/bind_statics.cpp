@@ -49,6 +49,9 @@ void bind_equilibrium(py::module_& m) {
       .def_property_readonly(
           "tension", [](const Equilibrium& self) { return to_array(self.tension); },
           "What the cables pull with there (num_cables,) [N].")
+      .def_readonly("friction_left_out", &Equilibrium::friction_left_out,
+                    "Whether the robot's cables rub: then it rests anywhere in a range of shapes,\n"
+                    "and this is the one that it would rest at without friction.")
       .def_readonly("stable", &Equilibrium::stable,
                     "Whether all eigenvalues are positive; neutral counts as not stable.")
       .def_readonly("residual", &Equilibrium::residual,
@@ -61,7 +64,8 @@ void bind_equilibrium(py::module_& m) {
       .def("__repr__", [](const Equilibrium& self) {
         std::ostringstream text;
         text << "<Equilibrium at q = " << short_text(self.q) << (self.stable ? ", " : ", not ")
-             << "stable, residual " << self.residual << " N m, status " << name(self.status) << ">";
+             << "stable, residual " << self.residual << " N m, status " << name(self.status)
+             << (self.friction_left_out ? ", friction left out>" : ">");
         return text.str();
       });
 }
@@ -118,7 +122,7 @@ void bind_statics(py::module_& m, PyModel& model) {
             return equilibrium(self, *read_tension(self, tension), start,
                                read_wrenches(self, wrenches));
           },
-          "tension"_a, "q0"_a = py::none(), "wrenches"_a = py::tuple(),
+          "tension"_a = py::none(), "q0"_a = py::none(), "wrenches"_a = py::tuple(),
           Doc("Point of rest under constant commands and wrenches, whether found or not, and\n"
               "whether stable: cpp/several-sections.md eqs. (40) to (43).",
               {docs::one_tension,

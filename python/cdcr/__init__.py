@@ -23,6 +23,7 @@ from cdcr.model.model import Model
 from cdcr.model.modes import Modes
 from cdcr.model.stability import stable_step
 from cdcr.model.statics import ConvergenceError, InfeasibleError
+from cdcr.model.subdivision import subdivide_wrench
 from cdcr.model.wrench import Wrench
 from cdcr.motion.inverse import InverseRun, inverse_run
 from cdcr.motion.reference import Reference
@@ -73,6 +74,7 @@ __all__ = [
     "simulate",
     "stable_step",
     "subdivide_state",
+    "subdivide_wrench",
     "taylor_range",
 ]
 

@@ -112,7 +112,7 @@ class Model(metaclass=_Bound):
     def rest_command(self) -> _FloatArray: ...
     def find_equilibrium(
         self,
-        tension: ArrayLike,
+        tension: ArrayLike | None = None,
         q0: ArrayLike | None = None,
         wrenches: Wrench | Sequence[Wrench] = (),
     ) -> Equilibrium: ...
@@ -121,7 +121,7 @@ class Model(metaclass=_Bound):
     ) -> _FloatArray: ...
     def commands(self, q: ArrayLike, tension: ArrayLike) -> _FloatArray: ...
     def _modes(
-        self, q: ArrayLike, tension: ArrayLike, wrenches: Wrench | Sequence[Wrench]
+        self, q: ArrayLike, tension: ArrayLike | None, wrenches: Wrench | Sequence[Wrench]
     ) -> tuple[_FloatArray, ...]: ...
     def find_tension(
         self,

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cdcr/model.hpp"
@@ -35,8 +36,8 @@ class Allocator {
  public:
   explicit Allocator(const Model& model, const TensionLimits& limits = {});
 
-  /// Solves for force (d) [N m]; true when the force is met. One of another size is not, and
-  /// leaves the last answer in place.
+  /// Solves for force (d) [N m]; true when the force is met. One of another size or not finite is
+  /// not, and leaves the last answer in place.
   bool solve(const ConstVectorRef& force) noexcept;
 
   /// Tensions found (num_cables) [N]; zero for cables that may not be used.
@@ -70,10 +71,12 @@ class Allocator {
   void polish() noexcept;
   void left_for_free() noexcept;
 
-  double low_, high_;
-  double scale_ = 1.0;          // largest column of B, so that lengths are near one
-  MatrixXd B_, normal_;         // B/scale; sum of b b^T over the free cables
-  VectorXd Q_, rest_, lambda_;  // Q/scale; what the free cables must give; multipliers
+  std::pair<double, double> limits_;  // of every tension [N]
+  double low_ = 0.0, high_ = 0.0;     // the same in the unit of the force at hand
+  double scale_ = 1.0;                // largest column of B, so that lengths are near one
+  double negligible_ = 0.0;           // force/scale that bends the robot no more than rounding
+  MatrixXd B_, normal_;               // B/scale; sum of b b^T over the free cables
+  VectorXd Q_, rest_, lambda_;        // Q/scale; what the free cables must give; multipliers
   VectorXd F_, tension_, force_;
   std::vector<Triple> triples_;  // one for each section, or none
   std::vector<Place> place_;

@@ -15,9 +15,10 @@ namespace cdcr {
 struct InverseKinematicsOptions {
   VectorXd max_theta;  ///< largest bending angle, one for all or one a section [rad]; else 2 pi
   std::optional<double> orientation_weight;  ///< what one rad is worth [m]; else length/pi
-  std::optional<double> tolerance;           ///< residual that counts as zero [m]; else 1e-9 length
-  int seeds = 100;                           ///< starts at most, 1 to 100000
-  int iterations = 100;                      ///< steps tried from each start at most, >= 1
+  std::optional<double> tolerance;  ///< residual that counts as reached [m]; else 1e-6 length,
+                                    ///< and a descent goes on to 1e-9
+  int seeds = 100;                  ///< starts at most, 1 to 100000
+  int iterations = 100;             ///< steps tried from each start at most, >= 1
 };
 
 /// How a search for bending vectors ended.
@@ -87,11 +88,12 @@ class InverseSolver {
 
   const Model* model_;
   InverseKinematicsOptions options_;
-  double tolerance_ = 0.0;            // [m]
-  double length_ = 0.0;               // of the robot [m], the unit of everything below
-  double weight_ = 0.0, goal_ = 0.0;  // orientation weight; cost that counts as zero
-  VectorXd max_theta_;                // (n) [rad]
-  Vector3d p_ = Vector3d::Zero();     // as asked for [m]
+  double tolerance_ = 0.0;              // [m]
+  double length_ = 0.0;                 // of the robot [m], the unit of everything below
+  double weight_ = 0.0;                 // of the orientation
+  double goal_ = 0.0, accepted_ = 0.0;  // costs: where a descent ends, and the search
+  VectorXd max_theta_;                  // (n) [rad]
+  Vector3d p_ = Vector3d::Zero();       // as asked for [m]
   Matrix3d R_ = Matrix3d::Identity();
   bool with_rotation_ = false;
   IkStatus asked_ =
@@ -112,7 +114,7 @@ class InverseSolver {
 /// One call of InverseSolver, with its message.
 ///
 /// Throws std::invalid_argument for wrong sizes, values that are not finite, and an R that is not a
-/// rotation to 1e-6; R is rounded to the nearest rotation.
+/// rotation to 1e-5; R is rounded to the nearest rotation.
 [[nodiscard]] InverseKinematics inverse_kinematics(const Model& model, const Vector3d& p,
                                                    const std::optional<Matrix3d>& R = {},
                                                    const VectorXd& q0 = {},

@@ -74,9 +74,10 @@ struct Robot {
   Vector3d gravity = Vector3d::Zero();  ///< in the base frame [m/s^2]
   double payload = 0.0;                 ///< mass carried by the tip [kg], >= 0
   std::vector<Cable> cables;            ///< beside those of the sections, after them in order
-  Matrix3d base_orientation = Matrix3d::Identity();  ///< of the first section, in the base frame
-  Vector3d payload_position = Vector3d::Zero();      ///< its centre of mass, in the tip frame [m]
-  Matrix3d payload_inertia = Matrix3d::Zero();       ///< about that, in the tip frame [kg m^2]
+  Matrix3d base_orientation =
+      Matrix3d::Identity();  ///< of the first section, in the base frame, to 1e-5
+  Vector3d payload_position = Vector3d::Zero();  ///< its centre of mass, in the tip frame [m]
+  Matrix3d payload_inertia = Matrix3d::Zero();   ///< about that, in the tip frame [kg m^2]
   double sliding_speed = 1e-3;  ///< cable speed that friction takes for sliding [m/s], > 0
 
   /// Every cable: section by section those at cable_angles, then `cables`.

@@ -8,14 +8,16 @@ namespace cdcr {
 
 /// A point of rest and whether the robot stays there.
 struct Equilibrium {
-  VectorXd q;             ///< (d) [rad]
-  VectorXd tension;       ///< what the cables pull with there (num_cables) [N]
-  VectorXd eigenvalues;   ///< of the stiffness at q, their real parts, increasing (d) [N m/rad]
-  bool stable = false;    ///< all of these positive; neutral counts as not stable
-  double residual = 0.0;  ///< largest component of dU/dq - Q [N m]
-  int iterations = 0;     ///< Newton steps, in all searches made
-  int load_steps = 0;     ///< steps of the load from nothing to all; 0: found without
-  int searches = 0;       ///< places started from
+  VectorXd q;            ///< (d) [rad]
+  VectorXd tension;      ///< what the cables pull with there (num_cables) [N]
+  VectorXd eigenvalues;  ///< of the stiffness at q, their real parts, increasing (d) [N m/rad]
+  bool stable = false;   ///< all of these positive; neutral counts as not stable
+  bool friction_left_out = false;  ///< cables rub, so it rests anywhere in a range of shapes; this
+                                   ///< is the one without friction
+  double residual = 0.0;           ///< largest component of dU/dq - Q [N m]
+  int iterations = 0;              ///< Newton steps, in all searches made
+  int load_steps = 0;              ///< steps of the load from nothing to all; 0: found without
+  int searches = 0;                ///< places started from
   Status status = Status::not_converged;
 };
 

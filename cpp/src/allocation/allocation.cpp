@@ -17,6 +17,10 @@ namespace {
 constexpr double epsilon = 1e-9;
 // Distance from Q, relative to the sizes at hand, that still counts as met.
 constexpr double met = 1e-10;
+// Bend that a force missed would make, which counts as none [rad]: what rounding leaves of zero.
+constexpr double no_bend = 1e-12;
+// Forces beyond this would overflow when squared, and so would tensions.
+constexpr double huge = 1e100;
 // Share of the missing force along a cable that is zero but for rounding: it would not help.
 constexpr double indifferent = 1e-6;
 
@@ -34,7 +38,7 @@ void check(const Model& model, const TensionLimits& limits) {
 }  // namespace
 
 Allocator::Allocator(const Model& model, const TensionLimits& limits)
-    : low_(limits.min_tension), high_(limits.max_tension), ldlt_(model.num_coordinates()) {
+    : limits_(limits.min_tension, limits.max_tension), ldlt_(model.num_coordinates()) {
   check(model, limits);
   const Index m = model.num_coordinates(), c = model.num_cables();
   place_.assign(static_cast<std::size_t>(c), limits.cables.empty() ? Place::lower : Place::unused);
@@ -45,6 +49,7 @@ Allocator::Allocator(const Model& model, const TensionLimits& limits)
   }
   if (c > 0) scale_ = B_.colwise().norm().maxCoeff();
   B_ /= scale_;
+  negligible_ = no_bend * model.stiffness().minCoeff() / scale_;
   normal_ = MatrixXd::Identity(m, m);
   ldlt_.compute(normal_);
   Q_ = rest_ = lambda_ = force_ = VectorXd::Zero(m);
@@ -224,16 +229,25 @@ void Allocator::search() noexcept {
 }
 
 bool Allocator::solve(const ConstVectorRef& force) noexcept {
-  if (force.size() != Q_.size()) return false;
-  Q_ = force / scale_;
+  if (force.size() != Q_.size() || !force.allFinite()) return false;
+  // All of it grows with the force: in a unit of its size, nothing that is squared overflows.
+  const double largest = force.lpNorm<Eigen::Infinity>();
+  const double unit = largest > huge ? largest : 1.0;
+  low_ = limits_.first / unit;
+  high_ = limits_.second / unit;
+  Q_ = force / unit / scale_;
   if (!solve_in_closed_form()) search();
-  tension_ = F_;
   rest_ = Q_;
-  for (Index j = 0; j < F_.size(); ++j) rest_ -= B_.col(j) * F_[j];
-  force_ = scale_ * (Q_ - rest_);
   double size = Q_.norm();
-  for (Index j = 0; j < F_.size(); ++j) size += std::abs(F_[j]) * B_.col(j).norm();
-  return rest_.norm() <= met * size;
+  for (Index j = 0; j < F_.size(); ++j) {
+    rest_ -= B_.col(j) * F_[j];
+    size += std::abs(F_[j]) * B_.col(j).norm();
+    tension_[j] = place_[j] == Place::lower   ? limits_.first
+                  : place_[j] == Place::upper ? limits_.second
+                                              : F_[j] * unit;
+  }
+  force_ = unit * (scale_ * (Q_ - rest_));
+  return rest_.norm() <= met * size + negligible_ / unit && tension_.allFinite();
 }
 
 Allocation allocate(const Model& model, const VectorXd& force, const TensionLimits& limits) {

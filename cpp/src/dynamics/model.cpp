@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "base/rotation.hpp"
 #include "dynamics/kept.hpp"
 #include "section/inertia_series.hpp"
 
@@ -28,9 +29,10 @@ detail::SectionSeries series_of(const Section& section, double payload, Formulat
 
 }  // namespace
 
-Model::Model(Robot robot, Formulation formulation)
-    : robot_(std::make_shared<const Robot>(std::move(robot))), formulation_(formulation) {
-  validate(*robot_);
+Model::Model(Robot robot, Formulation formulation) : formulation_(formulation) {
+  validate(robot);
+  robot.base_orientation = detail::nearest_rotation(robot.base_orientation);
+  robot_ = std::make_shared<const Robot>(std::move(robot));
   const auto n = static_cast<Index>(robot_->sections.size());
   cables_ = robot_->all_cables();
   stiffness_.resize(n);

@@ -7,6 +7,7 @@
 
 #include "base/arguments.hpp"
 #include "base/constants.hpp"
+#include "base/rotation.hpp"
 
 namespace cdcr {
 namespace {
@@ -87,14 +88,13 @@ void check_count(int value, const char* name) {
 
 /// The rotation nearest to R, which must be one to within what printed digits lose.
 Matrix3d read_rotation(const Matrix3d& R) {
-  constexpr double printed_digits = 1e-6;
-  const double skew = (R.transpose() * R - Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  const double skew = detail::skew_of(R);
   require(R.allFinite(), "R must be finite");
-  require(skew <= printed_digits,
+  require(skew <= detail::rotation_digits,
           "R must be a rotation matrix, but R^T R differs from the unit matrix by ", skew);
   require(R.determinant() > 0.0,
           "R must be a rotation matrix, but its determinant is -1: it mirrors");
-  return Eigen::Quaterniond(R).normalized().toRotationMatrix();
+  return detail::nearest_rotation(R);
 }
 
 }  // namespace
@@ -111,8 +111,10 @@ InverseSolver::InverseSolver(const Model& model, const InverseKinematicsOptions&
   check_count(options.iterations, "iterations");
   for (const Section& section : model.robot().sections) length_ += section.length;
   weight_ = options.orientation_weight.value_or(length_ / pi) / length_;
-  tolerance_ = options.tolerance.value_or(1e-9 * length_);
-  goal_ = 0.5 * std::pow(tolerance_ / length_, 2);
+  // Targets have as many digits as single precision or a printed one; a search goes on to rounding.
+  tolerance_ = options.tolerance.value_or(1e-6 * length_);
+  accepted_ = 0.5 * std::pow(tolerance_ / length_, 2);
+  goal_ = options.tolerance ? accepted_ : 0.5 * std::pow(1e-9, 2);
   max_theta_ = VectorXd::Constant(n, full_circle);
   if (options.max_theta.size() == 1) max_theta_.setConstant(options.max_theta[0]);
   if (options.max_theta.size() == n) max_theta_ = options.max_theta;

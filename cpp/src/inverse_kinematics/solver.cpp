@@ -225,7 +225,7 @@ void InverseSolver::search(const ConstVectorRef& q0) noexcept {
   best_cost_ = std::numeric_limits<double>::infinity();
   random_state_ = 1;
   const int given = q0.size() > 0 ? 1 : 0;
-  while (answer_.seeds < options_.seeds && best_cost_ > goal_) {
+  while (answer_.seeds < options_.seeds && best_cost_ > accepted_) {
     if (answer_.seeds < given) {
       q_ = q0;
     } else {

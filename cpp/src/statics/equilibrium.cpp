@@ -59,7 +59,7 @@ class NewtonSolver {
     // A search stalled by rounding has converged as far as the arithmetic allows; loads that
     // overflow when squared have no scale to tell.
     const double bound = problem_.rounding_bound(q);
-    return std::isfinite(bound) && size(r_) <= stalled * bound;
+    return std::isfinite(bound) && r_.allFinite() && size(r_) <= stalled * bound;
   }
 
   [[nodiscard]] int iterations() const { return iterations_; }
@@ -225,6 +225,7 @@ Equilibrium equilibrium(const Model& model, const VectorXd& command, const Vecto
   StaticProblem problem(model, command, wrenches);
   Equilibrium result;
   result.q = q0.size() == 0 ? linear_guess(model, command) : q0;
+  result.friction_left_out = model.has_friction();
   find(problem, result);
   classify_stability(problem, result);
   const VectorXd rest = VectorXd::Zero(result.q.size());

@@ -79,7 +79,7 @@ class Model(_core.Model):
     @overload
     def equilibrium(
         self,
-        tension: ArrayLike,
+        tension: ArrayLike | None = ...,
         q0: ArrayLike | None = ...,
         wrenches: Wrench | Sequence[Wrench] = ...,
         *,
@@ -88,7 +88,7 @@ class Model(_core.Model):
     @overload
     def equilibrium(
         self,
-        tension: ArrayLike,
+        tension: ArrayLike | None = ...,
         q0: ArrayLike | None = ...,
         wrenches: Wrench | Sequence[Wrench] = ...,
         *,
@@ -96,7 +96,7 @@ class Model(_core.Model):
     ) -> _core.Equilibrium: ...
     def equilibrium(
         self,
-        tension: ArrayLike,
+        tension: ArrayLike | None = None,
         q0: ArrayLike | None = None,
         wrenches: Wrench | Sequence[Wrench] = (),
         *,
@@ -105,14 +105,16 @@ class Model(_core.Model):
         """Bending vectors at rest under constant commands and wrenches, cpp/README.md eq. (18).
 
         Newton's method, downhill in energy where all loads have one; where that fails, the load
-        grows from nothing to all, then other starts are tried. Nothing slides at rest, so this is
-        the equilibrium without friction. The answer may be unstable when gravity is strong and the
+        grows from nothing to all, then other starts are tried. Friction of cables is left out: with
+        it the robot rests anywhere in a range of shapes about this one, and the answer with
+        ``throw=False`` tells so. The answer may be unstable when gravity is strong and the
         start is a point of rest; with ``throw=False`` it tells.
 
         Parameters
         ----------
-        tension : (num_cables,) array_like
-            Cable tensions [N]; lengths [m] for cables driven by length.
+        tension : (num_cables,) array_like, optional
+            Cable tensions [N]; lengths [m] for cables driven by length. None: no tension, the
+            lengths of the straight robot.
         q0 : (2n,) array_like, optional
             Where to start [rad]; by default the answer without gravity.
         wrenches : Wrench or sequence of Wrench, optional
@@ -136,7 +138,10 @@ class Model(_core.Model):
         return checked_equilibrium(found) if throw else found
 
     def modes(
-        self, q: ArrayLike, tension: ArrayLike, wrenches: Wrench | Sequence[Wrench] = ()
+        self,
+        q: ArrayLike,
+        tension: ArrayLike | None = None,
+        wrenches: Wrench | Sequence[Wrench] = (),
     ) -> Modes:
         """Natural frequencies and mode shapes of small motions about a shape.
 
@@ -149,8 +154,8 @@ class Model(_core.Model):
         ----------
         q : (..., 2n) array_like
             The shape, at rest there or held [rad]; or an array of shapes.
-        tension : (..., num_cables) array_like
-            Cable tensions [N]; lengths [m] for cables driven by length.
+        tension : (..., num_cables) array_like, optional
+            Cable tensions [N]; lengths [m] for cables driven by length. None: as in `equilibrium`.
         wrenches : Wrench or sequence of Wrench, optional
             Constant forces and moments on the backbone.
 
