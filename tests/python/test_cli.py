@@ -87,11 +87,16 @@ def test_info_of_what_does_not_exist(tmp_path: Path) -> None:
         (["run", "x.toml"], "there is no scenario file x.toml"),
         (
             ["run", "step-tension", "--method", "euler"],
-            "method must be one of 'rk4', 'dopri5', 'bdf', 'adams', got 'euler'",
+            "--method must be one of 'rk4', 'dopri5', 'bdf', 'adams', got 'euler'",
         ),
         (
             ["run", "step-tension", "--t-end", "-1"],
-            "t_end must be a number > 0 s and finite, got -1.0 (float)",
+            "--t-end must be a number > 0 s and finite, got -1.0 (float)",
+        ),
+        (
+            ["run", "step-tension", "--max-steps", str(2**63)],
+            "--max-steps must be a whole number 1 to 9223372036854775807, "
+            "got 9223372036854775808 (int)",
         ),
         (
             ["run", "step-tension", "--t-end", "1e9"],
@@ -112,8 +117,7 @@ def test_options_out_of_range_are_named(
     option: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    name = option.removeprefix("--").replace("-", "_")
-    assert refused(cdcr_("run", "step-tension", option, "-1")).startswith(f"{name} must be ")
+    assert refused(cdcr_("run", "step-tension", option, "-1")).startswith(f"{option} must be ")
     assert everything_in(tmp_path) == []
 
 

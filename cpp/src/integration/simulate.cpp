@@ -84,7 +84,8 @@ Status run_segment(Integrator& integrator, Recorder& recorder, double stop, cons
 
 /// The run itself, shared by inputs and controllers.
 Trajectory run(RobotOde& ode, const VectorXd& q0, const VectorXd& qd0, const VectorXd& times,
-               Integrator& integrator, const Options& options, const Progress& progress) {
+               Integrator& integrator, Method method, const Options& options,
+               const Progress& progress) {
   VectorXd y(ode.num_states());
   y << q0, qd0;
   detail::require_bending("q0", ode.model(), q0);
@@ -111,7 +112,7 @@ Trajectory run(RobotOde& ode, const VectorXd& q0, const VectorXd& qd0, const Vec
   out.slack_events = integrator.slack_events();
   if (out.status != Status::ok) {
     out.message = detail::sentence("Stopped at t = ", t, " s (", name(out.status), "). ",
-                                   message(out.status));
+                                   message(out.status), advice(out.status, method));
   }
   return out;
 }
@@ -132,7 +133,7 @@ Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
                     const WrenchInput& loads) {
   check_arguments(model, q0, qd0, times);
   RobotOde ode(model, input, loads);
-  return run(ode, q0, qd0, times, *factory(ode, method, options), options, progress);
+  return run(ode, q0, qd0, times, *factory(ode, method, options), method, options, progress);
 }
 
 Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
@@ -142,7 +143,7 @@ Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
   check_arguments(model, q0, qd0, times);
   RobotOde ode(model, controller, loads);
   controller.reset();
-  return run(ode, q0, qd0, times, *factory(ode, method, options), options, progress);
+  return run(ode, q0, qd0, times, *factory(ode, method, options), method, options, progress);
 }
 
 }  // namespace cdcr

@@ -152,7 +152,9 @@ def run_command(
             tables.print_report(Console(), report)
         if report.run is not None and not report.run.success:
             kept = ", ".join(map(str, report.files))
-            raise run.RunFailed(f"{report.run.message} What was reached is in {kept}.")
+            raise run.RunFailed(
+                f"{run.as_options(report.run.message)} What was reached is in {kept}."
+            )
 
 
 @app.command("new", short_help="Write a scenario file to start from.")
