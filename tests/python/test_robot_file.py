@@ -163,6 +163,15 @@ def test_round_trip_is_exact(robot: cdcr.Robot, tmp_path_factory: Any) -> None:
     assert repr(loaded) == repr(robot)  # tells -0.0 from 0.0, which are equal
 
 
+@pytest.mark.parametrize("largest", [5e-324, 1e-323, 1e-310, 1e-300])
+def test_an_inertia_of_a_few_digits_comes_back(tmp_path: Path, largest: float) -> None:
+    """The smallest numbers have so few digits that a turned body breaks its own triangle rule."""
+    inertia = np.diag([0.0, 0.5 * largest, largest]) if largest < 1e-300 else np.eye(3) * largest
+    robot = cdcr.Robot(sections=FULL.sections, payload=1.0, payload_inertia=inertia)
+    robot.save(tmp_path / "robot.toml")
+    assert cdcr.Robot.load(tmp_path / "robot.toml") == robot
+
+
 def test_the_papers_robot_comes_back(tmp_path: Path) -> None:
     robot = cdcr.robots.amouri2020(gravity=(0.1, 0.2, -9.81), payload=1 / 3, damping=1e-3)
     robot.save(tmp_path / "robot.toml")

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from cdcr._core import Controller
-from cdcr.base.arrays import FloatArray
+from cdcr.base.arrays import MAX_SAMPLES, FloatArray
 from cdcr.base.check import Check
 from cdcr.model.model import Model
 from cdcr.model.wrench import Wrench
@@ -23,7 +23,6 @@ from cdcr.scenarios.metrics import Metric, run_metrics
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-MAX_SAMPLES = 10_000_000  # about a gigabyte of trajectory
 FILES = {"picture": ".png", "csv": ".csv", "nc": ".nc"}
 
 

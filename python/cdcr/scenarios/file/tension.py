@@ -138,16 +138,20 @@ def _hold(table: dict[str, Any], model: Model, file: Path) -> Hold:
     refuse(str(file), [*schema_errors(HoldTable, hold, at), *values.rival_errors(hold, at)])
     t = table.get("t", [0.0])
     given = {key: value for key, value in hold.items() if key != "payload"}
-    rows = given if "t" in table else {key: [value] for key, value in given.items()}
-    for key, value in rows.items():
-        if len(value) != len(t) or not all(isinstance(row, list) for row in value):
+    for key, value in given.items():
+        in_rows = [isinstance(row, list) for row in value]
+        if "t" not in table and any(in_rows):
+            refuse(str(file), [f"{at}.{key} needs tension.t for its rows, {format_toml(value)}"])
+        if "t" in table and not (len(value) == len(t) and all(in_rows)):
             must = f"must have a row for each time, {len(t)}"
             refuse(str(file), [f"{at}.{key} {must}, got {format_toml(value)}"])
+    rows = given if "t" in table else {key: [value] for key, value in given.items()}
     q = []
     for k in range(len(t)):
         shape = {key: value[k] for key, value in rows.items()}
         refuse(str(file), values.length_errors(shape, model.num_sections, at))
-        q.append(values.bending_vector(shape, model.num_sections))
+        with values.error_prefix(str(file)):
+            q.append(values.bending_vector(shape, model.num_sections, at))
     times, payload = np.array(t), hold.get("payload", 0.0)
     held = Hold(times, np.array(q), payload, table.get("interpolation", "linear"), f"{file}, {at}")
     commands = held(model, float(times[-1]))
@@ -163,7 +167,8 @@ def _sampled(table: dict[str, Any], model: Model, file: Path) -> Sampled:
     shapes = _shapes(table["shapes"], model, file, "tension.shapes")
 
     def rows(model: Model, t_end: float) -> TensionTable:
-        t = even_times(t_end, table["step"])
+        with values.error_prefix(f"{file}, [tension]"):
+            t = even_times(t_end, table["step"])
         return TensionTable(t, shapes(t))
 
     return rows
