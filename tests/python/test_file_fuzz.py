@@ -228,5 +228,5 @@ def test_numbers_of_csv_files_are_of_ascii_digits(
 def test_rows_without_times_are_refused(value: list[list[float]], tmp_path: Path) -> None:
     path = tmp_path / "x.toml"
     path.write_text(text_of(HEAD | {"tension": {"hold": {"theta_deg": value}}}))
-    with pytest.raises(ValueError, match=r"tension\.hold\.theta_deg needs tension\.t for its rows"):
+    with pytest.raises(ValueError, match=r"tension\.hold\.theta_deg must have 1 number for"):
         load_scenario(path)

@@ -14,6 +14,7 @@ from cdcr.base.arrays import FloatArray
 from cdcr.base.check import Check
 from cdcr.model.model import Model
 from cdcr.model.wrench import Wrench, loads
+from cdcr.robot.units import ask_about_commands
 from cdcr.runs.command import Command, command_input
 from cdcr.runs.trajectory import SlackEvent, Trajectory
 
@@ -159,6 +160,7 @@ def simulate(
         slack_events=tuple(SlackEvent(*event) for event in raw.slack_events),
     )
     warn_beyond_taylor_range(model, run.q)
+    ask_about_commands(model.robot, run.command)
     if throw and not run.success:
         raise RuntimeError(run.message)
     return run

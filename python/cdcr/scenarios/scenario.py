@@ -188,12 +188,13 @@ class Scenario:
 
         Parameters
         ----------
-        method, rtol, atol, step, max_step, max_steps : optional
-            As in `simulate`.
+        given : optional
+            method, rtol, atol, step, max_step and max_steps as in `simulate`.
 
         Returns
         -------
         dict
+            The same names with their values.
 
         Raises
         ------

@@ -138,14 +138,11 @@ def _hold(table: dict[str, Any], model: Model, file: Path) -> Hold:
     refuse(str(file), [*schema_errors(HoldTable, hold, at), *values.rival_errors(hold, at)])
     t = table.get("t", [0.0])
     given = {key: value for key, value in hold.items() if key != "payload"}
-    for key, value in given.items():
-        in_rows = [isinstance(row, list) for row in value]
-        if "t" not in table and any(in_rows):
-            refuse(str(file), [f"{at}.{key} needs tension.t for its rows, {format_toml(value)}"])
-        if "t" in table and not (len(value) == len(t) and all(in_rows)):
+    rows = given if "t" in table else {key: [value] for key, value in given.items()}
+    for key, value in rows.items():
+        if len(value) != len(t) or not all(isinstance(row, list) for row in value):
             must = f"must have a row for each time, {len(t)}"
             refuse(str(file), [f"{at}.{key} {must}, got {format_toml(value)}"])
-    rows = given if "t" in table else {key: [value] for key, value in given.items()}
     q = []
     for k in range(len(t)):
         shape = {key: value[k] for key, value in rows.items()}

@@ -38,11 +38,11 @@ def rival_errors(table: Mapping[str, Any], at: str) -> list[str]:
 
 
 def length_errors(table: Mapping[str, Any], num_sections: int, at: str) -> list[str]:
-    """Return a sentence for each array that does not fit the number of sections."""
+    """Return a sentence for each array that is not a number for each section, or two."""
     found = []
     for key, value in table.items():
         length = num_sections * (2 if key in ("q", "qd") else 1)
-        if len(value) != length:
+        if len(value) != length or any(isinstance(one, list) for one in value):
             found.append(
                 f"{at}.{key} must have {count(length, 'number')} for a robot with "
                 f"{count(num_sections, 'section')}, got {format_toml(value)}"
