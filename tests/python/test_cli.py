@@ -1,9 +1,11 @@
 """The command line: what it prints where, its exit codes, and one sentence for every mistake."""
 
+import json
 import re
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -173,3 +175,35 @@ def test_a_warning_is_a_sentence_without_its_place_in_the_code(tmp_path: Path) -
         "cdcr: warning: formulation 'taylor' holds for |theta| up to 3 pi/5 = 1.8850 rad; "
         "this motion reaches 2.0000 rad"
     ]
+
+
+def test_lists_and_robots_as_json() -> None:
+    listed = json.loads(cdcr_("list", "--json").stdout)
+    assert [one["name"] for one in listed["scenarios"]] == list(cdcr.scenarios.names())
+    assert [one["name"] for one in listed["robots"]] == list(cdcr.robots.names())
+    for name in cdcr.robots.names():
+        told = json.loads(cdcr_("info", name, "--json").stdout)
+        robot = cdcr.robots.get(name)
+        assert (told["length_m"], told["num_cables"]) == (robot.length, robot.num_cables)
+        model = cdcr.Model(robot)
+        if model.has_inertia:
+            modes = model.modes([0.0] * model.num_coordinates, model.rest_command())
+            assert told["rest"]["frequency_Hz"] == pytest.approx(modes.frequency_hz)
+        else:
+            assert told["rest"]["frequency_Hz"] is None
+
+
+@pytest.mark.parametrize("name", ["three-sections", "three_sections"])
+def test_dashes_and_underscores_are_the_same_in_names(name: str, tmp_path: Path) -> None:
+    assert cdcr.robots.get(name) == cdcr.robots.three_sections()
+    assert cdcr.scenarios.get(name).name == "three-sections"
+    assert cdcr.scenarios.source_file(name).stem == "three-sections"
+    assert cdcr_("info", name).exit_code == 0
+    assert cdcr_("new", tmp_path / "x.toml", "--from", name).exit_code == 0
+
+
+@pytest.mark.parametrize("get", [cdcr.robots.get, cdcr.scenarios.get, cdcr.scenarios.source_file])
+@pytest.mark.parametrize("name", [1, [], None])
+def test_names_that_are_no_strings(get: Any, name: object) -> None:
+    with pytest.raises(ValueError, match=r"^the name of a (robot|scenario) must be a string, got"):
+        get(name)

@@ -169,7 +169,8 @@ def find_robot(name: str) -> Robot:
 
 
 def _is_file(name: str, known: tuple[str, ...]) -> bool:
-    return name not in known and (name.endswith(".toml") or Path(name).is_file())
+    named = name.replace("_", "-") in (one.replace("_", "-") for one in known)
+    return not named and (name.endswith(".toml") or Path(name).is_file())
 
 
 def write(
