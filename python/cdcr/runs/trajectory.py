@@ -325,8 +325,8 @@ class Trajectory:
         Parameters
         ----------
         path : path-like
-            ``.mp4`` (needs ffmpeg) or ``.gif``; without a suffix, ``.mp4`` where ffmpeg is found
-            and ``.gif`` elsewhere.
+            ``.mp4`` (needs ffmpeg), ``.gif`` or ``.html``, a page that any browser plays; without
+            a suffix, ``.mp4`` where ffmpeg is found and ``.gif`` elsewhere.
         fps : float
             Frames for each second of film.
         speed : float
