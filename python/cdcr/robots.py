@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 
-from cdcr.base.check import require_known
+from cdcr.base.check import known_name
 from cdcr.robot.robot import Robot
 from cdcr.robot.section import Section
 
@@ -152,7 +152,7 @@ def get(name: str) -> Robot:
     Parameters
     ----------
     name : str
-        One of `names`.
+        One of `names`, with dashes or underscores.
 
     Returns
     -------
@@ -163,5 +163,4 @@ def get(name: str) -> Robot:
     ValueError
         For an unknown name, with the known ones.
     """
-    require_known("robot", name, names())
-    return _ROBOTS[name]()
+    return _ROBOTS[known_name("robot", name, names())]()

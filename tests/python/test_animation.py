@@ -1,5 +1,8 @@
 """Films of runs: the right frames at the right speed, and no half-written file."""
 
+import base64
+import io
+import re
 import shutil
 import stat
 from pathlib import Path
@@ -62,7 +65,7 @@ def test_suffix_chooses_the_format(
     assert run.animate(tmp_path / "run", fps=4.0) == tmp_path / "run.gif"
     with pytest.raises(RuntimeError, match=r"run\.mp4 needs the program ffmpeg"):
         run.animate(tmp_path / "run.mp4")
-    with pytest.raises(ValueError, match=r"must end in \.gif or \.mp4, got 'run\.avi'"):
+    with pytest.raises(ValueError, match=r"must end in \.gif, \.mp4 or \.html, got 'run\.avi'"):
         run.animate(tmp_path / "run.avi")
 
 
@@ -144,3 +147,16 @@ def test_refusals_name_the_item(run: cdcr.Trajectory, tmp_path: Path) -> None:
     with pytest.raises(ValueError, match=r"^fps must be at most 50 in a \.gif, got 60$"):
         run.animate(path, fps=60)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_html_holds_every_frame(run: cdcr.Trajectory, tmp_path: Path) -> None:
+    path = run.animate(tmp_path / "run.html", fps=5.0)
+    text = path.read_text()
+    frames = re.findall(r'^"([A-Za-z0-9+/=]+)",$', text, re.MULTILINE)
+    assert len(frames) == len(frame_times(run, 1.0 / 5.0))
+    for frame in (frames[0], frames[-1]):
+        with Image.open(io.BytesIO(base64.b64decode(frame))) as picture:
+            assert picture.format == "PNG"
+    assert frames[0] != frames[-1]
+    assert "1000 / 5)" in text
+    assert "http" not in text

@@ -1,9 +1,11 @@
 """The command line: what it prints where, its exit codes, and one sentence for every mistake."""
 
+import json
 import re
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -87,11 +89,16 @@ def test_info_of_what_does_not_exist(tmp_path: Path) -> None:
         (["run", "x.toml"], "there is no scenario file x.toml"),
         (
             ["run", "step-tension", "--method", "euler"],
-            "method must be one of 'rk4', 'dopri5', 'bdf', 'adams', got 'euler'",
+            "--method must be one of 'rk4', 'dopri5', 'bdf', 'adams', got 'euler'",
         ),
         (
             ["run", "step-tension", "--t-end", "-1"],
-            "t_end must be a number > 0 s and finite, got -1.0 (float)",
+            "--t-end must be a number > 0 s and finite, got -1.0 (float)",
+        ),
+        (
+            ["run", "step-tension", "--max-steps", str(2**63)],
+            "--max-steps must be a whole number 1 to 9223372036854775807, "
+            "got 9223372036854775808 (int)",
         ),
         (
             ["run", "step-tension", "--t-end", "1e9"],
@@ -112,8 +119,7 @@ def test_options_out_of_range_are_named(
     option: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    name = option.removeprefix("--").replace("-", "_")
-    assert refused(cdcr_("run", "step-tension", option, "-1")).startswith(f"{name} must be ")
+    assert refused(cdcr_("run", "step-tension", option, "-1")).startswith(f"{option} must be ")
     assert everything_in(tmp_path) == []
 
 
@@ -169,3 +175,35 @@ def test_a_warning_is_a_sentence_without_its_place_in_the_code(tmp_path: Path) -
         "cdcr: warning: formulation 'taylor' holds for |theta| up to 3 pi/5 = 1.8850 rad; "
         "this motion reaches 2.0000 rad"
     ]
+
+
+def test_lists_and_robots_as_json() -> None:
+    listed = json.loads(cdcr_("list", "--json").stdout)
+    assert [one["name"] for one in listed["scenarios"]] == list(cdcr.scenarios.names())
+    assert [one["name"] for one in listed["robots"]] == list(cdcr.robots.names())
+    for name in cdcr.robots.names():
+        told = json.loads(cdcr_("info", name, "--json").stdout)
+        robot = cdcr.robots.get(name)
+        assert (told["length_m"], told["num_cables"]) == (robot.length, robot.num_cables)
+        model = cdcr.Model(robot)
+        if model.has_inertia:
+            modes = model.modes([0.0] * model.num_coordinates, model.rest_command())
+            assert told["rest"]["frequency_Hz"] == pytest.approx(modes.frequency_hz)
+        else:
+            assert told["rest"]["frequency_Hz"] is None
+
+
+@pytest.mark.parametrize("name", ["three-sections", "three_sections"])
+def test_dashes_and_underscores_are_the_same_in_names(name: str, tmp_path: Path) -> None:
+    assert cdcr.robots.get(name) == cdcr.robots.three_sections()
+    assert cdcr.scenarios.get(name).name == "three-sections"
+    assert cdcr.scenarios.source_file(name).stem == "three-sections"
+    assert cdcr_("info", name).exit_code == 0
+    assert cdcr_("new", tmp_path / "x.toml", "--from", name).exit_code == 0
+
+
+@pytest.mark.parametrize("get", [cdcr.robots.get, cdcr.scenarios.get, cdcr.scenarios.source_file])
+@pytest.mark.parametrize("name", [1, [], None])
+def test_names_that_are_no_strings(get: Any, name: object) -> None:
+    with pytest.raises(ValueError, match=r"^the name of a (robot|scenario) must be a string, got"):
+        get(name)

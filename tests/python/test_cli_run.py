@@ -3,6 +3,8 @@
 import csv
 import io
 import json
+import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -203,7 +205,8 @@ def test_a_failed_run_exits_with_1_and_keeps_what_it_has(tmp_path: Path, as_json
 def test_too_few_steps_fail_with_what_to_try(tmp_path: Path) -> None:
     result = cdcr_("run", "step-tension", "--out", tmp_path, "--max-steps", 10)
     assert result.exit_code == 1
-    assert "max_steps" in result.stderr
+    assert "raise --max-steps. Or loosen --rtol and --atol." in result.stderr
+    assert "bdf" not in result.stderr  # the method it ran by
     assert everything_in(tmp_path) == [f"step-tension-incomplete.{s}" for s in ("csv", "nc")]
 
 
@@ -260,3 +263,55 @@ def test_progress_is_shown_on_long_runs_at_a_terminal(
     assert ("step-tension" in screen.getvalue()) is shown
     assert ("50%" in screen.getvalue()) is shown
     assert bool(screen.getvalue()) is shown
+
+
+def test_wrong_options_are_told_before_files_that_exist(tmp_path: Path) -> None:
+    (tmp_path / "step-tension.png").write_text("mine")
+    wrong = refused(cdcr_("run", "step-tension", "--out", tmp_path, "--method", "euler"))
+    assert wrong.startswith("--method must be")
+    there = refused(cdcr_("run", "step-tension", "--out", tmp_path))
+    assert there.endswith("give --overwrite to replace, or another folder with --out")
+
+
+def test_a_folder_that_cannot_be_written_is_found_before_the_run(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def ran(*args: object, **kwargs: object) -> None:
+        pytest.fail("it ran")
+
+    monkeypatch.setattr(cdcr.scenarios.Scenario, "simulate", ran)
+    # No folder can be made in /proc, by nobody.
+    told = refused(cdcr_("run", "step-tension", "--out", "/proc/cdcr"))
+    assert told.startswith("/proc/cdcr/step-tension.png: ")
+
+
+@pytest.mark.parametrize("args", [["list"], ["info", "amouri2020"], ["audit"]])
+def test_a_terminal_of_few_characters_shows_what_it_can(args: list[str]) -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "cdcr", *args],
+        env=os.environ | {"PYTHONIOENCODING": "latin-1"},
+        capture_output=True,
+        check=False,
+        timeout=120.0,
+    )
+    assert (done.returncode, done.stderr) == (0, b"")
+
+
+def test_terminating_a_run_ends_it_and_leaves_nothing(tmp_path: Path) -> None:
+    code = """
+import os, signal
+from cdcr.cli import run as cli_run
+from cdcr.cli import main
+cli_run.DelayedBar.__call__ = lambda self, done: os.kill(os.getpid(), signal.SIGTERM)
+main(["run", "step-tension", "--out", "new/out", "--t-end", "1000"])
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        capture_output=True,
+        text=True,
+        cwd=tmp_path,
+        check=False,
+        timeout=120.0,
+    )
+    assert (done.returncode, done.stdout) == (128 + signal.SIGTERM, "")
+    assert everything_in(tmp_path) == []

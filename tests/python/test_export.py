@@ -235,3 +235,12 @@ def test_missing_extra_is_named(
     with pytest.raises(ImportError, match=rf'{module} .*pip install "cdcr\[data\]"'):
         run.save(tmp_path / "run.nc")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_dataframe_is_the_csv_file(run: cdcr.Trajectory, tmp_path: Path) -> None:
+    frame = run.to_dataframe()
+    header = run.save(tmp_path / "run.csv").read_text().splitlines()[0].split(",")
+    assert [frame.index.name, *frame.columns] == header
+    np.testing.assert_array_equal(frame.index, run.t)
+    np.testing.assert_array_equal(frame["q1_y [rad]"], run.q[:, 1])
+    np.testing.assert_array_equal(frame["tension1 [N]"], run.tension[:, 0])

@@ -33,7 +33,7 @@ SIGNALS = [signal.SIGTERM, signal.SIGKILL, signal.SIGHUP, signal.SIGQUIT, signal
 def kind(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> str:
     """Files without names, and those of systems that know none."""
     if request.param == "hidden":
-        monkeypatch.setattr(module, "_nameless", lambda near, path: None)
+        monkeypatch.setattr(module, "_nameless", lambda near: None)
     return str(request.param)
 
 

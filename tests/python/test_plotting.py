@@ -1,6 +1,7 @@
 """Pictures of runs and robots: what they show is the data, with names and units."""
 
 import dataclasses
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -9,6 +10,7 @@ from typing import Any
 import matplotlib as mpl
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d import proj3d  # type: ignore[import-untyped]
 
 import cdcr
@@ -270,3 +272,49 @@ def test_missing_extra_is_named(run: cdcr.Trajectory, monkeypatch: pytest.Monkey
     for draw in (run.plot, run.plot_robot, lambda: run.animate("run.gif")):
         with pytest.raises(ImportError, match=r'matplotlib .*pip install "cdcr\[plot\]"'):
             draw()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        ({"num": 0}, "num must be a whole number >= 1, got 0 (int)"),
+        ({"num": 2.5}, "num must be a whole number >= 1, got 2.5 (float)"),
+        ({"times": []}, "times must have shape (M,) with M at least 1, got (0,)"),
+        ({"times": [[0.0]]}, "times must have shape (M,) with M at least 1, got (1, 1)"),
+        (
+            {"ax": Figure().add_subplot()},
+            "ax must be an Axes3D, as projection='3d' makes one, got Axes",
+        ),
+    ],
+)
+def test_wrong_arguments_of_pictures(arguments: dict[str, Any], sentence: str) -> None:
+    model = cdcr.Model(cdcr.robots.amouri2020())
+    run = cdcr.simulate(model, [0.1, 0.0], [0.0, 0.0], t=[0.0, 0.1])
+    with pytest.raises(ValueError, match=f"^{re.escape(sentence)}$"):
+        run.plot_robot(**arguments)
+
+
+def test_a_robot_of_micrometres_is_drawn_as_one_of_metres() -> None:
+    """Scaled so that its motion is the same, the limits of its panels scale with it."""
+    section = cdcr.robots.amouri2020().sections[0]
+    limits = []
+    for scale in (1.0, 1e-5):
+        small = dataclasses.replace(
+            section,
+            length=scale * section.length,
+            backbone_diameter=scale * section.backbone_diameter,
+            disk_diameter=scale * section.disk_diameter,
+            cable_radius=scale * section.cable_radius,
+            youngs_modulus=section.youngs_modulus / scale,  # K goes as E d^4 / l, inertia as l^2
+        )
+        model = cdcr.Model(cdcr.Robot(sections=[small]))
+        pull = 5.0 * model.robot.sections[0].stiffness / section.stiffness / scale
+        run = cdcr.simulate(
+            model, [0.0, 0.0], [0.0, 0.0], t=np.linspace(0.0, 1.0, 101), tension=[pull, 0, 0]
+        )
+        limits.append([np.ptp(axes.get_ylim()) for axes in run.plot().axes])
+    ratio = np.array(limits[1]) / np.array(limits[0])
+    assert ratio.min() < 1e-4
+    for value in ratio:  # each an integer power of the scale
+        power = np.log(value) / np.log(1e-5)
+        assert abs(power - round(power)) < 1e-2

@@ -144,5 +144,7 @@ def test_what_is_wrong_with_a_controller(tmp_path: Path, controller: str, senten
     ],
 )
 def test_what_the_core_refuses_names_file_and_table(tmp_path: Path, wrong: str) -> None:
-    with pytest.raises(ValueError, match=r"loop\.toml, \[controller\]: "):
+    with pytest.raises(
+        ValueError, match=r"loop\.toml(, \[controller\]: |: controller\.reference\.q must)"
+    ):
         load(tmp_path, PID + wrong)

@@ -56,7 +56,7 @@ def test_an_unknown_name_is_refused_with_the_known_ones() -> None:
     with pytest.raises(ValueError, match=rf"^there is no scenario 'x'\. Known: {known}$"):
         cdcr.scenarios.get("x")
     with pytest.raises(ValueError, match=r"Did you mean 'step-tension'\?"):
-        cdcr.scenarios.get("step_tension")
+        cdcr.scenarios.get("step_tensoin")
 
 
 def test_step_tension_is_the_papers_example(scenario: Scenario) -> None:

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from cdcr.scenarios.file.shapes import Shape, TensionShapes, ramp, sine, step
@@ -59,7 +59,6 @@ def test_what_rounding_leaves_below_zero_is_zero() -> None:
     assert tension(2.0)[0] == 0.0
 
 
-@settings(max_examples=60, deadline=None)
 @given(
     data=st.lists(
         st.tuples(

@@ -55,6 +55,9 @@ class Integrator {
   [[nodiscard]] virtual Stats stats() const noexcept = 0;
 };
 
+/// What else to try in a run by that method; empty where message(status) says it all.
+[[nodiscard]] const char* advice(Status status, Method method) noexcept;
+
 /// Makes the integrator for a method; the equation must outlive it.
 using IntegratorFactory = std::unique_ptr<Integrator> (*)(RobotOde&, Method, const Options&);
 

@@ -9,20 +9,18 @@ const char* message(Status status) noexcept {
     case Status::not_started:
       return "No state has been set: call reset with a state first.";
     case Status::step_limit:
-      return "The run needed more than max_steps internal steps: raise max_steps, loosen rtol and "
-             "atol, or use method bdf if the robot is stiff.";
+      return "The run needed more than max_steps internal steps: raise max_steps.";
     case Status::step_too_small:
       return "The step size fell to rounding level: the motion changes too abruptly here. Check "
              "the tensions for a jump that is not a break point of a table, or loosen rtol.";
     case Status::tolerance_not_met:
-      return "The implicit solver could not converge: loosen rtol and atol, give a smaller "
-             "initial step, or use method dopri5.";
+      return "The implicit solver could not converge: loosen rtol and atol, or use method dopri5.";
     case Status::non_finite_state:
-      return "The state became infinite or not a number: use a smaller step, and check the "
-             "tensions and the initial state.";
+      return "The state became infinite or not a number: check the tensions and the initial "
+             "state, and use a smaller step where it is fixed.";
     case Status::bending_limit:
-      return "A section bent beyond 3 pi rad, past the model's validity: lower the tensions; in a "
-             "run, add damping or use a smaller step.";
+      return "A section bent beyond 3 pi rad, past the model's validity: lower the tensions, or "
+             "whatever else bends it.";
     case Status::invalid_tension:
       return "The tensions must be finite, not negative (a cable cannot push), and one for each "
              "cable; the state was left as it was.";

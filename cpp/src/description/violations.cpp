@@ -1,6 +1,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -153,7 +154,7 @@ void check_base_orientation(const Matrix3d& R, Check& check) {
 void check_payload_inertia(const Matrix3d& inertia, Check& check) {
   if (!check_matrix("payload_inertia", inertia, "kg m^2", check)) return;
   const double largest = inertia.cwiseAbs().maxCoeff();
-  if (largest == 0.0) return;
+  if (largest < std::numeric_limits<double>::min()) return;  // too few digits to judge
   const Matrix3d relative = inertia / largest;
   if ((relative - relative.transpose()).cwiseAbs().maxCoeff() > tolerance) {
     check.refuse("payload_inertia", "symmetric, to 1e-9 of its largest entry",

@@ -26,6 +26,18 @@ void validate(const Options& o) {
   require(most >= 1, "max_steps", static_cast<double>(most), "at least 1");
 }
 
+const char* advice(Status status, Method method) noexcept {
+  const bool fixed = method == Method::rk4;
+  if (status == Status::bending_limit) {
+    return fixed ? " Or add damping, or use a smaller step." : " Or add damping.";
+  }
+  if (status != Status::step_limit) return "";
+  if (fixed) return " Or use a larger step.";
+  return method == Method::bdf
+             ? " Or loosen rtol and atol."
+             : " Or loosen rtol and atol, or use method bdf if the robot is stiff.";
+}
+
 std::unique_ptr<Integrator> make_integrator(RobotOde& ode, Method method, const Options& options) {
   validate(options);
   switch (method) {

@@ -61,10 +61,11 @@ VectorXd dead_band(const RobotOde& ode, std::size_t num_events) {
 /// The run itself, shared by inputs and controllers.
 class Run {
  public:
-  Run(RobotOde& ode, const VectorXd& times, Integrator& integrator, const Options& options,
-      const Progress& progress, const Events& events)
+  Run(RobotOde& ode, const VectorXd& times, Integrator& integrator, Method method,
+      const Options& options, const Progress& progress, const Events& events)
       : ode_(ode),
         integrator_(integrator),
+        method_(method),
         max_steps_(options.max_steps),
         progress_(progress),
         events_(events),
@@ -100,7 +101,7 @@ class Run {
     if (out_.status != Status::ok) {
       if (out_.status == Status::event) t = out_.events.back().time - start_;
       out_.message = detail::sentence("Stopped at t = ", start_ + t, " s (", name(out_.status),
-                                      "). ", message(out_.status));
+                                      "). ", message(out_.status), advice(out_.status, method_));
     }
     return std::move(out_);
   }
@@ -185,6 +186,7 @@ class Run {
 
   RobotOde& ode_;
   Integrator& integrator_;
+  Method method_;
   std::optional<long> max_steps_;
   const Progress& progress_;
   const Events& events_;
@@ -231,7 +233,7 @@ Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
   RobotOde ode(model, commands, wrenches);
   const Options chosen = watchful(options, times, input.is_function() || loads.has_function());
   const auto integrator = factory(ode, method, chosen);
-  return Run(ode, times, *integrator, chosen, progress, events).go(q0, qd0);
+  return Run(ode, times, *integrator, method, chosen, progress, events).go(q0, qd0);
 }
 
 Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
@@ -245,7 +247,7 @@ Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
   const Options chosen = watchful(options, times, loads.has_function());
   const auto integrator = factory(ode, method, chosen);
   controller.reset();
-  return Run(ode, times, *integrator, chosen, progress, events).go(q0, qd0);
+  return Run(ode, times, *integrator, method, chosen, progress, events).go(q0, qd0);
 }
 
 }  // namespace cdcr

@@ -7,7 +7,9 @@ from numpy.typing import NDArray
 
 from cdcr._core import finite
 
-__all__ = ["FloatArray", "even_times", "finite", "read_only"]
+MAX_SAMPLES = 10_000_000  # about a gigabyte of trajectory
+
+__all__ = ["MAX_SAMPLES", "FloatArray", "even_times", "finite", "read_only"]
 
 FloatArray = NDArray[np.float64]
 
@@ -20,4 +22,7 @@ def read_only(array: FloatArray) -> FloatArray:
 
 def even_times(end: float, step: float) -> FloatArray:
     """Return times from 0 to the end [s], as near to that step as they divide it evenly."""
+    least = end / MAX_SAMPLES
+    if step < least:
+        raise ValueError(f"step must be at least {least:g} s in a run of {end:g} s, got {step:g} s")
     return np.linspace(0.0, end, max(1, round(end / step)) + 1)

@@ -29,11 +29,22 @@ def nearest(word: str, known: Iterable[str]) -> str:
     return f" Did you mean {close[0]!r}?" if close else ""
 
 
-def require_known(noun: str, name: str, known: Collection[str]) -> None:
-    """Refuse a name that is not among the known ones, and say which these are."""
-    if name not in known:
-        told = f"there is no {noun} {name!r}.{nearest(name, known)}"
+def known_name(noun: str, name: object, known: Collection[str]) -> str:
+    """Return the known name that is meant, dashes for underscores or not, or say which these are.
+
+    Raises
+    ------
+    ValueError
+        Where it is none of them.
+    """
+    if not isinstance(name, str):
+        told = f"the name of a {noun} must be a string, got {format_value(name)}."
         raise ValueError(f"{told} Known: {', '.join(known)}")
+    for one in known:
+        if one.replace("_", "-") == name.replace("_", "-"):
+            return one
+    told = f"there is no {noun} {name!r}.{nearest(name, known)}"
+    raise ValueError(f"{told} Known: {', '.join(known)}")
 
 
 def count(number: int, noun: str) -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import io
+import signal
 import sys
 from collections.abc import Sequence
 
@@ -9,7 +11,10 @@ from cdcr.base.extras import require
 
 
 def main(args: Sequence[str] | None = None) -> None:
-    """Run the command line; exit codes: 0 fine, 1 run failed, 2 user's mistake, 130 Ctrl-C."""
+    """Run the command line.
+
+    Exit codes: 0 fine, 1 run failed, 2 user's mistake, 128 and its number for a signal.
+    """
     try:
         require("typer", "cli")
         require("rich", "cli")
@@ -18,4 +23,15 @@ def main(args: Sequence[str] | None = None) -> None:
         sys.exit(2)
     from cdcr.cli.app import app
 
+    for stream in (sys.stdout, sys.stderr):  # what a terminal cannot show is a question mark
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")
+    for number in (signal.SIGTERM, signal.SIGHUP):  # end as an error does, past what is to be done
+        if signal.getsignal(number) is signal.SIG_DFL:
+            signal.signal(number, _end)
+
     app(args=args, prog_name="cdcr")
+
+
+def _end(number: int, frame: object) -> None:
+    sys.exit(128 + number)

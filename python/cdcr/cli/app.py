@@ -7,13 +7,13 @@ import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, NoReturn
+from typing import Annotated, Any, NoReturn
 
 import typer
 from rich.console import Console
 
 import cdcr
-from cdcr.cli import audit, figures, info, new, run, tables
+from cdcr.cli import audit, figures, info, info_json, new, run, tables
 
 app = typer.Typer(
     help="Dynamics of cable-driven continuum robots.",
@@ -26,6 +26,12 @@ app = typer.Typer(
 
 
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace files that are there.")]
+
+AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object in place of tables.")]
+
+
+def _print_json(table: dict[str, Any]) -> None:
+    typer.echo(json.dumps(table, indent=2, allow_nan=False))
 
 
 def _end(code: int, sentence: object) -> NoReturn:
@@ -73,10 +79,13 @@ def cdcr_command(
 
 
 @app.command("list", short_help="List the known scenarios and robots.")
-def list_command() -> None:
+def list_command(as_json: AsJson = False) -> None:
     """List the scenarios and robots that `run` and `info` know by name."""
     with _told_plainly():
-        tables.print_list(Console())
+        if as_json:
+            _print_json(tables.known())
+        else:
+            tables.print_list(Console())
 
 
 @app.command("info", short_help="Show what a robot is made of.")
@@ -84,13 +93,18 @@ def info_command(
     robot: Annotated[
         str, typer.Argument(metavar="ROBOT|FILE.toml", help="A name from `cdcr list` or a file.")
     ],
+    as_json: AsJson = False,
 ) -> None:
     """Show what a robot is made of and how it is at rest.
 
     Sections, cables, masses, natural frequencies, stiffness of the tip, largest stable step.
     """
     with _told_plainly():
-        info.print_robot(Console(), robot, run.find_robot(robot))
+        found = run.find_robot(robot)
+        if as_json:
+            _print_json(info_json.as_dict(robot, found))
+        else:
+            info.print_robot(Console(), robot, found)
 
 
 @app.command("run", short_help="Run a scenario; write picture and data; print a summary.")
@@ -124,9 +138,7 @@ def run_command(
         typer.Option(metavar="NUMBER", help="Internal steps after which the run is given up."),
     ] = None,
     overwrite: Overwrite = False,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print one JSON object in place of tables.")
-    ] = False,
+    as_json: AsJson = False,
 ) -> None:
     """Run a scenario; write a picture (.png) and the data (.csv, .nc); print a summary.
 
@@ -147,12 +159,14 @@ def run_command(
             max_steps=max_steps,
         )
         if as_json:
-            typer.echo(json.dumps(report.as_dict(), indent=2, allow_nan=False))
+            _print_json(report.as_dict())
         else:
             tables.print_report(Console(), report)
         if report.run is not None and not report.run.success:
             kept = ", ".join(map(str, report.files))
-            raise run.RunFailed(f"{report.run.message} What was reached is in {kept}.")
+            raise run.RunFailed(
+                f"{run.as_options(report.run.message)} What was reached is in {kept}."
+            )
 
 
 @app.command("new", short_help="Write a scenario file to start from.")

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import re
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -30,6 +31,7 @@ NEEDED = {
     ".nc": (("xarray", "data"), ("h5netcdf", "data"), ("h5py", "data")),
 }
 REPLACE = "give --overwrite to replace, or another folder with --out"
+_ARGUMENTS = r"\b(t_end|method|rtol|atol|max_steps)\b"  # options too, with dashes
 BAR_DELAY = 1.0  # shorter runs show no progress bar [s]
 
 
@@ -41,13 +43,18 @@ class Mistake(Exception):
     """Something the user can mend in the command or in a file."""
 
 
+def as_options(message: str) -> str:
+    """Return a message about arguments of `Scenario.simulate` in the words of `cdcr run`."""
+    return re.sub(_ARGUMENTS, lambda word: f"--{word[0].replace('_', '-')}", message)
+
+
 @contextmanager
-def mistakes() -> Iterator[None]:
+def mistakes(words: Callable[[str], str] = str) -> Iterator[None]:
     """Take a ValueError for a mistake of the user: only where user's values are looked at."""
     try:
         yield
     except ValueError as error:
-        raise Mistake(str(error)) from error
+        raise Mistake(words(str(error))) from error
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -98,10 +105,14 @@ def run(name: str, out: Path, *, overwrite: bool, console: Console, **options: A
         return _picture(scenario, out, overwrite=overwrite)
     files = scenario.files
     targets = tuple(out / f"{scenario.name}{suffix}" for suffix in files)
-    check_files(targets, overwrite=overwrite, replace=REPLACE)
+    of_integrator = {key: value for key, value in options.items() if key != "t_end"}
+    with mistakes(as_options):
+        scenario.times(options["t_end"])
+        scenario.options(**of_integrator)
     for suffix in files:
         for module, extra in NEEDED[suffix]:
             require(module, extra)
+    check_files(targets, overwrite=overwrite, replace=REPLACE)
     with DelayedBar(console, scenario.name, options["t_end"] or scenario.t_end) as bar:
         start = time.perf_counter()
         with mistakes():
@@ -158,7 +169,8 @@ def find_robot(name: str) -> Robot:
 
 
 def _is_file(name: str, known: tuple[str, ...]) -> bool:
-    return name not in known and (name.endswith(".toml") or Path(name).is_file())
+    named = name.replace("_", "-") in (one.replace("_", "-") for one in known)
+    return not named and (name.endswith(".toml") or Path(name).is_file())
 
 
 def write(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table
@@ -39,6 +41,26 @@ def print_list(console: Console) -> None:
             f"{robot.mass:g}",
         )
     console.print(table)
+
+
+def known() -> dict[str, Any]:
+    """Return scenarios and robots as JSON has them."""
+    return {
+        "scenarios": [
+            {"name": one.name, "title": one.title, "source": one.source, "runs": one.has_run}
+            for one in map(scenarios.get, scenarios.names())
+        ],
+        "robots": [
+            {
+                "name": name,
+                "num_sections": len(robot.sections),
+                "num_cables": robot.num_cables,
+                "length_m": robot.length,
+                "mass_kg": robot.mass,
+            }
+            for name, robot in ((name, robots.get(name)) for name in robots.names())
+        ],
+    }
 
 
 def print_report(console: Console, report: Report) -> None:

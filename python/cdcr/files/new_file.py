@@ -78,22 +78,26 @@ def _check(paths: Sequence[Path], overwrite: bool, replace: str) -> None:
 def _part(path: Path) -> Iterator[Path]:
     """Yield a path to a new file without a name that can become `path`, or with a hidden one."""
     near = next(one for one in path.absolute().parents if one.is_dir())
-    file = _nameless(near, path)
+    hidden = _hidden(near / path.name)
+    try:
+        file = _nameless(near)
+        if file is None:
+            hidden.touch(exist_ok=False)
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(path)) from None
     if file is not None:
         try:
             yield Path(f"{_PROCESSES}/{os.getpid()}/fd/{file}")
         finally:
             os.close(file)
         return
-    hidden = _hidden(near / path.name)
     try:
-        hidden.touch(exist_ok=False)
         yield hidden
     finally:
         hidden.unlink(missing_ok=True)
 
 
-def _nameless(near: Path, path: Path) -> int | None:
+def _nameless(near: Path) -> int | None:
     """Open a file without a name in a folder; None on a system that knows no such files."""
     flag = getattr(os, "O_TMPFILE", None)
     if flag is None or not Path(f"{_PROCESSES}/self/fd").is_dir():
@@ -103,7 +107,7 @@ def _nameless(near: Path, path: Path) -> int | None:
     except OSError as error:
         if error.errno in (errno.EINVAL, errno.EISDIR, errno.EOPNOTSUPP):
             return None
-        raise OSError(error.errno, error.strerror, str(path)) from None
+        raise
 
 
 def _hidden(path: Path) -> Path:

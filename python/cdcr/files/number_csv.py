@@ -54,6 +54,8 @@ def read_numbers(
     """
     header, rows = read_rows(path, what)
     layout, places = _layout(header, layouts, path)
+    if not rows:
+        raise ValueError(f"{path} has no rows of numbers under its header")
     table = [_numbers([row[k] for k in places], layout, where) for where, row in rows]
     return layout, [row[0] for row in table], [row[1:] for row in table]
 
@@ -69,8 +71,6 @@ def read_rows(path: Path, what: str) -> tuple[list[str], list[tuple[str, list[st
     for where, row in rows:
         if len(row) != len(header):
             raise ValueError(f"{where}: must have {len(header)} columns, got {len(row)}")
-    if header and not rows:
-        raise ValueError(f"{path} has no rows of numbers under its header")
     return header, rows
 
 

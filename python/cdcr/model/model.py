@@ -9,11 +9,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cdcr import _core
-from cdcr.base.arrays import FloatArray
+from cdcr.base.arrays import FloatArray, finite
 from cdcr.model.inverse_kinematics import InverseKinematics
 from cdcr.model.modes import Modes
 from cdcr.model.statics import checked_allocation, checked_equilibrium
 from cdcr.robot.robot import Robot
+from cdcr.robot.units import ask_about_commands
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -135,6 +136,7 @@ class Model(_core.Model):
             If there is no equilibrium within the bending limit, or none was found.
         """
         found = self.find_equilibrium(tension, q0, wrenches)
+        ask_about_commands(self.robot, finite(tension, "tension"))
         return checked_equilibrium(found) if throw else found
 
     def modes(

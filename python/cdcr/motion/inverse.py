@@ -240,7 +240,7 @@ def _check(model: Model, reference: Reference, infeasible: str) -> None:
         i, section = beyond[0]
         raise ValueError(
             f"the reference bends section {section + 1} by {angles[i, section]:.4g} rad at "
-            f"t = {reference.t[i]:g} s, beyond cdcr.max_bending = {_core.max_bending:.4g} rad"
+            f"t = {reference.t[i]:g} s, beyond 3 pi rad"
         )
 
 

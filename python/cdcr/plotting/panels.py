@@ -17,9 +17,9 @@ if TYPE_CHECKING:
 
 # Smallest spans shown, so that rounding noise does not fill a panel.
 MIN_ANGLE = 1.0  # [deg]
-MIN_TENSION = 1.0  # [N]
-MIN_LENGTH = 1e-3  # [m]
-MIN_ENERGY = 1e-9  # [J]
+MIN_TENSION = 0.05  # of what bends the robot by about 1 rad
+MIN_LENGTH = 1e-3  # of the robot's length
+MIN_ENERGY = 1e-9  # of what bends it by about 1 rad
 MIN_ERROR = 1e-15  # [1]
 
 MAX_NAMED = 9  # lines named in one legend
@@ -117,7 +117,8 @@ def plot_tension(axes: Axes, run: Trajectory) -> None:
     if model.num_cables > 1:
         legend_above(axes, model.num_cables)
     axes.set_ylabel("tension [N]")
-    top = max(MIN_TENSION, np.max(run.tension, initial=0.0))
+    radius = max((cable.radius for cable in model.robot.all_cables), default=1.0)
+    top = max(MIN_TENSION * _stiffness(model) / radius, np.max(run.tension, initial=0.0))
     axes.set_ylim(-0.05 * top, 1.08 * top)  # a line along zero stays clear of the frame
     if not run.model.num_cables:
         axes.text(0.5, 0.5, "no cables", transform=axes.transAxes, ha="center", color=GREY)
@@ -143,7 +144,12 @@ def cable_dashes(model: Model) -> list[Any]:
 def _plot_tip(axes: Axes, run: Trajectory) -> None:
     _plot_lines(axes, run.t, run.tip, ["x", "y", "z"])
     axes.set_ylabel("tip position [m]")
-    keep_span(axes, MIN_LENGTH)
+    keep_span(axes, MIN_LENGTH * run.model.robot.length)
+
+
+def _stiffness(model: Model) -> float:
+    """Return the bending stiffness of the stiffest section [N m/rad]."""
+    return max(section.stiffness for section in model.robot.sections)
 
 
 def _plot_energy(axes: Axes, run: Trajectory) -> None:
@@ -153,7 +159,7 @@ def _plot_energy(axes: Axes, run: Trajectory) -> None:
     axes.plot(run.t, run.potential_energy, color=potential, label="potential", linestyle=DASHES[1])
     legend_above(axes, 3)
     axes.set_ylabel("energy [J]")
-    keep_span(axes, MIN_ENERGY)
+    keep_span(axes, MIN_ENERGY * _stiffness(run.model))
 
 
 def _plot_energy_error(axes: Axes, run: Trajectory) -> None:

@@ -11,6 +11,7 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # type: ignore[import-u
 from numpy.typing import ArrayLike
 
 from cdcr.base.arrays import FloatArray, finite
+from cdcr.base.check import Check
 from cdcr.plotting import panels, space
 from cdcr.plotting.geometry import base_plate, robot_shape, states_at
 from cdcr.plotting.style import BLACK, DISK, GREY, StyledFigure, line_colors, style
@@ -126,7 +127,7 @@ def plot_robot(
     """
     state = _checked("q", q, model.num_coordinates)
     with style():
-        axes = space.add_axes(StyledFigure(figsize=PICTURE)) if ax is None else ax
+        axes = space.add_axes(StyledFigure(figsize=PICTURE)) if ax is None else _in_space(ax)
         show_robot(axes, model, [state])
         robot = RobotArtists(axes, model, state, alpha=alpha)
         if tension is None:
@@ -157,12 +158,17 @@ def plot_run_robot(
     Axes3D
     """
     if times is None:
-        times = np.linspace(run.t[0], run.t[-1], num)
+        check = Check()
+        count = check.whole("num", num, "a whole number >= 1", low=1)
+        check.done()
+        times = np.linspace(run.t[0], run.t[-1], count)
     chosen = np.atleast_1d(finite(times, "times"))
+    if chosen.ndim != 1 or not chosen.size:
+        raise ValueError(f"times must have shape (M,) with M at least 1, got {chosen.shape}")
     states = states_at(run, chosen)
     fading = np.linspace(FAINTEST, 1.0, len(chosen)) if len(chosen) > 1 else [1.0]
     with style():
-        axes = space.add_axes(StyledFigure(figsize=PICTURE)) if ax is None else ax
+        axes = space.add_axes(StyledFigure(figsize=PICTURE)) if ax is None else _in_space(ax)
         show_robot(axes, run.model, states, run.tip)
         axes.plot(*run.tip.T, color=GREY, linewidth=0.9, linestyle=":", label="path of the tip")
         for k, (time, q, alpha) in enumerate(zip(chosen, states, fading, strict=True)):
@@ -196,6 +202,13 @@ def _finish(axes: Any) -> None:
         width += legend.get_window_extent().width / figure.dpi
     figure.set_size_inches(width, size[1])
     space.place(axes, scale, size)
+
+
+def _in_space(axes: Any) -> Any:
+    if getattr(axes, "name", "") != "3d":
+        kind = type(axes).__name__
+        raise ValueError(f"ax must be an Axes3D, as projection='3d' makes one, got {kind}")
+    return axes
 
 
 def _checked(name: str, value: ArrayLike, size: int) -> FloatArray:

@@ -1,10 +1,10 @@
-"""Pictures one after the other as a film: GIF by Pillow, MP4 by ffmpeg."""
+"""Pictures one after the other as a film: GIF by Pillow, MP4 by ffmpeg, HTML by ourselves."""
 
 from __future__ import annotations
 
 import shutil
 import subprocess
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from itertools import chain
 from pathlib import Path
@@ -12,6 +12,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
+
+from cdcr.plotting.film_page import write_page
 
 Frame = NDArray[np.uint8]  # (height, width, 4): red, green, blue, opacity
 MAX_GIF_FPS = 50.0  # browsers slow down anything faster
@@ -21,8 +23,8 @@ def film_path(path: Path) -> Path:
     """Return the path with the suffix of the format to write, or say why it cannot be written."""
     if not path.suffix:
         return path.with_suffix(".mp4" if shutil.which("ffmpeg") else ".gif")
-    if path.suffix not in (".gif", ".mp4"):
-        raise ValueError(f"the file name must end in .gif or .mp4, got {path.name!r}")
+    if path.suffix not in _WRITERS:
+        raise ValueError(f"the file name must end in .gif, .mp4 or .html, got {path.name!r}")
     if path.suffix == ".mp4" and not shutil.which("ffmpeg"):
         raise RuntimeError(
             f"writing {path.name} needs the program ffmpeg, which is not on the PATH; "
@@ -32,9 +34,8 @@ def film_path(path: Path) -> Path:
 
 
 def write_film(path: Path, suffix: str, frames: Iterable[Frame], fps: float) -> None:
-    """Write frames, at least one, as a .gif or .mp4 to a file of any name."""
-    write = _write_gif if suffix == ".gif" else _write_mp4
-    write(path, iter(frames), fps)
+    """Write frames, at least one, as a film of that suffix to a file of any name."""
+    _WRITERS[suffix](path, iter(frames), fps)
 
 
 def _write_gif(path: Path, frames: Iterator[Frame], fps: float) -> None:
@@ -83,3 +84,10 @@ def _write_mp4(path: Path, frames: Iterator[Frame], fps: float) -> None:
         _, complaint = ffmpeg.communicate()
     if ffmpeg.returncode:
         raise RuntimeError(f"ffmpeg could not write the film: {complaint.decode().strip()}")
+
+
+_WRITERS: dict[str, Callable[[Path, Iterator[Frame], float], None]] = {
+    ".gif": _write_gif,
+    ".mp4": _write_mp4,
+    ".html": write_page,
+}

@@ -17,6 +17,7 @@ from cdcr.base.quantity import quantity
 from cdcr.robot.cable import Cable
 from cdcr.robot.parts import Parts, part_counts, parts_of
 from cdcr.robot.section import Section
+from cdcr.robot.units import ask_about_robot
 
 Vector = tuple[float, float, float]
 Matrix = tuple[Vector, Vector, Vector]  # three rows
@@ -135,6 +136,7 @@ class Robot:
         check = Check()
         check.keep(self)
         check.done(self._to_core().violations())
+        ask_about_robot(self)
 
     def __repr__(self) -> str:
         """Say what one would type, or what it is where that does not fit on a screen."""

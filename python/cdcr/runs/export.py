@@ -21,6 +21,7 @@ from cdcr.files.number_csv import RUN_TIME
 from cdcr.runs.stats import STATS
 
 if TYPE_CHECKING:
+    import pandas  # type: ignore[import-untyped]
     import xarray
 
     from cdcr.model.model import Model
@@ -162,11 +163,27 @@ def _write_netcdf(run: Trajectory, path: Path) -> None:
     path.write_bytes(whole.getbuffer())
 
 
-def _write_csv(run: Trajectory, path: Path) -> None:
+def to_dataframe(run: Trajectory) -> pandas.DataFrame:
+    """Return the run as a DataFrame; see Trajectory.to_dataframe."""
+    pd: Any = require("pandas", "data")
+    (time, *header), (t, *columns) = _table(run)
+    frame: pandas.DataFrame = pd.DataFrame(
+        dict(zip(header, columns, strict=True)), index=pd.Index(t, name=time)
+    )
+    return frame
+
+
+def _table(run: Trajectory) -> tuple[list[str], list[FloatArray]]:
+    """Return the names and the values (N,) of all columns, times first."""
     header, columns = [RUN_TIME], [run.t]
     for item in quantities(run):
         header += _columns(run.model, item.name, item.dims, item.units)
         columns += list(item.values.reshape(len(run), -1).T)
+    return header, columns
+
+
+def _write_csv(run: Trajectory, path: Path) -> None:
+    header, columns = _table(run)
     with path.open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(header)

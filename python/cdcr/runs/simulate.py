@@ -11,13 +11,16 @@ from numpy.typing import ArrayLike
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray
+from cdcr.base.check import Check
 from cdcr.model.model import Model
 from cdcr.model.wrench import Wrench, loads
+from cdcr.robot.units import ask_about_commands
 from cdcr.runs.command import Command, command_input
 from cdcr.runs.events import EventFunction, EventRecord, watched
 from cdcr.runs.trajectory import SlackEvent, Trajectory
 
 MethodName = Literal["bdf", "adams", "dopri5", "rk4"]
+MAX_STEPS = 2**63 - 1  # that the core can count
 
 
 def warn_beyond_taylor_range(model: Model, q: FloatArray) -> None:
@@ -32,6 +35,29 @@ def warn_beyond_taylor_range(model: Model, q: FloatArray) -> None:
             UserWarning,
             stacklevel=3,
         )
+
+
+def integrator_options(
+    method: object, *, max_steps: int | None = None, **given: float | None
+) -> tuple[_core.Method, _core.Options]:
+    """Return method and options as the core takes them, None for its defaults, or refuse them."""
+    names = [one.name for one in _core.Method]
+    if not (isinstance(method, str) and method in names):
+        known = ", ".join(map(repr, names))
+        raise ValueError(f"method must be one of {known}, got {method!r}")
+    check = Check()
+    told: dict[str, Any] = {
+        name: check.number(name, value, "a number")
+        for name, value in given.items()
+        if value is not None
+    }
+    if max_steps is not None:
+        requirement = f"a whole number 1 to {MAX_STEPS}"
+        told["max_steps"] = check.whole(
+            "max_steps", max_steps, requirement, low=-MAX_STEPS, high=MAX_STEPS
+        )
+    check.done()
+    return _core.Method[method], _core.Options(**told)
 
 
 def simulate(
@@ -114,17 +140,12 @@ def simulate(
     ValueError
         For an argument out of range; the sentence names it.
     """
-    try:
-        chosen = _core.Method[method]
-    except KeyError:
-        known = ", ".join(repr(m.name) for m in _core.Method)
-        raise ValueError(f"method must be one of {known}, got {method!r}") from None
+    chosen, options = integrator_options(
+        method, rtol=rtol, atol=atol, step=step, max_step=max_step, max_steps=max_steps
+    )
     if tension is not None and command is not None:
         raise ValueError("give either tension or command, two names for one thing, not both")
     name, asked = ("tension", tension) if command is None else ("command", command)
-    given = {"rtol": rtol, "atol": atol, "step": step, "max_step": max_step, "max_steps": max_steps}
-    told: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
-    options = _core.Options(**told)
     watch = watched(events)
     if controller is not None:
         if asked is not None or len(break_points) > 0:
@@ -152,6 +173,7 @@ def simulate(
         events=tuple(EventRecord(*event) for event in raw.events),
     )
     warn_beyond_taylor_range(model, run.q)
+    ask_about_commands(model.robot, run.command)
     if throw and not run.success:
         raise RuntimeError(run.message)
     return run

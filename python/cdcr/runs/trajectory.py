@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from pathlib import Path
     from typing import Any
 
+    import pandas  # type: ignore[import-untyped]
     import xarray
     from matplotlib.figure import Figure
     from numpy.typing import ArrayLike
@@ -214,6 +215,16 @@ class Trajectory:
 
         return export.to_xarray(self)
 
+    def to_dataframe(self) -> pandas.DataFrame:
+        """Return the run as a table with a row for each time, which is the index [s].
+
+        The columns are those of the CSV file that `save` writes, such as ``q1_x [rad]``. Needs
+        pandas, which comes with the extra ``data``.
+        """
+        from cdcr.runs import export
+
+        return export.to_dataframe(self)
+
     def save(self, path: str | PathLike[str], *, overwrite: bool = False) -> Path:
         """Write the run to netCDF (``.nc``, extra ``data``) or CSV (``.csv``), in SI units.
 
@@ -318,8 +329,8 @@ class Trajectory:
         Parameters
         ----------
         path : path-like
-            ``.mp4`` (needs ffmpeg) or ``.gif``; without a suffix, ``.mp4`` where ffmpeg is found
-            and ``.gif`` elsewhere.
+            ``.mp4`` (needs ffmpeg), ``.gif`` or ``.html``, a page that any browser plays; without
+            a suffix, ``.mp4`` where ffmpeg is found and ``.gif`` elsewhere.
         fps : float
             Frames for each second of film.
         speed : float

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from cdcr import robots
-from cdcr.base.check import require_known
+from cdcr.base.check import known_name
 from cdcr.files.toml import read_toml
 from cdcr.scenarios import library
 from cdcr.scenarios.scenario import Scenario
@@ -63,7 +63,7 @@ def get(name: str) -> Scenario:
     Parameters
     ----------
     name : str
-        One of `names`.
+        One of `names`, with dashes or underscores.
 
     Returns
     -------
@@ -74,7 +74,7 @@ def get(name: str) -> Scenario:
     ValueError
         For an unknown name, with the known ones.
     """
-    require_known("scenario", name, names())
+    name = known_name("scenario", name, names())
     table = _table(name)
     if "t_end" in table:
         from cdcr.scenarios.file.reader import load_scenario
@@ -104,13 +104,13 @@ def source_file(name: str) -> Path:
         For an unknown name, or a scenario in which nothing runs, with those to choose from.
     """
     files = [known for known in names() if "t_end" in _table(known)]
-    if name in names() and name not in files:
+    pictures = {known for known in names() if known not in files}
+    if str(name).replace("_", "-") in pictures:
         raise ValueError(
             f"nothing runs in the scenario {name!r}: it is a picture of the model alone. Scenarios "
             f"in which something runs: {', '.join(files)}"
         )
-    require_known("scenario", name, files)
-    return _file(name)
+    return _file(known_name("scenario", name, files))
 
 
 def _folder() -> Path:

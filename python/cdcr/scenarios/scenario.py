@@ -10,20 +10,19 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from cdcr._core import Controller
-from cdcr.base.arrays import FloatArray
+from cdcr.base.arrays import MAX_SAMPLES, FloatArray
 from cdcr.base.check import Check
 from cdcr.model.model import Model
 from cdcr.model.wrench import Wrench
 from cdcr.robot.robot import Robot
 from cdcr.runs.command import TensionTable
-from cdcr.runs.simulate import MethodName, simulate
+from cdcr.runs.simulate import MethodName, integrator_options, simulate
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.metrics import Metric, run_metrics
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-MAX_SAMPLES = 10_000_000  # about a gigabyte of trajectory
 FILES = {"picture": ".png", "csv": ".csv", "nc": ".nc"}
 
 
@@ -184,6 +183,36 @@ class Scenario:
         check.done()
         return np.linspace(0.0, end, num)
 
+    def options(self, **given: Any) -> dict[str, Any]:
+        """Return the options of a run: those given, and the scenario's own in place of None.
+
+        Parameters
+        ----------
+        given : optional
+            method, rtol, atol, step, max_step and max_steps as in `simulate`.
+
+        Returns
+        -------
+        dict
+            The same names with their values.
+
+        Raises
+        ------
+        ValueError
+            For an option out of its range, or any where nothing is integrated.
+        """
+        named = [name for name, value in given.items() if value is not None]
+        if self.input_source and not self.input_source.integrates:
+            if named:
+                raise ValueError(
+                    "nothing is integrated along a trajectory without simulate = true, so it "
+                    f"takes no {', '.join(named)}"
+                )
+            return {name: getattr(self, name) for name in given}
+        options = {name: given[name] if name in named else getattr(self, name) for name in given}
+        integrator_options(**options)
+        return options
+
     def simulate(
         self,
         *,
@@ -220,26 +249,14 @@ class Scenario:
             For an option out of its range, or a scenario in which nothing runs.
         """
         t, model = self.times(t_end, num_samples), self.model
+        options = self.options(
+            method=method, rtol=rtol, atol=atol, step=step, max_step=max_step, max_steps=max_steps
+        )
         q0 = self.start(model)
-        given = {
-            "method": method,
-            "rtol": rtol,
-            "atol": atol,
-            "step": step,
-            "max_step": max_step,
-            "max_steps": max_steps,
-        }
-        named = [name for name, value in given.items() if value is not None]
-        options: dict[str, Any] = {name: getattr(self, name) for name in given}
-        options |= {name: given[name] for name in named} | {"progress": progress}
+        options["progress"] = progress
         if self.wrenches:
             options["wrenches"] = self.wrenches
         if self.input_source:
-            if named and not self.input_source.integrates:
-                raise ValueError(
-                    "nothing is integrated along a trajectory without simulate = true, so it "
-                    f"takes no {', '.join(named)}"
-                )
             return self.input_source.run(model, q0, self.qd0, t, **options)
         if self.controller:
             options["controller"] = self.controller(model)

@@ -93,7 +93,9 @@ def read_controller(table: dict[str, Any], model: Model, file: Path) -> PidLoop:
     found = [*schema_errors(ReferenceTable, reference, at), *values.rival_errors(reference, at)]
     refuse(str(file), found)
     refuse(str(file), values.length_errors(reference, model.num_sections, at))
-    loop = PidLoop(options, values.bending_vector(reference, model.num_sections))
+    with values.error_prefix(str(file)):
+        goal = values.bending_vector(reference, model.num_sections, at)
+    loop = PidLoop(options, goal)
     with values.error_prefix(f"{file}, [{AT}]"):
         loop(model)
     return loop

@@ -29,6 +29,7 @@ from cdcr.base.arrays import FloatArray
 from cdcr.files.toml import read_toml, refuse, schema_errors
 from cdcr.model.model import Model
 from cdcr.runs.command import TensionTable
+from cdcr.runs.simulate import integrator_options
 from cdcr.scenarios.file.controller import read_controller
 from cdcr.scenarios.file.robot import read_robot
 from cdcr.scenarios.file.shapes import TensionShapes
@@ -69,6 +70,8 @@ def load_scenario(path: str | PathLike[str]) -> Scenario:
     refuse(str(file), schema_errors(ScenarioTable, table))
     integrator = table.get("integrator", {})
     refuse(str(file), schema_errors(IntegratorTable, integrator, "integrator"))
+    with error_prefix(f"{file}, [integrator]"):
+        integrator_options(**{"method": "bdf"} | integrator)
     motion = table.get("trajectory", {})
     if "feed_back" in motion and "simulate" not in motion:
         motion["simulate"] = motion.pop("feed_back")  # its old name

@@ -6,10 +6,10 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, create_model
 
+from cdcr.base.arrays import MAX_SAMPLES
 from cdcr.robot.robot import Robot
 from cdcr.robot.schema import table_of
 from cdcr.robot.section import Section
-from cdcr.scenarios.scenario import MAX_SAMPLES
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 _Tension = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]

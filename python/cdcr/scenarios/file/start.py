@@ -16,7 +16,7 @@ from cdcr.base.arrays import FloatArray
 from cdcr.files.toml import refuse, schema_errors
 from cdcr.model.model import Model
 from cdcr.model.statics import ConvergenceError
-from cdcr.scenarios.file.values import bending_vector, length_errors, rival_errors
+from cdcr.scenarios.file.values import bending_vector, error_prefix, length_errors, rival_errors
 
 _SHAPE = ("q", "theta", "theta_deg", "phi", "phi_deg")
 
@@ -72,8 +72,9 @@ def read_start(
     refuse(str(file), [*schema_errors(InitialTable, table, at), *rival_errors(table, at)])
     arrays = {key: table[key] for key in (*_SHAPE, "qd") if key in table}
     refuse(str(file), length_errors(arrays, num_sections, at))
-    q0, zeros = bending_vector(table, num_sections), [0.0] * (2 * num_sections)
-    qd0 = tuple(map(float, table.get("qd", zeros)))
+    with error_prefix(str(file)):
+        q0 = bending_vector(table, num_sections, at)
+    qd0 = tuple(map(float, table.get("qd", [0.0] * (2 * num_sections))))
     if not table.get("equilibrium", False):
         if "payload" in table:
             refuse(str(file), ["initial.payload needs equilibrium = true: it is held until then"])

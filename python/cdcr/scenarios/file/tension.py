@@ -147,7 +147,8 @@ def _hold(table: dict[str, Any], model: Model, file: Path) -> Hold:
     for k in range(len(t)):
         shape = {key: value[k] for key, value in rows.items()}
         refuse(str(file), values.length_errors(shape, model.num_sections, at))
-        q.append(values.bending_vector(shape, model.num_sections))
+        with values.error_prefix(str(file)):
+            q.append(values.bending_vector(shape, model.num_sections, at))
     times, payload = np.array(t), hold.get("payload", 0.0)
     held = Hold(times, np.array(q), payload, table.get("interpolation", "linear"), f"{file}, {at}")
     commands = held(model, float(times[-1]))
@@ -163,7 +164,8 @@ def _sampled(table: dict[str, Any], model: Model, file: Path) -> Sampled:
     shapes = _shapes(table["shapes"], model, file, "tension.shapes")
 
     def rows(model: Model, t_end: float) -> TensionTable:
-        t = even_times(t_end, table["step"])
+        with values.error_prefix(f"{file}, [tension]"):
+            t = even_times(t_end, table["step"])
         return TensionTable(t, shapes(t))
 
     return rows

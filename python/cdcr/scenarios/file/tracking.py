@@ -125,7 +125,8 @@ class TrackedMotion:
 
     def command(self, model: Model, t: FloatArray) -> Command:
         """Return the commands of the cables in a run with output times (N,) from 0 on [s]."""
-        times = t if self.step is None else even_times(float(t[-1]), self.step)
+        with error_prefix(self.where):
+            times = t if self.step is None else even_times(float(t[-1]), self.step)
         if driven_by_length(model):
             if self.step is None:
                 return lambda time: self._lengths(model, np.array([time]))[0]

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
 
+from cdcr._core import max_bending
 from cdcr.base.arrays import FloatArray
 from cdcr.base.check import count
 from cdcr.files.toml import format_toml, refuse
@@ -36,11 +38,11 @@ def rival_errors(table: Mapping[str, Any], at: str) -> list[str]:
 
 
 def length_errors(table: Mapping[str, Any], num_sections: int, at: str) -> list[str]:
-    """Return a sentence for each array that does not fit the number of sections."""
+    """Return a sentence for each array that is not a number for each section, or two."""
     found = []
     for key, value in table.items():
         length = num_sections * (2 if key in ("q", "qd") else 1)
-        if len(value) != length:
+        if len(value) != length or any(isinstance(one, list) for one in value):
             found.append(
                 f"{at}.{key} must have {count(length, 'number')} for a robot with "
                 f"{count(num_sections, 'section')}, got {format_toml(value)}"
@@ -48,8 +50,21 @@ def length_errors(table: Mapping[str, Any], num_sections: int, at: str) -> list[
     return found
 
 
-def bending_vector(table: Mapping[str, Any], num_sections: int) -> tuple[float, ...]:
-    """Return the bending vectors (2n,) [rad] of a table with q, or theta and phi."""
+def bending_vector(table: Mapping[str, Any], num_sections: int, at: str) -> tuple[float, ...]:
+    """Return the bending vectors (2n,) [rad] of a table with q, or theta and phi, or refuse it."""
+    q = _bending_vector(table, num_sections)
+    for i in range(num_sections):
+        angle = math.hypot(*q[2 * i : 2 * i + 2])
+        if angle > max_bending:
+            key = next(name for name in ("q", "theta", "theta_deg") if name in table)
+            raise ValueError(
+                f"{at}.{key} must bend each section by at most 3 pi rad, 540 deg, got "
+                f"{angle:.6g} rad, {math.degrees(angle):.6g} deg, in section {i + 1}"
+            )
+    return q
+
+
+def _bending_vector(table: Mapping[str, Any], num_sections: int) -> tuple[float, ...]:
     if "q" in table:
         return tuple(map(float, table["q"]))
     straight = [0.0] * num_sections

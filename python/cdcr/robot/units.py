@@ -1,0 +1,75 @@
+"""Questions about numbers that are possible but look like those of another unit."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Iterator
+from itertools import accumulate
+from typing import TYPE_CHECKING
+
+from cdcr.base.check import entry
+
+if TYPE_CHECKING:
+    from cdcr.base.arrays import FloatArray
+    from cdcr.robot.robot import Robot
+
+FULL_TURN = 2.0 * math.pi * (1.0 + 1e-9)  # [rad]
+SOFTEST = (1e-3, 1e3)  # Young's moduli that nothing has, but in GPa or MPa much [Pa]
+FARTHEST = 10.0  # commanded length over that of the straight robot, or the other way round
+
+
+def ask_about_robot(robot: Robot) -> None:
+    """Warn of angles that may be degrees and of moduli that may be in GPa."""
+    for question in _questions(robot):
+        warnings.warn(question, UserWarning, stacklevel=4)  # where the robot is described
+
+
+def _questions(robot: Robot) -> Iterator[str]:
+    for i, section in enumerate(robot.sections):
+        at = entry("sections", i)
+        for j, angle in enumerate(section.cable_angles):
+            yield from _about_angle(f"{at}: cable_angles[{j}]", angle, "cable_angles_deg")
+        modulus = section.youngs_modulus
+        if SOFTEST[0] <= modulus < SOFTEST[1]:
+            yield (
+                f"{at}: youngs_modulus = {modulus:g} Pa is softer than any backbone: is it in GPa? "
+                f"{modulus:g} GPa are {1e9 * modulus:g} Pa"
+            )
+    for j, cable in enumerate(robot.cables):
+        yield from _about_angle(f"{entry('cables', j)}: angle", cable.angle, "angle_deg")
+
+
+def _about_angle(name: str, angle: float, in_degrees: str) -> Iterator[str]:
+    if abs(angle) > FULL_TURN:
+        yield (
+            f"{name} = {angle:g} rad is more than a full turn: is it in degrees? In a file, "
+            f"{in_degrees} takes them; in Python, math.radians({angle:g})"
+        )
+
+
+def ask_about_commands(robot: Robot, command: FloatArray) -> None:
+    """Warn of commands (..., num_cables) to cables driven by length that may be tensions."""
+    ends = list(accumulate(section.length for section in robot.sections))
+    drives = [
+        *(
+            (ends[i], one.cable_stiffness)
+            for i, one in enumerate(robot.sections)
+            for _ in one.cable_angles
+        ),
+        *((ends[cable.end_section], cable.stiffness) for cable in robot.cables),
+    ]
+    for j, (length, stiffness) in enumerate(drives):
+        if not stiffness:
+            continue
+        asked = command[..., j]
+        odd = asked[(asked > FARTHEST * length) | (asked < length / FARTHEST)]
+        if odd.size:
+            warnings.warn(
+                f"cable {j + 1} is driven by length and told {odd.flat[0]:g} m, where the straight "
+                f"robot takes {length:g} m: is that a tension [N]? Model.rest_command gives the "
+                "lengths of the straight robot, Model.commands those that hold tensions",
+                UserWarning,
+                stacklevel=3,
+            )
+            return

@@ -1,0 +1,74 @@
+"""Numbers that look like those of another unit: a warning asks."""
+
+import math
+import warnings
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import cdcr
+
+SECTION = cdcr.robots.amouri2020(damping=0.02).sections[0]
+
+
+def robot(**changes: Any) -> cdcr.Robot:
+    return cdcr.Robot(sections=[SECTION, replace(SECTION, **changes)])
+
+
+def test_angles_of_cables_in_degrees() -> None:
+    with pytest.warns(UserWarning, match="degrees") as caught:
+        robot(cable_angles=[0, 90, 180, 270])
+    assert str(caught[0].message) == (
+        "section 2: cable_angles[1] = 90 rad is more than a full turn: is it in degrees? In a "
+        "file, cable_angles_deg takes them; in Python, math.radians(90)"
+    )
+    assert caught[0].filename == __file__
+    cable = cdcr.Cable(radius=0.02, angle=-120.0, end_section=0)
+    with pytest.warns(UserWarning, match=r"^cable 1 of cables: angle = -120 rad .* angle_deg"):
+        cdcr.Robot(sections=[SECTION], cables=[cable])
+
+
+@pytest.mark.parametrize("modulus", [0.05, 9.5, 50.0, 999.0])
+def test_a_modulus_in_gigapascals(modulus: float) -> None:
+    with pytest.warns(UserWarning, match=r"^section 2: youngs_modulus = .* is it in GPa\?"):
+        robot(youngs_modulus=modulus)
+
+
+def test_a_file_asks_too(tmp_path: Path) -> None:
+    path = tmp_path / "robot.toml"
+    cdcr.robots.amouri2020().save(path)
+    path.write_text(path.read_text().replace("9500000000.0", "9.5"))
+    with pytest.warns(UserWarning, match=r"is it in GPa\?"):
+        cdcr.Robot.load(path)
+
+
+def driven() -> cdcr.Model:
+    return cdcr.Model(cdcr.Robot(sections=[replace(SECTION, cable_stiffness=5e3)]))
+
+
+@pytest.mark.parametrize("tension", [[0.0, 0.0, 0.0], [0.802, 5.0, 0.0], [9.0, 0.802, 0.802]])
+def test_newtons_for_a_cable_driven_by_length(tension: list[float]) -> None:
+    model, zeros = driven(), np.zeros(2)
+    calls: list[Any] = [
+        lambda: cdcr.simulate(model, zeros, zeros, t=[0.0, 1e-3], tension=tension),
+        lambda: cdcr.simulate(model, zeros, zeros, t=[0.0, 1e-3], tension=lambda t: tension),
+        lambda: model.equilibrium(tension, throw=False),
+    ]
+    for call in calls:
+        with pytest.warns(UserWarning, match=r"driven by length .* is that a tension \[N\]\?"):
+            call()
+
+
+def test_what_is_sound_is_not_asked_about() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        robot(cable_angles=[-2.0 * math.pi, 2.0 * math.pi, math.radians(359.0)])
+        robot(youngs_modulus=1e3)
+        model, zeros = driven(), np.zeros(2)
+        for length in (model.rest_command(), [0.802, 0.79, 8.0]):
+            cdcr.simulate(model, zeros, zeros, t=[0.0, 1e-3], tension=length)
+            model.equilibrium(length, throw=False)
+        cdcr.simulate(cdcr.Model(robot()), np.zeros(4), np.zeros(4), t=[0.0], tension=np.zeros(6))
