@@ -6,6 +6,7 @@
 #include <sstream>
 #include <vector>
 
+#include "bind.hpp"
 #include "states.hpp"
 
 namespace cdcr::python {
@@ -56,7 +57,8 @@ Array convert(const py::handle& object, const char* name, std::initializer_list<
     return Array(py::reinterpret_borrow<py::object>(object));
   } catch (const py::error_already_set& error) {
     // Ctrl-C may strike in the middle of a conversion, and is not the argument's fault.
-    if (!error.matches(PyExc_TypeError) && !error.matches(PyExc_ValueError)) throw;
+    const auto is = [&error](PyObject* kind) { return error.matches(kind); };
+    if (!is(PyExc_TypeError) && !is(PyExc_ValueError) && !is(PyExc_OverflowError)) throw;
   }
   std::ostringstream text;
   text << name << " must be numbers of shape " << shape_text(shape) << ", got "
@@ -135,6 +137,23 @@ VectorArgument read_bending(const Model& model, const py::handle& object, const 
   return VectorArgument(std::move(q));
 }
 
+VectorArgument read_command(const py::handle& object, const char* name, Index size) {
+  Array command = read_array(object, name, {size});
+  for (Index i = 0; i < size; ++i) {
+    if (command.data()[i] >= 0.0) continue;
+    std::ostringstream text;
+    text << name << "[" << i << "] must be >= 0 (a cable cannot push), got " << command.data()[i];
+    refuse(text);
+  }
+  return VectorArgument(std::move(command));
+}
+
+const Model& read_model(const py::handle& object) {
+  if (py::isinstance<Model>(object)) return object.cast<const Model&>();
+  throw py::type_error("model must be a cdcr.Model, got " +
+                       py::type::of(object).attr("__name__").cast<std::string>());
+}
+
 VectorArgument read_tension(const Model& model, const py::handle& object) {
   Array tension = read_array(object, "tension", {model.num_cables()});
   check_tension(model, tension);
@@ -171,6 +190,11 @@ std::string short_text(const VectorXd& vector) {
   for (Index i = 0; i < std::min(most, vector.size()); ++i)
     text << (i > 0 ? ", " : "") << vector[i];
   return "[" + text.str() + (vector.size() > most ? ", ...]" : "]");
+}
+
+VectorXd to_vector(const py::handle& array) {
+  const auto values = array.cast<Array>();
+  return Eigen::Map<const VectorXd>(values.data(), values.size());
 }
 
 py::array_t<double> to_array(const Eigen::Ref<const VectorXd>& vector) {

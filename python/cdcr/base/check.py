@@ -28,10 +28,22 @@ def nearest(word: str, known: Iterable[str]) -> str:
     return f" Did you mean {close[0]!r}?" if close else ""
 
 
+def one_of(value: object, names: Collection[str]) -> bool:
+    """Whether a value, of any type at all, is one of some names."""
+    return isinstance(value, str) and value in names
+
+
+def require_kind(item: str, value: object, kind: type) -> None:
+    """Refuse what is no instance of a public class: 'model must be a cdcr.Model, got NoneType'."""
+    if not isinstance(value, kind):
+        raise TypeError(f"{item} must be a cdcr.{kind.__name__}, got {type(value).__name__}")
+
+
 def require_known(noun: str, name: str, known: Collection[str]) -> None:
     """Refuse a name that is not among the known ones, and say which these are."""
-    if name not in known:
-        told = f"there is no {noun} {name!r}.{nearest(name, known)}"
+    if not one_of(name, known):
+        guess = nearest(name, known) if isinstance(name, str) else ""
+        told = f"there is no {noun} {reprlib.repr(name)}.{guess}"
         raise ValueError(f"{told} Known: {', '.join(known)}")
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cdcr import _core
+from cdcr.base.check import Check, one_of
 from cdcr.model.model import Model
 
 Interpolation = Literal["linear", "previous"]
@@ -36,7 +37,7 @@ class TensionTable:
     interpolation: Interpolation = "linear"
 
     def __post_init__(self) -> None:
-        if self.interpolation not in ("linear", "previous"):
+        if not one_of(self.interpolation, ("linear", "previous")):
             raise ValueError(
                 f"interpolation must be 'linear' or 'previous', got {self.interpolation!r}"
             )
@@ -55,7 +56,9 @@ Command: TypeAlias = (
 def _takes_state(function: Callable[..., Any]) -> bool:
     """Whether a tension function wants (t, q, qd) rather than t alone."""
     try:
-        parameters = inspect.signature(function).parameters.values()
+        # What np.vectorize made takes anything; the function that it calls tells.
+        plain = getattr(function, "pyfunc", function)
+        parameters = inspect.signature(plain).parameters.values()
     except (TypeError, ValueError):
         return False
     if any(p.kind is p.VAR_POSITIONAL for p in parameters):
@@ -76,6 +79,9 @@ def command_input(
     model: Model, command: Command, break_points: Sequence[float] = ()
 ) -> _core.TensionInput:
     """Turn what a user gives as command or tension into the core's input."""
+    check = Check()
+    breaks = check.numbers("break_points", break_points, "a sequence of times", "a number of s")
+    check.done()
     if command is None:
         command = model.rest_command()
     if callable(command):
@@ -83,8 +89,8 @@ def command_input(
         if not _takes_state(function):
             time_only = function
             function = lambda t, q, qd: time_only(t)  # noqa: E731
-        return _core.TensionInput.function(model, function, [float(b) for b in break_points])
-    if len(break_points) > 0:
+        return _core.TensionInput.function(model, function, list(breaks))
+    if breaks:
         raise ValueError("break_points go with a tension function; a table has its own")
     if isinstance(command, TensionTable):
         linear = command.interpolation == "linear"

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray
+from cdcr.base.check import Check, one_of, require_kind
 from cdcr.model.model import Model
 from cdcr.model.wrench import Wrench, loads
 from cdcr.runs.command import Command, command_input
@@ -102,29 +103,40 @@ def simulate(
     Raises
     ------
     ValueError
-        For an argument out of range; the sentence names it.
+        For an argument out of range; the sentence names it. Also for a controller that was made for
+        a robot of other sizes, or that drives another run at this moment.
+    TypeError
+        For a model, a controller or a progress that is none.
     """
-    try:
-        chosen = _core.Method[method]
-    except KeyError:
-        known = ", ".join(repr(m.name) for m in _core.Method)
-        raise ValueError(f"method must be one of {known}, got {method!r}") from None
+    require_kind("model", model, Model)
+    if not one_of(method, _core.Method.__members__):
+        known = ", ".join(map(repr, _core.Method.__members__))
+        raise ValueError(f"method must be one of {known}, got {method!r}")
+    if progress is not None and not callable(progress):
+        raise TypeError(f"progress must be a function of time, got {type(progress).__name__}")
     if tension is not None and command is not None:
         raise ValueError("give either tension or command, two names for one thing, not both")
     asked = tension if command is None else command
-    given = {"rtol": rtol, "atol": atol, "step": step, "max_step": max_step, "max_steps": max_steps}
-    told: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
-    options = _core.Options(**told)
+    given = {"rtol": rtol, "atol": atol, "step": step, "max_step": max_step}
+    check = Check()
+    told: dict[str, Any] = {
+        name: check.number(name, value, "a number")
+        for name, value in given.items()
+        if value is not None
+    }
+    if max_steps is not None:
+        told["max_steps"] = check.whole("max_steps", max_steps, "a whole number", high=2**63 - 1)
+    check.done()
+    rest = _core.Method[method], _core.Options(**told), progress, loads(wrenches)
     if controller is not None:
-        if asked is not None or len(break_points) > 0:
+        require_kind("controller", controller, _core.Controller)
+        if asked is not None or np.size(break_points) > 0:
             name = "tension" if command is None else "command"
             raise ValueError(f"give either {name} or controller, not both")
-        raw = _core.simulate_controlled(
-            model, q0, qd0, t, controller, chosen, options, progress, loads(wrenches)
-        )
+        raw = _core.simulate_controlled(model, q0, qd0, t, controller, *rest)
     else:
         source = command_input(model, asked, break_points)
-        raw = _core.simulate(model, q0, qd0, t, source, chosen, options, progress, loads(wrenches))
+        raw = _core.simulate(model, q0, qd0, t, source, *rest)
     run = Trajectory(
         model=model,
         t=raw.t,

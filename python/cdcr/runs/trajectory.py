@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 import numpy as np
 
 from cdcr import _core
-from cdcr.base.arrays import FloatArray, read_only
-from cdcr.base.check import count
+from cdcr.base.arrays import FloatArray, ReadOnlyArrays, read_only
+from cdcr.base.check import count, require_kind
+from cdcr.model.model import Model
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -25,7 +26,6 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from cdcr._core import Stats, Status
-    from cdcr.model.model import Model
 
 __all__ = ["SlackEvent", "Trajectory"]
 
@@ -49,7 +49,7 @@ class SlackEvent(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Trajectory:
+class Trajectory(ReadOnlyArrays):
     """A run, sampled: one row for each output time reached. All arrays are read-only.
 
     Parameters
@@ -90,6 +90,7 @@ class Trajectory:
 
     def __post_init__(self) -> None:
         """Take copies nobody else can write to, and check that they fit together."""
+        require_kind("model", self.model, Model)
         num_samples, num_coordinates = np.size(self.t), self.model.num_coordinates
         if self.command is None:
             object.__setattr__(self, "command", self.tension)
