@@ -72,6 +72,8 @@ def test_what_its_methods_raise_leaves_the_run_as_it_is() -> None:
     error = PatienceError("enough")
 
     class Tired(cdcr.Controller):
+        early = False
+
         def reset(self) -> None:
             if self.early:
                 raise error
@@ -83,7 +85,7 @@ def test_what_its_methods_raise_leaves_the_run_as_it_is() -> None:
 
     for early in (False, True):
         tired = Tired(0.01)
-        tired.early = early  # type: ignore[attr-defined]
+        tired.early = early
         for _ in range(2):
             with pytest.raises(PatienceError) as caught:
                 cdcr.simulate(MODEL, Q0, QD0, t=T, controller=tired)

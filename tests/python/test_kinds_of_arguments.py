@@ -1,6 +1,7 @@
 """Arguments of another kind than asked for: a sentence that names the item, nothing else."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any, cast
 
 import numpy as np
@@ -81,11 +82,11 @@ def test_functions_that_numpy_has_vectorised() -> None:
     )
     for function in (of_time, of_state):
         np.testing.assert_array_equal(run(tension=function).q, plain.q)
-    wrench = {"section": 0, "force": (0.1, 0.0, 0.0)}
+    wrench = cdcr.Wrench(section=0, force=(0.1, 0.0, 0.0))
     factor = np.vectorize(lambda t: 1.0 + t)
     np.testing.assert_array_equal(
-        run(wrenches=cdcr.Wrench(**wrench, profile=factor)).q,
-        run(wrenches=cdcr.Wrench(**wrench, profile=lambda t: 1.0 + t)).q,
+        run(wrenches=replace(wrench, profile=factor)).q,
+        run(wrenches=replace(wrench, profile=lambda t: 1.0 + t)).q,
     )
 
 

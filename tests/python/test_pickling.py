@@ -15,9 +15,14 @@ from cdcr import _core
 
 MODEL = cdcr.Model(cdcr.robots.three_sections())
 T = np.linspace(0.0, 1.0, 21)
+
+
+def pickled(protocol: int, thing: Any) -> Any:
+    return pickle.loads(pickle.dumps(thing, protocol))
+
+
 WAYS: dict[str, Callable[[Any], Any]] = {
-    f"protocol {p}": lambda x, p=p: pickle.loads(pickle.dumps(x, p))
-    for p in range(pickle.HIGHEST_PROTOCOL + 1)
+    f"protocol {p}": partial(pickled, p) for p in range(pickle.HIGHEST_PROTOCOL + 1)
 }
 WAYS |= {"copy": copy.copy, "deepcopy": copy.deepcopy}
 

@@ -39,7 +39,7 @@ def require_kind(item: str, value: object, kind: type) -> None:
         raise TypeError(f"{item} must be a cdcr.{kind.__name__}, got {type(value).__name__}")
 
 
-def require_known(noun: str, name: str, known: Collection[str]) -> None:
+def require_known(noun: str, name: object, known: Collection[str]) -> None:
     """Refuse a name that is not among the known ones, and say which these are."""
     if not one_of(name, known):
         guess = nearest(name, known) if isinstance(name, str) else ""
