@@ -3,7 +3,6 @@
 #include <pybind11/pybind11.h>
 
 #include <string>
-#include <utility>
 
 namespace cdcr::python {
 
@@ -18,13 +17,13 @@ class InitialisedCaster : public pybind11::detail::type_caster_base<T> {
 
  private:
   friend class pybind11::detail::type_caster_generic;
-  void load_value(pybind11::detail::value_and_holder&& found) {
+  void load_value(pybind11::detail::value_and_holder found) {
     if (!found.instance_registered()) {
       const auto* type = Py_TYPE(reinterpret_cast<PyObject*>(found.inst));
       throw pybind11::type_error(std::string("this ") + type->tp_name +
                                  " is empty: its __init__ has not been called");
     }
-    pybind11::detail::type_caster_generic::load_value(std::move(found));
+    pybind11::detail::type_caster_generic::load_value(pybind11::detail::value_and_holder(found));
   }
 };
 

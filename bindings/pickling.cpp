@@ -3,7 +3,9 @@
 namespace cdcr::python {
 
 void finish_pickling(const py::module_& m) {
-  const py::object new_object = py::module_::import("copyreg").attr("__newobj__");
+  // Never freed: as long as the module, and a lambda may copy it.
+  const py::handle new_object =
+      py::object(py::module_::import("copyreg").attr("__newobj__")).release();
   const py::cpp_function reduce(
       [new_object](const py::object& self) {
         return py::make_tuple(new_object, py::make_tuple(py::type::of(self)),
