@@ -8,7 +8,6 @@
 
 #include "bind.hpp"
 #include "cdcr/cables.hpp"
-#include "docs.hpp"
 #include "states.hpp"
 
 namespace cdcr::python {
@@ -196,6 +195,23 @@ VectorArgument read_bending(const Model& model, const py::handle& object, const 
   return VectorArgument(std::move(q));
 }
 
+VectorArgument read_command(const py::handle& object, const char* name, Index size) {
+  Array command = read_array(object, name, {size});
+  for (Index i = 0; i < size; ++i) {
+    if (command.data()[i] >= 0.0) continue;
+    std::ostringstream text;
+    text << name << "[" << i << "] must be >= 0 (a cable cannot push), got " << command.data()[i];
+    refuse(text);
+  }
+  return VectorArgument(std::move(command));
+}
+
+const Model& read_model(const py::handle& object) {
+  if (py::isinstance<Model>(object)) return object.cast<const Model&>();
+  throw py::type_error("model must be a cdcr.Model, got " +
+                       py::type::of(object).attr("__name__").cast<std::string>());
+}
+
 py::object command_or_rest(const Model& model, const py::handle& object) {
   if (!object.is_none()) return py::reinterpret_borrow<py::object>(object);
   VectorXd command(model.num_cables());
@@ -241,6 +257,11 @@ std::string short_text(const VectorXd& vector) {
   for (Index i = 0; i < std::min(most, vector.size()); ++i)
     text << (i > 0 ? ", " : "") << vector[i];
   return "[" + text.str() + (vector.size() > most ? ", ...]" : "]");
+}
+
+VectorXd to_vector(const py::handle& array) {
+  const auto values = array.cast<Array>();
+  return Eigen::Map<const VectorXd>(values.data(), values.size());
 }
 
 py::array_t<double> to_array(const Eigen::Ref<const VectorXd>& vector) {

@@ -63,6 +63,12 @@ struct StateArgument {
                                        const char* name);
 [[nodiscard]] StateArgument read_tensions(const Model& model, const py::handle& object);
 
+/// What a user's function gives as commands (size): also refuses a negative one.
+[[nodiscard]] VectorArgument read_command(const py::handle& object, const char* name, Index size);
+
+/// A model, or TypeError.
+[[nodiscard]] const Model& read_model(const py::handle& object);
+
 /// A sequence of cdcr.Wrench, or one, each constant and in its range.
 [[nodiscard]] Wrenches read_wrenches(const Model& model, const py::object& object);
 
@@ -73,6 +79,8 @@ struct StateArgument {
 /// "[1, 0.5]" with the first few numbers, for a repr.
 [[nodiscard]] std::string short_text(const VectorXd& vector);
 
+/// A copy of an array of one dimension that `to_array` has made.
+[[nodiscard]] VectorXd to_vector(const py::handle& array);
 [[nodiscard]] py::array_t<double> to_array(const Eigen::Ref<const VectorXd>& vector);
 [[nodiscard]] py::array_t<double> to_rows(const RowMatrixXd& matrix);
 

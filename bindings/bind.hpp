@@ -2,7 +2,35 @@
 
 #include <pybind11/pybind11.h>
 
-#include "cdcr/model.hpp"
+#include "cdcr/allocation.hpp"
+#include "cdcr/controller.hpp"
+#include "cdcr/modes.hpp"
+#include "cdcr/simulate.hpp"
+#include "cdcr/statics.hpp"
+#include "initialised.hpp"
+
+namespace cdcr::python {
+class PythonPid;
+class PythonSimulator;
+}  // namespace cdcr::python
+
+// Every class bound.
+CDCR_BOUND_CLASS(cdcr::Allocation);
+CDCR_BOUND_CLASS(cdcr::Cable);
+CDCR_BOUND_CLASS(cdcr::CommandInput);
+CDCR_BOUND_CLASS(cdcr::Controller);
+CDCR_BOUND_CLASS(cdcr::Equilibrium);
+CDCR_BOUND_CLASS(cdcr::Model);
+CDCR_BOUND_CLASS(cdcr::Modes);
+CDCR_BOUND_CLASS(cdcr::Options);
+CDCR_BOUND_CLASS(cdcr::python::PythonPid);
+CDCR_BOUND_CLASS(cdcr::python::PythonSimulator);
+CDCR_BOUND_CLASS(cdcr::Robot);
+CDCR_BOUND_CLASS(cdcr::Section);
+CDCR_BOUND_CLASS(cdcr::Stats);
+CDCR_BOUND_CLASS(cdcr::Trajectory);
+CDCR_BOUND_CLASS(cdcr::Wrench);
+CDCR_BOUND_CLASS(cdcr::WrenchInput);
 
 // One function for each concept, called once by module.cpp.
 namespace cdcr::python {

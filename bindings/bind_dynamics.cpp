@@ -74,19 +74,22 @@ void bind_dynamics(PyModel& model) {
               "(..., d) array\n    Accelerations qdd [rad/s^2].", docs::bad_states))
       .def(
           "inverse_dynamics",
-          [](const Model& self, const py::object& q, const py::object& qd, const py::object& qdd) {
+          [](const Model& self, const py::object& q, const py::object& qd, const py::object& qdd,
+             const py::object& wrenches) {
+            const Wrenches loads = read_wrenches(self, wrenches);
             return States{read_bendings(self, q), read_rates(self, qd, "qd"),
                           read_rates(self, qdd, "qdd")}
                 .vectors(self.num_coordinates(), [&](auto& x, auto& xd, auto& xdd, auto& out) {
-                  inverse_dynamics(self, scratch(self), x, xd, xdd, out);
+                  inverse_dynamics(self, scratch(self), x, xd, xdd, loads, out);
                 });
           },
-          "q"_a, "qd"_a, "qdd"_a,
-          Doc("Generalised force that produces given accelerations: cpp/README.md eq. (16),\n"
-              "cpp/several-sections.md eq. (33).",
+          "q"_a, "qd"_a, "qdd"_a, "wrenches"_a = py::tuple(),
+          Doc("Generalised force of the cables that produces given accelerations beside wrenches:\n"
+              "cpp/README.md eq. (16), cpp/several-sections.md eqs. (33), (35).",
               {docs::q, docs::qd,
                "qdd : (..., d) array_like\n"
-               "    Accelerations [rad/s^2].\n"},
+               "    Accelerations [rad/s^2].\n",
+               docs::wrenches},
               "(..., d) array\n    Generalised force [N m].", docs::bad_states))
       .def(
           "linearize", &linearize_states, "q"_a, "qd"_a, "tension"_a, "wrenches"_a = py::tuple(),

@@ -6,6 +6,7 @@
 #include "bind.hpp"
 #include "cdcr/inverse_kinematics.hpp"
 #include "docs.hpp"
+#include "gil.hpp"
 #include "states.hpp"
 
 namespace cdcr::python {
@@ -63,11 +64,14 @@ py::tuple find_bending(const Model& self, const py::object& p, const py::object&
   options.tolerance = tolerance;
   options.seeds = seeds;
   options.iterations = iterations;
+  Interruption interruption;
+  options.stop = [&interruption] { return interruption(); };
   InverseKinematics answer;
   {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     answer = inverse_kinematics(self, point, rotation, start, options);
   }
+  interruption.raise();
   return py::make_tuple(to_array(answer.q), to_array(answer.position), to_rows(answer.rotation),
                         answer.distance, answer.angle, answer.residual, answer.reachable,
                         answer.seeds, answer.iterations, answer.message);

@@ -3,15 +3,17 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <vector>
 
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "cdcr/cvode.hpp"
-#include "cdcr/pid.hpp"
-#include "cdcr/simulate.hpp"
+#include "controllers.hpp"
 #include "docs.hpp"
+#include "gil.hpp"
+#include "pickling.hpp"
 
 namespace cdcr::python {
 namespace {
@@ -27,20 +29,23 @@ CommandInput call_python(py::function function, Index num_cables,
   return CommandInput::function(
       [shared, num_cables](double t, const ConstVectorRef& q, const ConstVectorRef& qd,
                            VectorRef tension) {
-        const py::gil_scoped_acquire locked;
-        const VectorArgument value((*shared)(t, to_array(q), to_array(qd)),
+        const Locked locked;
+        const VectorArgument value(call(*shared, py::make_tuple(t, to_array(q), to_array(qd))),
                                    "the value of the tension function", num_cables);
         tension = *value;
       },
       num_cables, std::move(break_points));
 }
 
+/// Of each event its function, direction and terminal.
+using WatchedFunctions = std::vector<std::tuple<py::function, int, int>>;
+
 /// A Python function as event: called with t, q, qd, like one of tensions.
 Event call_event(py::function function, int direction, int terminal) {
   const auto shared = std::make_shared<py::function>(std::move(function));
   return {[shared](double t, const ConstVectorRef& q, const ConstVectorRef& qd) {
-            const py::gil_scoped_acquire locked;
-            const py::object value = (*shared)(t, to_array(q), to_array(qd));
+            const Locked locked;
+            const py::object value = call(*shared, py::make_tuple(t, to_array(q), to_array(qd)));
             return *read_array(value, "the value of an event", {}).data();
           },
           direction, terminal};
@@ -50,8 +55,7 @@ Event call_event(py::function function, int direction, int terminal) {
 template <class Source>
 Trajectory run(const Model& model, const py::object& q0, const py::object& qd0, const py::object& t,
                Source& source, Method method, const Options& options, const py::object& progress,
-               const WrenchInput& loads,
-               const std::vector<std::tuple<py::function, int, int>>& events) {
+               const WrenchInput& loads, const WatchedFunctions& events) {
   Events watched;
   for (const auto& [function, direction, terminal] : events) {
     watched.push_back(call_event(function, direction, terminal));
@@ -59,15 +63,58 @@ Trajectory run(const Model& model, const py::object& q0, const py::object& qd0, 
   const VectorXd q = *read_bending(model, q0, "q0");
   const VectorXd qd = *VectorArgument(qd0, "qd0", model.num_coordinates());
   const VectorXd times = *VectorArgument(t, "t", -1);
-  const auto report = [&progress](double now) {
-    const py::gil_scoped_acquire locked;
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    if (!progress.is_none()) progress(now);
-    return true;
+  Interruption interruption;
+  const auto report = [&](double now) {
+    if (!progress.is_none()) {
+      const Locked locked;
+      (void)call(progress, py::make_tuple(now));
+    }
+    return !interruption();
   };
-  const py::gil_scoped_release unlocked;
-  return simulate(model, q, qd, times, source, method, options, make_cvode_integrator, report,
-                  loads, watched);
+  const auto unlocked_run = [&] {
+    const Unlocked unlocked;
+    return simulate(model, q, qd, times, source, method, options, make_cvode_integrator, report,
+                    loads, watched);
+  };
+  Trajectory done = unlocked_run();
+  interruption.raise();
+  return done;
+}
+
+/// Keeps a controller, which has a state, from driving two runs at once.
+class Driving {
+ public:
+  explicit Driving(const Controller& controller) : controller_(&controller) {
+    if (all().insert(controller_).second) return;
+    throw py::value_error(
+        "the controller drives another run at this moment: make one for each run");
+  }
+  Driving(const Driving&) = delete;
+  Driving& operator=(const Driving&) = delete;
+  ~Driving() { all().erase(controller_); }
+
+ private:
+  static std::set<const Controller*>& all() {  // Python's lock guards it
+    static std::set<const Controller*> controllers;
+    return controllers;
+  }
+  const Controller* controller_;
+};
+
+Trajectory run_controlled(const Model& model, const py::object& q0, const py::object& qd0,
+                          const py::object& t, Controller& controller, Method method,
+                          const Options& options, const py::object& progress,
+                          const WrenchInput& loads, const WatchedFunctions& events) {
+  const Driving driving(controller);
+  auto* const written_in_python = dynamic_cast<PythonController*>(&controller);
+  try {
+    Trajectory done = run(model, q0, qd0, t, controller, method, options, progress, loads, events);
+    if (written_in_python != nullptr) written_in_python->rethrow();
+    return done;
+  } catch (...) {
+    if (written_in_python != nullptr) written_in_python->rethrow();
+    throw;
+  }
 }
 
 py::list slack_events(const Trajectory& run) {
@@ -127,28 +174,39 @@ void bind_simulate(py::module_& m) {
                     "Largest step of adaptive methods [s]; 0: no limit.")
       .def_readonly("max_steps", &Options::max_steps, "Internal steps in one run; None: as said.");
 
-  py::class_<Stats>(m, "Stats", "What a run cost, counted by the integrator.")
+  py::class_<Stats> stats(m, "Stats", "What a run cost, counted by the integrator.");
+  stats
+      .def(py::init([](long steps, long rejected, long evaluations, long jacobians,
+                       long newton_failures) {
+             return Stats{steps, rejected, evaluations, jacobians, newton_failures};
+           }),
+           "steps"_a = 0, "rejected"_a = 0, "evaluations"_a = 0, "jacobians"_a = 0,
+           "newton_failures"_a = 0,
+           Doc("Take the counts.",
+               {"steps, rejected, evaluations, jacobians, newton_failures : int, optional\n"
+                "    See the attributes.\n"}))
       .def_readonly("steps", &Stats::steps, "Internal steps accepted.")
       .def_readonly("rejected", &Stats::rejected, "Steps thrown away by the error test.")
       .def_readonly("evaluations", &Stats::evaluations, "Evaluations of the equations of motion.")
       .def_readonly("jacobians", &Stats::jacobians, "Evaluations of their Jacobian.")
       .def_readonly("newton_failures", &Stats::newton_failures,
                     "Newton iterations that did not converge.")
-      .def(py::pickle(
-          [](const Stats& s) {
-            return py::make_tuple(s.steps, s.rejected, s.evaluations, s.jacobians,
-                                  s.newton_failures);
-          },
-          [](const py::tuple& state) {
-            return Stats{state[0].cast<long>(), state[1].cast<long>(), state[2].cast<long>(),
-                         state[3].cast<long>(), state[4].cast<long>()};
-          }))
       .def("__repr__", [](const Stats& s) {
         return "Stats(steps=" + std::to_string(s.steps) +
                ", rejected=" + std::to_string(s.rejected) +
                ", evaluations=" + std::to_string(s.evaluations) +
                ", jacobians=" + std::to_string(s.jacobians) +
                ", newton_failures=" + std::to_string(s.newton_failures) + ")";
+      });
+
+  make_picklable(
+      stats,
+      [](const Stats& s) {
+        return py::make_tuple(s.steps, s.rejected, s.evaluations, s.jacobians, s.newton_failures);
+      },
+      [](const py::tuple& s) {
+        return Stats{s[0].cast<long>(), s[1].cast<long>(), s[2].cast<long>(), s[3].cast<long>(),
+                     s[4].cast<long>()};
       });
 
   py::class_<CommandInput>(m, "TensionInput", "Commands of the cables as a function of time.")
@@ -234,7 +292,7 @@ void bind_simulate(py::module_& m) {
         Doc("A run under commands; see cdcr.simulate.",
             {docs::model, start, "input : TensionInput\n    Commands over time.\n", rest}, a_run,
             docs::bad_argument));
-  m.def("simulate_controlled", &run<Controller>, "model"_a, "q0"_a, "qd0"_a, "t"_a, "controller"_a,
+  m.def("simulate_controlled", &run_controlled, "model"_a, "q0"_a, "qd0"_a, "t"_a, "controller"_a,
         "method"_a, "options"_a, "progress"_a, "loads"_a, "events"_a,
         Doc("A run under a controller; see cdcr.simulate.",
             {docs::model, start, "controller : Controller\n    Asked once each period.\n", rest},

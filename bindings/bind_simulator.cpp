@@ -1,17 +1,49 @@
+#include <memory>
 #include <sstream>
+#include <utility>
 
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "cdcr/simulator.hpp"
 #include "docs.hpp"
+#include "gil.hpp"
+#include "pickling.hpp"
 
 namespace cdcr::python {
 
 namespace py = pybind11;
 using namespace py::literals;
 
+/// A simulator that knows the model as Python has it.
+class PythonSimulator final : public Simulator {
+ public:
+  PythonSimulator(py::object of, double step, int substeps)
+      : Simulator(read_model(of), step, substeps), model(std::move(of)) {}
+
+  py::object model;
+};
+
+namespace {
+
+py::tuple take_apart(const PythonSimulator& s) {
+  return py::make_tuple(s.model, s.period(), s.substeps(), s.started(), to_array(s.q()),
+                        to_array(s.qd()), s.start(), s.periods());
+}
+
+PythonSimulator* put_together(const py::tuple& state) {
+  auto simulator =
+      std::make_unique<PythonSimulator>(state[0], state[1].cast<double>(), state[2].cast<int>());
+  if (state[3].cast<bool>()) {
+    simulator->reset(to_vector(state[4]), to_vector(state[5]), state[6].cast<double>(),
+                     state[7].cast<long long>());
+  }
+  return simulator.release();
+}
+
+}  // namespace
+
 void bind_simulator(py::module_& m) {
-  py::class_<Simulator>(
+  py::class_<PythonSimulator> bound(
       m, "Simulator",
       "The robot inside a control loop: one period at a time, commands held over the period.\n\n"
       "Runge-Kutta 4 on the equations of motion, cpp/README.md eq. (16). A failed step leaves the\n"
@@ -28,17 +60,19 @@ void bind_simulator(py::module_& m) {
       ">>> simulator = cdcr.Simulator(cdcr.Model(cdcr.robots.amouri2020()), step=1e-3)\n"
       ">>> simulator.reset([0.5, 0.0], [0.0, 0.0])\n"
       ">>> simulator.step([5.0, 0.0, 0.0])\n"
-      "<Status.ok: 0>")
-      .def(py::init<const Model&, double, int>(), "model"_a, py::kw_only(), "step"_a = 1e-3,
+      "<Status.ok: 0>");
+  bound
+      .def(py::init<py::object, double, int>(), "model"_a, py::kw_only(), "step"_a = 1e-3,
            "substeps"_a = 1,
            Doc("Make a simulator, which has no state until `reset`.",
                {docs::model, "step : float, default 1e-3\n    Control period [s], > 0.\n",
                 "substeps : int, default 1\n    Runge-Kutta steps in each period, >= 1.\n"}))
       .def(
           "reset",
-          [](Simulator& self, const py::object& q, const py::object& qd, double time) {
-            self.reset(*read_bending(self.model(), q, "q"),
-                       *VectorArgument(qd, "qd", self.model().num_coordinates()), time);
+          [](PythonSimulator& self, const py::object& q, const py::object& qd, double time) {
+            const Model& model = self.Simulator::model();
+            self.reset(*read_bending(model, q, "q"),
+                       *VectorArgument(qd, "qd", model.num_coordinates()), time);
           },
           "q"_a, "qd"_a, "time"_a = 0.0,
           Doc("Set state and time.",
@@ -46,16 +80,21 @@ void bind_simulator(py::module_& m) {
               docs::bad_argument))
       .def(
           "step",
-          [](Simulator& self, const py::object& tension, const py::object& wrenches,
+          [](PythonSimulator& self, const py::object& tension, const py::object& wrenches,
              const py::object& command) {
             if (tension.is_none() == command.is_none()) {
               throw py::value_error(
                   "give either tension or command, two names for one thing, not both or none");
             }
+            const Model& model = self.Simulator::model();
             const bool by_tension = command.is_none();
-            return self.step(*read_tension(self.model(), by_tension ? tension : command,
-                                           by_tension ? "tension" : "command"),
-                             read_wrenches(self.model(), wrenches));
+            Interruption interruption;
+            const Status status =
+                self.step(*read_tension(model, by_tension ? tension : command,
+                                        by_tension ? "tension" : "command"),
+                          read_wrenches(model, wrenches), [&] { return interruption(); });
+            interruption.raise();
+            return status;
           },
           "tension"_a = py::none(), "wrenches"_a = py::tuple(), py::kw_only(),
           "command"_a = py::none(),
@@ -65,19 +104,21 @@ void bind_simulator(py::module_& m) {
                "or [m].\n"},
               "Status\n    ``ok``, or why the state is still the one before.", docs::bad_argument))
       .def_property_readonly(
-          "q", [](const Simulator& self) { return to_array(self.q()); },
+          "q", [](const PythonSimulator& self) { return to_array(self.q()); },
           "Bending vectors (d,) [rad].")
       .def_property_readonly(
-          "qd", [](const Simulator& self) { return to_array(self.qd()); },
+          "qd", [](const PythonSimulator& self) { return to_array(self.qd()); },
           "Their rates (d,) [rad/s].")
-      .def_property_readonly("time", &Simulator::time, "Time reached [s].")
-      .def_property_readonly("period", &Simulator::period, "Control period [s].")
-      .def("__repr__", [](const Simulator& self) {
+      .def_readonly("model", &PythonSimulator::model, "The robot.")
+      .def_property_readonly("time", &PythonSimulator::time, "Time reached [s].")
+      .def_property_readonly("period", &PythonSimulator::period, "Control period [s].")
+      .def("__repr__", [](const PythonSimulator& self) {
         std::ostringstream text;
         text << "<Simulator at t = " << self.time() << " s, period " << self.period()
              << " s, q = " << short_text(self.q()) << ">";
         return text.str();
       });
+  make_picklable(bound, &take_apart, &put_together);
 }
 
 }  // namespace cdcr::python

@@ -8,6 +8,7 @@
 #include "cdcr/allocation.hpp"
 #include "cdcr/statics.hpp"
 #include "docs.hpp"
+#include "pickling.hpp"
 #include "states.hpp"
 
 namespace cdcr::python {
@@ -36,10 +37,11 @@ Allocation find_tension(const Model& self, const py::object& force, double min_t
 }
 
 void bind_equilibrium(py::module_& m) {
-  py::class_<Equilibrium>(
+  py::class_<Equilibrium> bound(
       m, "Equilibrium",
       "Answer of `Model.find_equilibrium`: a point of rest, and whether the robot stays there.\n\n"
-      "cpp/README.md eq. (18), cpp/several-sections.md eqs. (40) to (43).")
+      "cpp/README.md eq. (18), cpp/several-sections.md eqs. (40) to (43).");
+  bound
       .def_property_readonly(
           "q", [](const Equilibrium& self) { return to_array(self.q); },
           "Bending vectors (d,) [rad].")
@@ -68,13 +70,25 @@ void bind_equilibrium(py::module_& m) {
              << (self.friction_left_out ? ", friction left out>" : ">");
         return text.str();
       });
+  make_picklable(
+      bound,
+      [](const Equilibrium& e) {
+        return py::make_tuple(to_array(e.q), to_array(e.tension), to_array(e.eigenvalues), e.stable,
+                              e.residual, e.iterations, e.load_steps, e.searches, e.status);
+      },
+      [](const py::tuple& s) {
+        return Equilibrium{to_vector(s[0]),   to_vector(s[1]),     to_vector(s[2]),
+                           s[3].cast<bool>(), s[4].cast<double>(), s[5].cast<int>(),
+                           s[6].cast<int>(),  s[7].cast<int>(),    s[8].cast<Status>()};
+      });
 }
 
 void bind_allocation(py::module_& m) {
-  py::class_<Allocation>(
+  py::class_<Allocation> bound(
       m, "Allocation",
       "Answer of `Model.find_tension`: tensions for a generalised force, or for\n"
-      "the nearest, cpp/README.md eq. (20).")
+      "the nearest, cpp/README.md eq. (20).");
+  bound
       .def_property_readonly(
           "tension", [](const Allocation& self) { return to_array(self.tension); },
           "Tensions (num_cables,) [N].")
@@ -93,6 +107,20 @@ void bind_allocation(py::module_& m) {
              << (self.feasible ? "feasible" : "not feasible") << ", distance " << self.distance
              << " N m>";
         return text.str();
+      });
+  make_picklable(
+      bound,
+      [](const Allocation& a) {
+        return py::make_tuple(to_array(a.tension), to_array(a.force), a.distance, a.feasible,
+                              a.limiting, a.limits);
+      },
+      [](const py::tuple& s) {
+        return Allocation{to_vector(s[0]),
+                          to_vector(s[1]),
+                          s[2].cast<double>(),
+                          s[3].cast<bool>(),
+                          s[4].cast<std::vector<Index>>(),
+                          s[5].cast<std::vector<std::string>>()};
       });
 }
 

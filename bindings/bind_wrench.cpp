@@ -7,6 +7,7 @@
 #include "bind.hpp"
 #include "cdcr/wrench_input.hpp"
 #include "docs.hpp"
+#include "gil.hpp"
 
 namespace cdcr::python {
 
@@ -19,6 +20,11 @@ std::vector<double> to_list(const VectorXd& values) {
   return {values.data(), values.data() + values.size()};
 }
 
+/// A robot, too, can be taken to the core.
+bool is_wrench(const py::handle& object) {
+  return py::hasattr(object, "_to_core") && py::hasattr(object, "profile");
+}
+
 }  // namespace
 
 Wrenches read_wrenches(const Model& model, const py::object& object) {
@@ -26,7 +32,7 @@ Wrenches read_wrenches(const Model& model, const py::object& object) {
   if (py::isinstance<py::tuple>(object) && py::len(object) == 0) return wrenches;  // the default
   const auto add = [&wrenches](const py::handle& item) {
     const std::string name = "wrenches[" + std::to_string(wrenches.size()) + "]";
-    if (!py::hasattr(item, "_to_core")) {
+    if (!is_wrench(item)) {
       throw py::value_error(name + " must be a cdcr.Wrench, got " +
                             std::string(py::str(py::type::of(item).attr("__name__"))));
     }
@@ -37,7 +43,7 @@ Wrenches read_wrenches(const Model& model, const py::object& object) {
     }
     wrenches.push_back(item.attr("_to_core")().cast<Wrench>());
   };
-  if (py::hasattr(object, "_to_core")) {
+  if (is_wrench(object)) {
     add(object);
   } else if (!py::isinstance<py::iterable>(object)) {
     throw py::value_error("wrenches must be a sequence of cdcr.Wrench, got " +
@@ -92,13 +98,13 @@ void bind_wrench(py::module_& m) {
           [](WrenchInput& self, const Wrench& wrench, py::function function,
              std::vector<double> break_points) {
             const auto shared = std::make_shared<py::function>(std::move(function));
-            const auto call = [shared](double t) {
-              const py::gil_scoped_acquire locked;
-              const VectorArgument value(py::make_tuple((*shared)(t)),
+            const auto factor = [shared](double t) {
+              const Locked locked;
+              const VectorArgument value(py::make_tuple(call(*shared, py::make_tuple(t))),
                                          "the value of a wrench's profile", 1);
               return (*value)[0];
             };
-            self.add(wrench, {std::move(break_points), {}, false, call});
+            self.add(wrench, {std::move(break_points), {}, false, factor});
           },
           "wrench"_a, "function"_a, "break_points"_a,
           Doc("Add a wrench whose size a function of time gives.",

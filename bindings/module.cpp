@@ -3,6 +3,7 @@
 #include "bind.hpp"
 #include "cdcr/version.hpp"
 #include "docs.hpp"
+#include "pickling.hpp"
 
 PYBIND11_MODULE(_core, m) {
   pybind11::options options;
@@ -21,4 +22,5 @@ PYBIND11_MODULE(_core, m) {
   cdcr::python::bind_simulate(m);
   cdcr::python::bind_simulator(m);
   cdcr::python::show_constructors(m);
+  cdcr::python::finish_pickling(m);
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "arrays.hpp"
+#include "gil.hpp"
 
 namespace cdcr::python {
 
@@ -120,13 +121,22 @@ class States {
   template <class F, std::size_t... K>
   void each(F&& f, std::index_sequence<K...>) const {
     if (dimensions_.empty()) return f(Index{0}, row(K, 0)...);
-    const py::gil_scoped_release unlocked;
+    Interruption interruption;
+    run(f, interruption, std::index_sequence<K...>());
+    interruption.raise();
+  }
+
+  template <class F, std::size_t... K>
+  void run(F& f, Interruption& interruption, std::index_sequence<K...>) const {
+    constexpr Index states_between_looks = 128;
+    const Unlocked unlocked;
     Index count = 1;
     for (const Dimension& dimension : dimensions_) count *= dimension.size;
     std::vector<Index> index(dimensions_.size(), 0);
     std::array<Index, N> offset{};
     for (Index i = 0; i < count; ++i) {
       f(i, row(K, offset[K])...);
+      if (i % states_between_looks == states_between_looks - 1 && interruption()) return;
       for (std::size_t axis = dimensions_.size(); axis-- > 0;) {
         const Dimension& dimension = dimensions_[axis];
         const bool wraps = ++index[axis] == dimension.size;

@@ -16,7 +16,6 @@ static_assert(is_noexcept<decltype(&mass_matrix)>);
 static_assert(is_noexcept<decltype(&bias)>);
 static_assert(is_noexcept<decltype(&actuation_force)>);
 static_assert(is_noexcept<decltype(&forward_dynamics_force)>);
-static_assert(is_noexcept<decltype(&inverse_dynamics)>);
 static_assert(is_noexcept<decltype(&kinetic_energy)>);
 static_assert(is_noexcept<decltype(&potential_energy)>);
 static_assert(is_noexcept<decltype(&potential_gradient)>);
@@ -43,6 +42,9 @@ using DynamicsFunction = void (*)(const Model&, Data&, Vector, Vector, Vector,
 [[maybe_unused]] constexpr DynamicsFunction<VectorRef> forward = &forward_dynamics;
 [[maybe_unused]] constexpr DynamicsFunction<const Wrenches&, VectorRef> forward_under_wrenches =
     &forward_dynamics;
+[[maybe_unused]] constexpr DynamicsFunction<VectorRef> inverse = &inverse_dynamics;
+[[maybe_unused]] constexpr DynamicsFunction<const Wrenches&, VectorRef> inverse_beside_wrenches =
+    &inverse_dynamics;
 [[maybe_unused]] constexpr DynamicsFunction<MatrixRef, MatrixRef> linear = &linearize;
 [[maybe_unused]] constexpr DynamicsFunction<const Wrenches&, MatrixRef, MatrixRef>
     linear_under_wrenches = &linearize;

@@ -216,6 +216,7 @@ def test_ctrl_c_while_integrating(tmp_path: Path) -> None:
 import os, signal
 from cdcr.cli import run as cli_run
 from cdcr.cli import main
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background ignores it
 cli_run.DelayedBar.__call__ = lambda self, done: os.kill(os.getpid(), signal.SIGINT)
 main(["run", "step-tension", "--out", "new/out", "--t-end", "1000"])
 """

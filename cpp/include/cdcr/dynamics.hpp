@@ -42,6 +42,11 @@ void inverse_dynamics(const Model& model, Data& data, const ConstVectorRef& q,
                       const ConstVectorRef& qd, const ConstVectorRef& qdd,
                       VectorRef force) noexcept;
 
+/// The same beside wrenches that validate() accepts, which give their part of it.
+void inverse_dynamics(const Model& model, Data& data, const ConstVectorRef& q,
+                      const ConstVectorRef& qd, const ConstVectorRef& qdd, const Wrenches& wrenches,
+                      VectorRef force) noexcept;
+
 /// T = 1/2 qd^T M qd [J].
 [[nodiscard]] double kinetic_energy(const Model& model, Data& data, const ConstVectorRef& q,
                                     const ConstVectorRef& qd) noexcept;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cdcr/kinematics.hpp"
+#include "cdcr/status.hpp"
 
 // From where the tip should be to bending vectors, cpp/README.md eq. (7) and what follows it.
 
@@ -19,6 +20,7 @@ struct InverseKinematicsOptions {
                                     ///< and a descent goes on to 1e-9
   int seeds = 100;                  ///< starts at most, 1 to 100000
   int iterations = 100;             ///< steps tried from each start at most, >= 1
+  Interrupt stop;                   ///< where not empty, asked before each step
 };
 
 /// How a search for bending vectors ended.
@@ -30,7 +32,8 @@ enum class IkStatus {
   too_few_sections,  ///< fewer coordinates than a position and an orientation ask for
   not_found,         ///< no start came near enough; the point may be out of reach or not
   not_finite,        ///< what was asked for is infinite or not a number
-  wrong_size         ///< q0 has neither a value for each coordinate nor none
+  wrong_size,        ///< q0 has neither a value for each coordinate nor none
+  interrupted        ///< stopped by the caller
 };
 using Reach = IkStatus;  ///< its earlier name
 
@@ -73,6 +76,7 @@ class InverseSolver {
   void set_target(const Vector3d& p, const std::optional<Matrix3d>& R) noexcept;
   void conclude() noexcept;
   [[nodiscard]] IkStatus why() const noexcept;
+  bool stopped() noexcept;
 
   void search(const ConstVectorRef& q0) noexcept;
   void place_start(int seed) noexcept;

@@ -18,7 +18,7 @@ struct PidOptions {
 };
 
 /// Q = dU/dq(ref) + kp (ref - q) + ki int (ref - q) dt - kd qd, allocated to tensions.
-class Pid final : public Controller {
+class Pid : public Controller {
  public:
   /// The reference is the straight robot until set. Throws std::invalid_argument.
   Pid(const Model& model, PidOptions options);
@@ -28,6 +28,8 @@ class Pid final : public Controller {
   [[nodiscard]] const VectorXd& reference() const noexcept { return reference_; }
   /// Accumulated error (d) [rad s].
   [[nodiscard]] const VectorXd& integral() const noexcept { return integral_; }
+  /// Takes up the integral of another run (d) [rad s], finite. Throws std::invalid_argument.
+  void set_integral(const VectorXd& integral);
   [[nodiscard]] const PidOptions& options() const noexcept { return options_; }
 
   void reset() noexcept override { integral_.setZero(); }

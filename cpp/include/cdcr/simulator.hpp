@@ -19,22 +19,31 @@ class Simulator {
   Simulator(Simulator&&) noexcept;
   Simulator& operator=(Simulator&&) noexcept;
 
-  /// Sets the state (d each) and the time [s].
-  void reset(const VectorXd& q, const VectorXd& qd, double time = 0.0);
+  /// Sets the state (d each) and the time [s], where the clock was set and the periods made since.
+  void reset(const VectorXd& q, const VectorXd& qd, double start = 0.0, long long periods = 0);
 
   /// Advances one period under constant commands (num_cables), tensions [N] or lengths [m], each
   /// >= 0, and constant wrenches; invalid_tension and invalid_wrench tell what it does not take.
   /// Real-time safe.
   [[nodiscard]] Status step(const ConstVectorRef& tension) noexcept;
   [[nodiscard]] Status step(const ConstVectorRef& tension, const Wrenches& wrenches) noexcept;
+  /// The same with many substeps, that can be interrupted among them; `stop` must not throw.
+  [[nodiscard]] Status step(const ConstVectorRef& tension, const Wrenches& wrenches,
+                            const Interrupt& stop) noexcept;
 
   [[nodiscard]] const Model& model() const noexcept { return model_; }
   [[nodiscard]] const VectorXd& q() const noexcept { return q_; }    ///< (d) [rad]
   [[nodiscard]] const VectorXd& qd() const noexcept { return qd_; }  ///< (d) [rad/s]
   [[nodiscard]] double time() const noexcept { return time_; }       ///< [s]
   [[nodiscard]] double period() const noexcept { return period_; }   ///< [s]
+  [[nodiscard]] int substeps() const noexcept { return substeps_; }
+  [[nodiscard]] bool started() const noexcept { return started_; }  ///< reset has been called
+  [[nodiscard]] double start() const noexcept { return start_; }    ///< as reset was told [s]
+  [[nodiscard]] long long periods() const noexcept { return periods_; }
 
  private:
+  void set_clock(long long periods) noexcept;
+
   Model model_;
   Data data_;
   double period_ = 0.0, time_ = 0.0, start_ = 0.0;

@@ -1,6 +1,11 @@
 #pragma once
 
+#include <functional>
+
 namespace cdcr {
+
+/// Asked now and then by what may take long; true ends it, with status interrupted.
+using Interrupt = std::function<bool()>;
 
 /// How a computation ended. Anything but ok leaves the last good state in place.
 enum class Status {

@@ -38,6 +38,11 @@ void Pid::set_reference(const VectorXd& q) {
   if (options_.feed_forward) potential_gradient(model_, data_, reference_, hold_);
 }
 
+void Pid::set_integral(const VectorXd& integral) {
+  detail::require_finite("integral", integral, model_.num_coordinates());
+  integral_ = integral;
+}
+
 Status Pid::update(double /*t*/, const ConstVectorRef& q, const ConstVectorRef& qd,
                    VectorRef tension) noexcept {
   const bool fits = detail::of_coordinates(model_, q, qd) && detail::of_cables(model_, tension);

@@ -74,6 +74,15 @@ void inverse_dynamics(const Model& model, Data& data, const ConstVectorRef& q,
   detail::inverse_motion(chain_of(model), state, qdd.data(), force.data());
 }
 
+void inverse_dynamics(const Model& model, Data& data, const ConstVectorRef& q,
+                      const ConstVectorRef& qd, const ConstVectorRef& qdd, const Wrenches& wrenches,
+                      VectorRef force) noexcept {
+  inverse_dynamics(model, data, q, qd, qdd, force);
+  data.force.setZero();
+  add_wrench_force(model, q, wrenches, data.force);
+  force -= data.force;
+}
+
 double kinetic_energy(const Model& model, Data& data, const ConstVectorRef& q,
                       const ConstVectorRef& qd) noexcept {
   assert(data.belongs_to(model) && of_coordinates(model, q, qd));

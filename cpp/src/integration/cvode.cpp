@@ -146,7 +146,8 @@ Cvode::Cvode(RobotOde& ode, Method method, const Options& options)
   require(CVodeSetErrHandlerFn(cvode, silent, nullptr), "CVodeSetErrHandlerFn");
   require(CVodeSetUserData(cvode, this), "CVodeSetUserData");
   if (CVodeInit(cvode, derivative, time_, trial_.get()) != CV_SUCCESS) {
-    (void)cvode_.release();  // has freed its vectors, and would free them again
+    // It has freed its vectors, and would free them again.
+    [[maybe_unused]] void* const left = cvode_.release();
     throw std::bad_alloc();
   }
   require(CVodeSStolerances(cvode, options.rtol, options.atol), "CVodeSStolerances");

@@ -30,18 +30,23 @@ Simulator::~Simulator() = default;
 Simulator::Simulator(Simulator&&) noexcept = default;
 Simulator& Simulator::operator=(Simulator&&) noexcept = default;
 
-void Simulator::reset(const VectorXd& q, const VectorXd& qd, double time) {
+void Simulator::reset(const VectorXd& q, const VectorXd& qd, double start, long long periods) {
   const Index m = model_.num_coordinates();
   detail::require_finite("q", q, m);
   detail::require_finite("qd", qd, m);
-  detail::require(std::isfinite(time), "time must be finite, got ", time);
+  detail::require(std::isfinite(start), "time must be finite, got ", start);
   detail::require_bending("q", model_, q);
   q_ = q;
   qd_ = qd;
   y_ << q, qd;
-  start_ = time_ = time;
-  periods_ = 0;
+  start_ = start;
+  set_clock(periods);
   started_ = true;
+}
+
+void Simulator::set_clock(long long periods) noexcept {
+  periods_ = periods;
+  time_ = start_ + static_cast<double>(periods_) * period_;
 }
 
 Status Simulator::step(const ConstVectorRef& tension) noexcept {
@@ -49,6 +54,11 @@ Status Simulator::step(const ConstVectorRef& tension) noexcept {
 }
 
 Status Simulator::step(const ConstVectorRef& tension, const Wrenches& wrenches) noexcept {
+  return step(tension, wrenches, Interrupt());
+}
+
+Status Simulator::step(const ConstVectorRef& tension, const Wrenches& wrenches,
+                       const Interrupt& stop) noexcept {
   if (!started_) return Status::not_started;
   const Status tension_status = check_tension(model_, tension);
   if (tension_status != Status::ok) return tension_status;
@@ -79,11 +89,14 @@ Status Simulator::step(const ConstVectorRef& tension, const Wrenches& wrenches) 
       return stages_->failure_status(status, check, f, 0.0, h, y_, trial_);
     }
     y_.swap(trial_);
+    constexpr int substeps_between_stops = 256;
+    if (i % substeps_between_stops == substeps_between_stops - 1 && stop && stop()) {
+      return Status::interrupted;
+    }
   }
   q_ = y_.head(m);
   qd_ = y_.tail(m);
-  ++periods_;
-  time_ = start_ + static_cast<double>(periods_) * period_;
+  set_clock(periods_ + 1);
   return Status::ok;
 }
 

@@ -203,6 +203,9 @@ std::string InverseSolver::message() const {
         limited = text.str();
       }
       break;
+    case IkStatus::interrupted:
+      text << "the search was stopped";
+      break;
     case IkStatus::off_surface:
       text << "the tip of one section moves on a surface, and p is not on it";
       break;

@@ -175,7 +175,7 @@ void InverseSolver::levenberg_marquardt() noexcept {
   second_order_ = false;
   bool moved = true;
   int slow_ones = 0;
-  for (int i = 0; i < options_.iterations && cost_ > goal_; ++i) {
+  for (int i = 0; i < options_.iterations && cost_ > goal_ && !stopped(); ++i) {
     if (moved) {
       gradient(q_, x_, g_);
       curvature();
@@ -221,11 +221,19 @@ void InverseSolver::place_start(int seed) noexcept {
   }
 }
 
+/// Whether the caller has ended the search.
+bool InverseSolver::stopped() noexcept {
+  if (asked_ == IkStatus::reached && options_.stop && options_.stop()) {
+    asked_ = IkStatus::interrupted;
+  }
+  return asked_ != IkStatus::reached;
+}
+
 void InverseSolver::search(const ConstVectorRef& q0) noexcept {
   best_cost_ = std::numeric_limits<double>::infinity();
   random_state_ = 1;
   const int given = q0.size() > 0 ? 1 : 0;
-  while (answer_.seeds < options_.seeds && best_cost_ > accepted_) {
+  while (answer_.seeds < options_.seeds && best_cost_ > accepted_ && !stopped()) {
     if (answer_.seeds < given) {
       q_ = q0;
     } else {

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import fields
+from typing import Any, cast
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -18,6 +22,21 @@ def read_only(array: FloatArray) -> FloatArray:
     """Return an array after nobody can write to it any more."""
     array.setflags(write=False)
     return array
+
+
+class ReadOnlyArrays:
+    """A dataclass whose arrays stay read-only in pickles and copies; they hold the fields alone."""
+
+    def __getstate__(self) -> dict[str, object]:
+        """Return the fields, without what was worked out from them."""
+        return {item.name: getattr(self, item.name) for item in fields(cast("Any", self))}
+
+    def __setstate__(self, state: Mapping[str, object]) -> None:
+        """Take the fields, and keep others from writing to the arrays."""
+        self.__dict__.update(state)
+        for value in state.values():
+            if isinstance(value, np.ndarray):
+                read_only(value)
 
 
 def even_times(end: float, step: float) -> FloatArray:

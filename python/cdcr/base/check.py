@@ -29,6 +29,17 @@ def nearest(word: str, known: Iterable[str]) -> str:
     return f" Did you mean {close[0]!r}?" if close else ""
 
 
+def one_of(value: object, names: Collection[str]) -> bool:
+    """Whether a value, of any type at all, is one of some names."""
+    return isinstance(value, str) and value in names
+
+
+def require_kind(item: str, value: object, kind: type) -> None:
+    """Refuse what is no instance of a public class: 'model must be a cdcr.Model, got NoneType'."""
+    if not isinstance(value, kind):
+        raise TypeError(f"{item} must be a cdcr.{kind.__name__}, got {type(value).__name__}")
+
+
 def known_name(noun: str, name: object, known: Collection[str]) -> str:
     """Return the known name that is meant, dashes for underscores or not, or say which these are.
 

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray, finite
+from cdcr.base.check import one_of, require_kind
 from cdcr.model.inverse_kinematics import InverseKinematics
 from cdcr.model.modes import Modes
 from cdcr.model.statics import checked_allocation, checked_equilibrium
@@ -49,9 +50,8 @@ class Model(_core.Model):
     """
 
     def __init__(self, robot: Robot, formulation: str = "exact") -> None:
-        if not isinstance(robot, Robot):
-            raise TypeError(f"robot must be a cdcr.Robot, got {type(robot).__name__}")
-        if formulation not in FORMULATIONS:
+        require_kind("robot", robot, Robot)
+        if not one_of(formulation, FORMULATIONS):
             raise ValueError(f"formulation must be one of {FORMULATIONS}, got {formulation!r}")
         super().__init__(robot._to_core(), _core.Formulation[formulation.replace("-", "_")])
         self._robot = robot

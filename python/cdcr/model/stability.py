@@ -8,6 +8,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from cdcr.base.check import one_of, require_kind
 from cdcr.model.model import Model
 
 # Amplification of one step, 1 + z + z^2/2 + z^3/6 + z^4/24 with z = h lambda, by power of z.
@@ -55,7 +56,8 @@ def stable_step(
     >>> print(f"{cdcr.stable_step(cdcr.Model(cdcr.robots.amouri2020())):.4f} s")
     0.3109 s
     """
-    if method != "rk4":
+    require_kind("model", model, Model)
+    if not one_of(method, ("rk4",)):
         raise ValueError(f"method must be 'rk4', the others choose their steps; got {method!r}")
     command = model.rest_command() if tension is None else tension
     shape = model.equilibrium(command) if q is None else q

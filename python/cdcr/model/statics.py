@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -28,9 +30,14 @@ class InfeasibleError(ValueError):
 
     def __init__(self, message: str, answer: _core.Allocation) -> None:
         super().__init__(message)
+        self._answer = answer
         self.tension = answer.tension
         self.force = answer.force
         self.limiting = tuple(answer.limiting)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle by what it was made of, so that it leaves a process as it is."""
+        return type(self), (str(self), self._answer), self.__dict__
 
 
 def checked_equilibrium(found: _core.Equilibrium) -> FloatArray:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cdcr import _core
-from cdcr.base.check import Check, format_value
+from cdcr.base.check import Check, format_value, one_of
 
 Frame = Literal["base", "local"]
 Profile: TypeAlias = "Callable[[float], float] | tuple[ArrayLike, ArrayLike] | None"
@@ -93,9 +93,9 @@ class Wrench:
         for name, unit in (("force", "N"), ("moment", "N m")):
             each, value = f"a number of {unit}", getattr(self, name)
             plain[name] = check.vector(name, value, f"three numbers of {unit}", each)
-        if self.frame not in ("base", "local"):
+        if not one_of(self.frame, ("base", "local")):
             check.refuse("frame", "'base' or 'local'", self.frame)
-        if self.interpolation not in ("linear", "previous"):
+        if not one_of(self.interpolation, ("linear", "previous")):
             check.refuse("interpolation", "'linear' or 'previous'", self.interpolation)
         pair = isinstance(self.profile, tuple) and len(self.profile) == 2
         if not (self.profile is None or callable(self.profile) or pair):

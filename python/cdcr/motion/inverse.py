@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cdcr import _core
-from cdcr.base.arrays import FloatArray, read_only
+from cdcr.base.arrays import FloatArray, ReadOnlyArrays, read_only
+from cdcr.base.check import one_of, require_kind
 from cdcr.model.model import Model
 from cdcr.model.statics import InfeasibleError
 from cdcr.motion.reference import Reference
@@ -22,7 +23,7 @@ Infeasible = Literal["raise", "nearest"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class InverseRun:
+class InverseRun(ReadOnlyArrays):
     """Tensions along a reference, one row for each of its times. All arrays are read-only.
 
     Parameters
@@ -219,9 +220,9 @@ def inverse_run(
 
 
 def _check(model: Model, reference: Reference, infeasible: str) -> None:
-    if not isinstance(reference, Reference):
-        raise TypeError(f"reference must be a cdcr.Reference, got {type(reference).__name__}")
-    if infeasible not in ("raise", "nearest"):
+    require_kind("model", model, Model)
+    require_kind("reference", reference, Reference)
+    if not one_of(infeasible, ("raise", "nearest")):
         raise ValueError(f"infeasible must be 'raise' or 'nearest', got {infeasible!r}")
     wanted = (len(reference), model.num_coordinates)
     if reference.q.shape != wanted:

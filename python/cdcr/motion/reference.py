@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cdcr import _core
-from cdcr.base.arrays import FloatArray, finite, read_only
+from cdcr.base.arrays import FloatArray, ReadOnlyArrays, finite, read_only
 from cdcr.base.check import count
 from cdcr.motion import splines
 from cdcr.motion.splines import Motion, Pair, TimeFunction
@@ -19,7 +19,7 @@ Angle: TypeAlias = "ArrayLike | TimeFunction"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Reference:
+class Reference(ReadOnlyArrays):
     """A smooth motion to follow, sampled: one row for each time. All arrays are read-only.
 
     Made by `from_samples`, `from_functions` or `from_angles`; missing derivatives come from quintic
@@ -141,19 +141,12 @@ class Reference:
         times = splines.checked_times(t)
         named = (("q", q), ("qd", qd), ("qdd", qdd))
 
-        def with_spline(spline: Motion | None) -> Motion:
-            def motion(times: FloatArray) -> FloatArray:
-                given = [None if f is None else splines.called(name, f, times) for name, f in named]
-                return splines.filled(given, None if spline is None else spline(times))
-
-            return motion
-
         if qd is not None and qdd is not None:
-            motion = with_spline(None)
+            motion = splines.Functions(named, None)
             return cls._of(times, Pair(motion, motion))
         name, base = ("q", q) if qd is None else ("qd", qd)
         pair = splines.of_function(times, name, base)
-        return cls._of(times, Pair(*map(with_spline, pair)))
+        return cls._of(times, Pair(*(splines.Functions(named, spline) for spline in pair)))
 
     @classmethod
     def from_angles(cls, t: ArrayLike, theta: Angle, phi: Angle) -> Reference:
@@ -176,10 +169,7 @@ class Reference:
         bending = splines.of_angle(times, "theta", theta)
         orientation = splines.of_angle(times, "phi", phi)
 
-        def motion_of(bending: Motion, orientation: Motion) -> Motion:
-            return lambda times: splines.bending_vectors(bending(times), orientation(times))
-
-        return cls._of(times, Pair(*map(motion_of, bending, orientation)))
+        return cls._of(times, Pair(*map(splines.Angles, bending, orientation)))
 
     @classmethod
     def _of(cls, times: FloatArray, pair: Pair) -> Reference:

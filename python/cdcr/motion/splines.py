@@ -7,6 +7,7 @@ through every other one come in pairs: their difference tells the error of the c
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -31,6 +32,57 @@ class Pair(NamedTuple):
 
     fine: Motion
     coarse: Motion
+
+
+# Motions. Classes and no closures, so that they can be pickled where what they are made of can.
+
+
+@dataclass(frozen=True)
+class Constant:
+    """An angle that stays (3, M, 1)."""
+
+    angle: float
+
+    def __call__(self, times: FloatArray) -> FloatArray:
+        """Return values, rates and accelerations at times (M,)."""
+        still = np.array([self.angle, 0.0, 0.0])
+        return np.repeat(still[:, np.newaxis, np.newaxis], times.size, axis=1)
+
+
+@dataclass(frozen=True)
+class Derivatives:
+    """A function of time and its first two derivatives."""
+
+    functions: tuple[Callable[[FloatArray], FloatArray], ...]
+
+    def __call__(self, times: FloatArray) -> FloatArray:
+        """Return values, rates and accelerations at times (M,)."""
+        return np.stack([function(times) for function in self.functions])
+
+
+@dataclass(frozen=True)
+class Functions:
+    """Functions of the user, by name, and a spline for the derivatives that are missing."""
+
+    named: tuple[tuple[str, TimeFunction | None], ...]
+    spline: Motion | None
+
+    def __call__(self, times: FloatArray) -> FloatArray:
+        """Return values, rates and accelerations at times (M,)."""
+        given = [None if f is None else called(name, f, times) for name, f in self.named]
+        return filled(given, None if self.spline is None else self.spline(times))
+
+
+@dataclass(frozen=True)
+class Angles:
+    """Bending vectors of angles."""
+
+    bending: Motion
+    orientation: Motion
+
+    def __call__(self, times: FloatArray) -> FloatArray:
+        """Return values, rates and accelerations at times (M,)."""
+        return bending_vectors(self.bending(times), self.orientation(times))
 
 
 def of_samples(times: FloatArray, values: FloatArray) -> Pair:
@@ -71,11 +123,7 @@ def of_angle(times: FloatArray, name: str, angle: ArrayLike | TimeFunction) -> P
         return of_function(times, name, angle)
     samples = finite(angle, name)
     if samples.ndim == 0:
-        constant = np.array([float(samples), 0.0, 0.0])
-
-        def rest(times: FloatArray) -> FloatArray:
-            return np.repeat(constant[:, np.newaxis, np.newaxis], times.size, axis=1)
-
+        rest = Constant(float(samples))
         return Pair(rest, rest)
     if samples.ndim == 1:
         samples = samples[:, np.newaxis]
@@ -103,8 +151,7 @@ def quintic(times: FloatArray, q: FloatArray, qd: FloatArray, qdd: FloatArray) -
     """Return the quintic between each two samples that has the values and derivatives of both."""
     interpolate = require("scipy.interpolate", "track")
     pieces = interpolate.BPoly.from_derivatives(times, np.stack([q, qd, qdd], axis=1))
-    derivatives = [pieces, pieces.derivative(1), pieces.derivative(2)]
-    return lambda times: np.stack([piece(times) for piece in derivatives])
+    return Derivatives((pieces, pieces.derivative(1), pieces.derivative(2)))
 
 
 def filled(given: Sequence[FloatArray | None], spline: FloatArray | None) -> FloatArray:
@@ -176,8 +223,7 @@ def checked_samples(name: str, values: ArrayLike, num_times: int, columns: int |
 def _spline(times: FloatArray, values: FloatArray) -> Motion:
     interpolate = require("scipy.interpolate", "track")
     spline = interpolate.make_interp_spline(times, values, k=5)
-    derivatives = [spline, spline.derivative(1), spline.derivative(2)]
-    return lambda times: np.stack([derivative(times) for derivative in derivatives])
+    return Derivatives((spline, spline.derivative(1), spline.derivative(2)))
 
 
 def _unwrapped(times: FloatArray, phi: FloatArray) -> FloatArray:

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from cdcr._core import max_bending
 from cdcr.base.arrays import FloatArray, finite
-from cdcr.base.check import Check
+from cdcr.base.check import Check, require_kind
 from cdcr.model.model import FORMULATIONS
 from cdcr.paper._elements import Sums, cut_sums, disks, rod, sums
 from cdcr.robot.robot import Robot
@@ -221,8 +221,7 @@ def checked_angles(theta: ArrayLike) -> FloatArray:
 
 def only_section(robot: Robot) -> Section:
     """Return the section of a one-section robot, or refuse what the paper's equations lack."""
-    if not isinstance(robot, Robot):
-        raise TypeError(f"robot must be a cdcr.Robot, got {type(robot).__name__}")
+    require_kind("robot", robot, Robot)
     if len(robot.sections) != 1:
         raise ValueError(
             f"the paper's equations are for one section, got a robot of {len(robot.sections)}"

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from cdcr import _core
 from cdcr.base.arrays import finite
+from cdcr.base.check import one_of
 from cdcr.model.model import Model
 
 Interpolation = Literal["linear", "previous"]
@@ -37,7 +38,7 @@ class TensionTable:
     interpolation: Interpolation = "linear"
 
     def __post_init__(self) -> None:
-        if self.interpolation not in ("linear", "previous"):
+        if not one_of(self.interpolation, ("linear", "previous")):
             raise ValueError(
                 f"interpolation must be 'linear' or 'previous', got {self.interpolation!r}"
             )
@@ -56,7 +57,9 @@ Command: TypeAlias = (
 def _takes_state(function: Callable[..., Any]) -> bool:
     """Whether a tension function wants (t, q, qd) rather than t alone."""
     try:
-        parameters = inspect.signature(function).parameters.values()
+        # What np.vectorize made takes anything; the function that it calls tells.
+        plain = getattr(function, "pyfunc", function)
+        parameters = inspect.signature(plain).parameters.values()
     except (TypeError, ValueError):
         return False
     if any(p.kind is p.VAR_POSITIONAL for p in parameters):

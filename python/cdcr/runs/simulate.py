@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray
-from cdcr.base.check import Check
+from cdcr.base.check import Check, require_kind
 from cdcr.model.model import Model
 from cdcr.model.wrench import Wrench, loads
 from cdcr.robot.units import ask_about_commands
@@ -138,26 +138,29 @@ def simulate(
     Raises
     ------
     ValueError
-        For an argument out of range; the sentence names it.
+        For an argument out of range; the sentence names it. Also for a controller that was made for
+        a robot of other sizes, or that drives another run at this moment.
+    TypeError
+        For a model, a controller or a progress that is none.
     """
+    require_kind("model", model, Model)
     chosen, options = integrator_options(
         method, rtol=rtol, atol=atol, step=step, max_step=max_step, max_steps=max_steps
     )
+    if progress is not None and not callable(progress):
+        raise TypeError(f"progress must be a function of time, got {type(progress).__name__}")
     if tension is not None and command is not None:
         raise ValueError("give either tension or command, two names for one thing, not both")
     name, asked = ("tension", tension) if command is None else ("command", command)
-    watch = watched(events)
+    rest = chosen, options, progress, loads(wrenches), watched(events)
     if controller is not None:
-        if asked is not None or len(break_points) > 0:
+        require_kind("controller", controller, _core.Controller)
+        if asked is not None or np.size(break_points) > 0:
             raise ValueError(f"give either {name} or controller, not both")
-        raw = _core.simulate_controlled(
-            model, q0, qd0, t, controller, chosen, options, progress, loads(wrenches), watch
-        )
+        raw = _core.simulate_controlled(model, q0, qd0, t, controller, *rest)
     else:
         source = command_input(model, asked, break_points, name)
-        raw = _core.simulate(
-            model, q0, qd0, t, source, chosen, options, progress, loads(wrenches), watch
-        )
+        raw = _core.simulate(model, q0, qd0, t, source, *rest)
     run = Trajectory(
         model=model,
         t=raw.t,

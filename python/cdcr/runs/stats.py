@@ -11,13 +11,10 @@ STATS = ("steps", "rejected", "evaluations", "jacobians", "newton_failures")
 
 def make_stats(counts: Iterable[int] = (0,) * len(STATS)) -> Stats:
     """Return the cost of a run from its counts, in the order of STATS; zero by default."""
-    stats = Stats.__new__(Stats)
-    steps, rejected, evaluations, jacobians, newton_failures = counts
-    stats.__setstate__((steps, rejected, evaluations, jacobians, newton_failures))
-    return stats
+    return Stats(**dict(zip(STATS, counts, strict=True)))
 
 
 def total(costs: Iterable[Stats]) -> Stats:
     """Return what several runs cost together; nothing for none."""
-    rows = [cost.__getstate__() for cost in costs]
+    rows = [[getattr(cost, name) for name in STATS] for cost in costs]
     return make_stats(sum(row[i] for row in rows) for i in range(len(STATS)))

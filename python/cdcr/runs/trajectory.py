@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 import numpy as np
 
 from cdcr import _core
-from cdcr.base.arrays import FloatArray, finite, read_only
-from cdcr.base.check import count
+from cdcr.base.arrays import FloatArray, ReadOnlyArrays, finite, read_only
+from cdcr.base.check import count, require_kind
+from cdcr.model.model import Model
 from cdcr.runs.events import EventRecord
 
 if TYPE_CHECKING:
@@ -27,7 +28,6 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from cdcr._core import Stats, Status
-    from cdcr.model.model import Model
 
 __all__ = ["SlackEvent", "Trajectory"]
 
@@ -51,7 +51,7 @@ class SlackEvent(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Trajectory:
+class Trajectory(ReadOnlyArrays):
     """A run, sampled: one row for each output time reached. All arrays are read-only.
 
     Parameters
@@ -95,6 +95,7 @@ class Trajectory:
 
     def __post_init__(self) -> None:
         """Take copies nobody else can write to, and check that they fit together."""
+        require_kind("model", self.model, Model)
         if self.command is None:
             object.__setattr__(self, "command", self.tension)
         num_samples, num_cables = np.size(finite(self.t, "t")), self.model.num_cables

@@ -8,6 +8,7 @@ without ``t_end`` where nothing runs. Findings and a picture of its own are ``su
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
@@ -132,5 +133,9 @@ def _attached(module: str) -> dict[str, Any]:
     if find_spec(study):
         found["summarize"] = import_module(study).summarize
     if find_spec(picture):  # which knows Matplotlib
-        found["plot"] = lambda scenario, run: import_module(picture).plot(scenario, run)
+        found["plot"] = partial(_draw, picture)
     return found
+
+
+def _draw(picture: str, scenario: Scenario, run: Any) -> Any:
+    return import_module(picture).plot(scenario, run)

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <exception>
+#include <utility>
+
+#include "cdcr/pid.hpp"
+
+namespace cdcr::python {
+
+/// A controller written in Python, which takes any robot: what it gives is checked at each call.
+class PythonController final : public Controller {
+ public:
+  explicit PythonController(double period);
+
+  void reset() noexcept override;
+  [[nodiscard]] Status update(double t, const ConstVectorRef& q, const ConstVectorRef& qd,
+                              VectorRef command) noexcept override;
+  [[nodiscard]] double period() const noexcept override { return period_; }
+  [[nodiscard]] Index num_coordinates() const noexcept override { return any_size; }
+  [[nodiscard]] Index num_cables() const noexcept override { return any_size; }
+
+  /// After a run: throws what its methods have thrown.
+  void rethrow();
+
+ private:
+  template <class Function>
+  Status guarded(Function&& function) noexcept;
+
+  double period_;
+  std::exception_ptr exception_;
+};
+
+/// A Pid that knows the model as Python has it.
+class PythonPid final : public Pid {
+ public:
+  PythonPid(pybind11::object of, PidOptions options);
+
+  pybind11::object model;
+};
+
+}  // namespace cdcr::python

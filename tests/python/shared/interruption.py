@@ -1,0 +1,25 @@
+"""Ctrl-C during a computation."""
+
+import signal
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+DELAY = 0.2  # [s]
+
+
+@contextmanager
+def interrupt_soon() -> Iterator[Callable[[], float]]:
+    """Do what Ctrl-C does after a moment; gives a function that tells the time since then [s].
+
+    An alarm of the system, which waits for no thread of Python, handled as Ctrl-C is. SIGINT
+    itself is ignored where the tests run in the background.
+    """
+    before = signal.signal(signal.SIGALRM, signal.default_int_handler)
+    sent = time.monotonic() + DELAY
+    signal.setitimer(signal.ITIMER_REAL, DELAY)
+    try:
+        yield lambda: time.monotonic() - sent
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.signal(signal.SIGALRM, before)

@@ -1,0 +1,109 @@
+"""Arguments of another kind than asked for: a sentence that names the item, nothing else."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any, cast
+
+import numpy as np
+import pytest
+
+import cdcr
+
+MODEL = cdcr.Model(cdcr.robots.amouri2020())
+ZERO = [0.0, 0.0]
+NONE = cast("Any", None)
+
+
+def run(**arguments: Any) -> cdcr.Trajectory:
+    model = arguments.pop("model", MODEL)
+    return cdcr.simulate(model, ZERO, ZERO, t=[0.0, 0.01], **arguments)
+
+
+CASES: dict[str, tuple[Callable[[], object], str]] = {
+    "scenario": (lambda: cdcr.scenarios.get(cast("Any", 1)), "there is no scenario 1. Known: "),
+    "robot": (lambda: cdcr.robots.get(cast("Any", [])), "there is no robot []. Known: "),
+    "formulation": (lambda: cdcr.Model(MODEL.robot, cast("Any", [])), "formulation must be one of"),
+    "stable_step": (lambda: cdcr.stable_step(NONE), "model must be a cdcr.Model, got NoneType"),
+    "simulate": (lambda: run(model=None), "model must be a cdcr.Model, got NoneType"),
+    "inverse_run": (
+        lambda: cdcr.inverse_run(NONE, NONE),
+        "model must be a cdcr.Model, got NoneType",
+    ),
+    "Trajectory": (
+        lambda: cdcr.Trajectory(cast("Any", 1), *[NONE] * 7),
+        "model must be a cdcr.Model, got int",
+    ),
+    "Pid": (lambda: cdcr.Pid(NONE, kp=1.0), "model must be a cdcr.Model, got NoneType"),
+    "Simulator": (lambda: cdcr.Simulator(NONE), "model must be a cdcr.Model, got NoneType"),
+    "controller": (lambda: run(controller=5), "controller must be a cdcr.Controller, got int"),
+    "progress": (lambda: run(progress=5), "progress must be a function of time, got int"),
+    "method": (lambda: run(method=np.ones(2)), "method must be one of 'rk4', 'dopri5', 'bdf'"),
+    "wrenches": (lambda: run(wrenches=MODEL.robot), "wrenches must be a sequence of cdcr.Wrench"),
+    "wrenches of a state": (
+        lambda: MODEL.equilibrium([0.0] * 3, wrenches=cast("Any", MODEL.robot)),
+        "wrenches must be a sequence of cdcr.Wrench, got Robot",
+    ),
+    "huge": (lambda: run(tension=[10**400, 0, 0]), "tension must be numbers of shape (3,), got"),
+    "huge time": (
+        lambda: cdcr.Reference(cast("Any", [0, 10**400]), *[NONE] * 3),
+        "t must be numbers, got",
+    ),
+    "rtol": (lambda: run(rtol="a"), "rtol must be a number, got 'a' (str)"),
+    "step": (lambda: run(step=10**400), "step must be a number, got 1000"),
+    "max_steps": (lambda: run(max_steps=10**40), "max_steps must be a whole number, got 1000"),
+    "break_points": (
+        lambda: run(tension=lambda t: [0.0] * 3, break_points=5),
+        "break_points must be a sequence of times, got 5 (int)",
+    ),
+    "frame": (
+        lambda: cdcr.Wrench(section=0, frame=cast("Any", np.ones(2))),
+        "frame must be 'base' or 'local', got",
+    ),
+    "interpolation": (
+        lambda: cdcr.TensionTable([0.0], [[0.0] * 3], cast("Any", np.ones(2))),
+        "interpolation must be 'linear' or 'previous', got",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_sentence_names_what_is_wrong(name: str) -> None:
+    call, sentence = CASES[name]
+    with pytest.raises((TypeError, ValueError)) as caught:
+        call()
+    assert str(caught.value).startswith(sentence)
+
+
+def test_functions_that_numpy_has_vectorised() -> None:
+    plain = run(tension=lambda t: [1.0 + t, 0.0, 0.0])
+    of_time = np.vectorize(lambda t: np.array([1.0 + t, 0.0, 0.0]), signature="()->(n)")
+    of_state = np.vectorize(
+        lambda t, q, qd: np.array([1.0 + t, 0.0, 0.0]), signature="(),(m),(m)->(n)"
+    )
+    for function in (of_time, of_state):
+        np.testing.assert_array_equal(run(tension=function).q, plain.q)
+    wrench = cdcr.Wrench(section=0, force=(0.1, 0.0, 0.0))
+    factor = np.vectorize(lambda t: 1.0 + t)
+    np.testing.assert_array_equal(
+        run(wrenches=replace(wrench, profile=factor)).q,
+        run(wrenches=replace(wrench, profile=lambda t: 1.0 + t)).q,
+    )
+
+
+def test_inverse_dynamics_beside_wrenches() -> None:
+    model = cdcr.Model(cdcr.robots.three_sections())
+    random = np.random.default_rng(3)
+    q, qd = random.uniform(-1.0, 1.0, (2, 4, 6))
+    tension = random.uniform(0.0, 5.0, (4, 9))
+    wrenches = [
+        cdcr.Wrench(section=1, fraction=0.4, force=(0.1, -0.2, 0.3), moment=(0.0, 0.01, 0.0)),
+        cdcr.Wrench(section=2, force=(0.0, 0.2, 0.1), frame="local"),
+    ]
+    qdd = model.forward_dynamics(q, qd, tension, wrenches)
+    force = model.inverse_dynamics(q, qd, qdd, wrenches)
+    expected = tension @ model.actuation_matrix().T
+    # Recursions of a hundred operations, on accelerations of some thousand rad/s^2.
+    np.testing.assert_allclose(force, expected, rtol=0.0, atol=1e-11)
+    np.testing.assert_array_equal(
+        model.inverse_dynamics(q, qd, qdd, []), model.inverse_dynamics(q, qd, qdd)
+    )

@@ -1,0 +1,233 @@
+"""What leaves a process: every public result and exception, by pickle and by copy."""
+
+import copy
+import multiprocessing
+import pickle
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+import numpy as np
+import pytest
+
+import cdcr
+from cdcr import _core
+
+MODEL = cdcr.Model(cdcr.robots.three_sections())
+T = np.linspace(0.0, 1.0, 21)
+
+
+def pickled(protocol: int, thing: Any) -> Any:
+    return pickle.loads(pickle.dumps(thing, protocol))
+
+
+WAYS: dict[str, Callable[[Any], Any]] = {
+    f"protocol {p}": partial(pickled, p) for p in range(pickle.HIGHEST_PROTOCOL + 1)
+}
+WAYS |= {"copy": copy.copy, "deepcopy": copy.deepcopy}
+
+
+class Bang(cdcr.Controller):
+    """Pulls one cable, then none."""
+
+    def __init__(self, pull: float) -> None:
+        super().__init__(period=0.25)
+        self.pull = pull
+        self.calls = 0
+
+    def update(self, t: float, q: Any, qd: Any) -> list[float]:
+        self.calls += 1
+        return [self.pull * (t < 0.5)] + [0.0] * 8
+
+
+def swing(t: float) -> float:
+    return 0.3 * float(np.sin(t))
+
+
+def turn(t: float) -> float:
+    return 2.0 * t
+
+
+def bent(t: float) -> list[float]:
+    return [swing(t), 0.1] * 3
+
+
+def pid() -> cdcr.Pid:
+    made = cdcr.Pid(MODEL, kp=1.0, ki=2.0, kd=0.1, period=0.01, max_tension=30.0, cables=range(9))
+    made.reference = np.full(6, 0.1)
+    made.update(0.0, np.zeros(6), np.zeros(6))
+    return made
+
+
+def simulator() -> cdcr.Simulator:
+    made = cdcr.Simulator(MODEL, step=1e-4, substeps=2)
+    made.reset(np.full(6, 0.1), np.zeros(6), time=0.7)
+    for _ in range(3):
+        made.step(np.ones(9))
+    return made
+
+
+def infeasible(force: Any) -> cdcr.InfeasibleError:
+    with pytest.raises(cdcr.InfeasibleError) as caught:
+        MODEL.allocate(force, max_tension=1.0)
+    return caught.value
+
+
+def convergence() -> cdcr.ConvergenceError:
+    with pytest.raises(cdcr.ConvergenceError) as caught:
+        MODEL.equilibrium(np.full(9, 1e6) * np.arange(9))
+    return caught.value
+
+
+def inverse_run() -> cdcr.InverseRun:
+    return cdcr.inverse_run(MODEL, REFERENCE, infeasible="nearest")
+
+
+REFERENCE = cdcr.Reference.from_functions(T, bent)
+RUN = cdcr.simulate(MODEL, np.full(6, 0.1), np.zeros(6), t=T[:3])
+PUBLIC: dict[str, Callable[[], Any]] = {
+    "Cable": lambda: cdcr.Cable(radius=0.01, angle=0.0, end_section=0),
+    "Controller": lambda: Bang(2.0),
+    "ConvergenceError": convergence,
+    "Equilibrium": lambda: MODEL.find_equilibrium(np.ones(9)),
+    "Allocation": lambda: MODEL.find_tension(np.full(6, 1e3), max_tension=1.0),
+    "InfeasibleError": lambda: infeasible(np.full(6, 1e3)),
+    "InverseKinematics": lambda: MODEL.inverse_kinematics([0.1, 0.0, 0.3]),
+    "InverseRun": inverse_run,
+    "Model": lambda: MODEL,
+    "Modes": lambda: MODEL.modes(np.zeros(6), np.zeros(9)),
+    "Pid": pid,
+    "Reference of functions": lambda: REFERENCE,
+    "Reference of angles": lambda: cdcr.Reference.from_angles(T, swing, turn),
+    "Reference of a constant": lambda: cdcr.Reference.from_angles(T, 0.2, turn),
+    "Reference of samples": lambda: cdcr.Reference.from_samples(T, REFERENCE.q),
+    "Reference of derivatives": lambda: cdcr.Reference(T, REFERENCE.q, REFERENCE.qd, REFERENCE.qdd),
+    "Robot": lambda: MODEL.robot,
+    "Section": lambda: MODEL.robot.sections[0],
+    "Simulator": simulator,
+    "Simulator not started": lambda: cdcr.Simulator(MODEL),
+    "SlackEvent": lambda: cdcr.SlackEvent(0.1, 2, True),
+    "Stats": lambda: RUN.stats,
+    "Status": lambda: cdcr.Status.bending_limit,
+    "TensionTable": lambda: cdcr.TensionTable(T, np.ones((21, 9))),
+    "Trajectory": lambda: RUN,
+    "Wrench": lambda: cdcr.Wrench(section=1, force=(0.0, 0.1, 0.0), profile=swing),
+    "scenario": lambda: cdcr.scenarios.get("three-sections"),
+}
+
+
+def content(thing: Any, depth: int = 3) -> Any:
+    """Everything that can be read off a thing, in plain values."""
+    if isinstance(thing, np.ndarray):
+        return thing.shape, thing.dtype.str, thing.tobytes(), thing.flags.writeable
+    if isinstance(thing, (bool, int, float, str, type(None), cdcr.Status)):
+        return thing
+    if isinstance(thing, (list, tuple)):
+        return [content(one, depth) for one in thing]
+    if callable(thing) or depth == 0:
+        return type(thing).__name__
+    if isinstance(thing, BaseException):
+        return str(thing), thing.args, content(list(thing.__dict__.values()), depth - 1)
+    names = [name for name in dir(type(thing)) if not name.startswith("_")]
+    names += [name for name in getattr(thing, "__dict__", {}) if not name.startswith("_")]
+    plain = {}
+    for name in names:
+        if name not in ("plot", "frequency_hz") and not callable(getattr(type(thing), name, None)):
+            plain[name] = content(getattr(thing, name), depth - 1)
+    return type(thing).__name__, plain
+
+
+def test_every_public_class_is_here() -> None:
+    classes = [name for name in cdcr.__all__ if isinstance(getattr(cdcr, name), type)]
+    assert set(classes) <= {name.split()[0] for name in PUBLIC}
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("name", PUBLIC)
+def test_pickles_and_copies_say_the_same(name: str, way: str) -> None:
+    thing = PUBLIC[name]()
+    assert content(WAYS[way](thing)) == content(thing)
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_a_copied_simulator_goes_on_alike_and_by_itself(way: str) -> None:
+    one = simulator()
+    other = WAYS[way](one)
+    before = other.time
+    for _ in range(5):
+        assert one.step(np.ones(9)) is cdcr.Status.ok
+    assert other.time == before
+    for _ in range(5):
+        assert other.step(np.ones(9)) is cdcr.Status.ok
+    assert other.time == one.time
+    np.testing.assert_array_equal(other.q, one.q)
+    assert WAYS[way](cdcr.Simulator(MODEL)).step(np.ones(9)) is cdcr.Status.not_started
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_a_copied_reference_moves_alike(way: str) -> None:
+    for name in PUBLIC:
+        if name.startswith("Reference"):
+            reference = PUBLIC[name]()
+            np.testing.assert_array_equal(
+                WAYS[way](reference).evaluate(0.123), reference.evaluate(0.123)
+            )
+
+
+def test_a_copied_pid_goes_on_alike() -> None:
+    one = pid()
+    other = copy.deepcopy(one)
+    state = np.full(6, 0.02), np.full(6, -0.1)
+    np.testing.assert_array_equal(other.update(0.01, *state), one.update(0.01, *state))
+    np.testing.assert_array_equal(other.integral, one.integral)
+    other.reset()
+    assert np.any(one.integral)
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_what_the_core_keeps_to_itself_refuses_with_a_sentence(way: str) -> None:
+    for private in (_core.Loads(), _core.Options(), MODEL.robot._to_core()):
+        with pytest.raises(TypeError) as caught:
+            WAYS[way](private)
+        assert str(caught.value) == (
+            f"a cdcr {type(private).__name__} can be neither pickled nor copied: make another of "
+            "what it was made of"
+        )
+
+
+def test_what_no_constructor_has_filled_refuses_with_a_sentence() -> None:
+    bound = [thing for thing in vars(_core).values() if isinstance(thing, type(_core.Model))]
+    assert len(bound) > 12
+    for cls in [*bound, cdcr.Pid, cdcr.Model, Bang]:
+        empty = cls.__new__(cls)  # type: ignore[call-overload]
+        for name in dir(_core.Model) if cls is cdcr.Model else dir(cls):
+            member = getattr(cls, name)
+            if name.startswith("_") or not isinstance(member, property):
+                continue
+            if cls is not cdcr.Model or name not in ("robot", "formulation"):
+                with pytest.raises(TypeError, match="is empty: its __init__ has not been called"):
+                    getattr(empty, name)
+    for run in (
+        lambda: cdcr.simulate(
+            MODEL, np.zeros(6), np.zeros(6), t=[0.0, 1.0], controller=Bang.__new__(Bang)
+        ),
+        lambda: cdcr.Simulator(cdcr.Model.__new__(cdcr.Model)),
+        lambda: pickle.dumps(cdcr.Pid.__new__(cdcr.Pid)),
+    ):
+        with pytest.raises(TypeError, match="is empty: its __init__ has not been called"):
+            run()
+
+
+@pytest.mark.parametrize("method", ["fork", "spawn", "forkserver"])
+def test_pools_hand_on_answers_and_exceptions(method: str) -> None:
+    allocate = partial(MODEL.allocate, max_tension=1.0)
+    with multiprocessing.get_context(method).Pool(1) as pool:
+        possible = 1e-3 * np.arange(6.0)
+        (found,) = pool.map_async(allocate, [possible]).get(timeout=120)
+        np.testing.assert_array_equal(found, allocate(possible))
+        with pytest.raises(cdcr.InfeasibleError) as caught:
+            pool.map_async(allocate, [possible, np.full(6, 1e3)]).get(timeout=120)
+    expected = infeasible(np.full(6, 1e3))
+    assert str(caught.value) == str(expected)
+    np.testing.assert_array_equal(caught.value.tension, expected.tension)
+    assert caught.value.limiting == expected.limiting
