@@ -8,6 +8,7 @@
 
 #include "bind.hpp"
 #include "cdcr/cables.hpp"
+#include "docs.hpp"
 #include "states.hpp"
 
 namespace cdcr::python {
