@@ -197,6 +197,6 @@ def test_a_controller_for_other_cables_is_refused(model: cdcr.Model) -> None:
     )
     pid = cdcr.Pid(cdcr.Model(robot), kp=1.0)
     with pytest.raises(
-        ValueError, match=r"^tension must have one value for each of the 3 cables, got 2$"
+        ValueError, match=r"^the controller was made for a robot of 2 coordinates and 2 cables, but"
     ):
         cdcr.simulate(model, [0.0, 0.0], [0.0, 0.0], t=[0.0, 1.0], controller=pid)

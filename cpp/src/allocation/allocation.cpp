@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "base/arguments.hpp"
+#include "base/sizes.hpp"
 #include "cdcr/kinematics.hpp"
-#include "dynamics/sizes.hpp"
 
 namespace cdcr {
 namespace {

@@ -1,8 +1,8 @@
 #include "cdcr/pid.hpp"
 
+#include "base/sizes.hpp"
 #include "cdcr/dynamics.hpp"
 #include "dynamics/bending.hpp"
-#include "dynamics/sizes.hpp"
 
 namespace cdcr {
 namespace {

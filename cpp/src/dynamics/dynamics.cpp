@@ -1,9 +1,9 @@
 #include "cdcr/dynamics.hpp"
 
+#include "base/sizes.hpp"
 #include "chain/dual.hpp"
 #include "chain/gradient.hpp"
 #include "dynamics/kept.hpp"
-#include "dynamics/sizes.hpp"
 #include "loads/cable_force.hpp"
 
 namespace cdcr {

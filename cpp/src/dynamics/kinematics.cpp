@@ -1,8 +1,8 @@
 #include "cdcr/kinematics.hpp"
 
+#include "base/sizes.hpp"
 #include "chain/arcs.hpp"
 #include "dynamics/parts.hpp"
-#include "dynamics/sizes.hpp"
 
 namespace cdcr {
 

@@ -1,9 +1,9 @@
 #include "cdcr/linearization.hpp"
 
+#include "base/sizes.hpp"
 #include "cdcr/dynamics.hpp"
 #include "chain/dual.hpp"
 #include "chain/forward.hpp"
-#include "dynamics/sizes.hpp"
 #include "loads/total_force.hpp"
 
 namespace cdcr {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "base/sizes.hpp"
 #include "cdcr/dynamics.hpp"
 #include "cdcr/linearization.hpp"
 #include "dynamics/bending.hpp"
-#include "dynamics/sizes.hpp"
 
 namespace cdcr {
 namespace {

@@ -1,6 +1,6 @@
 #include "cdcr/cables.hpp"
 
-#include "dynamics/sizes.hpp"
+#include "base/sizes.hpp"
 #include "loads/cable_force.hpp"
 
 namespace cdcr {

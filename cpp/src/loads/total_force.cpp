@@ -1,6 +1,6 @@
 #include "loads/total_force.hpp"
 
-#include "dynamics/sizes.hpp"
+#include "base/sizes.hpp"
 
 namespace cdcr {
 

@@ -1,8 +1,8 @@
 #include "cdcr/wrench.hpp"
 
 #include "base/arguments.hpp"
+#include "base/sizes.hpp"
 #include "dynamics/parts.hpp"
-#include "dynamics/sizes.hpp"
 #include "loads/wrench_force.hpp"
 
 namespace cdcr {

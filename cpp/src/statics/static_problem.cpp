@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/sizes.hpp"
 #include "cdcr/cables.hpp"
 #include "cdcr/dynamics.hpp"
 #include "cdcr/kinematics.hpp"
@@ -9,7 +10,6 @@
 #include "chain/dual.hpp"
 #include "chain/gradient.hpp"
 #include "dynamics/parts.hpp"
-#include "dynamics/sizes.hpp"
 #include "loads/cable_force.hpp"
 #include "loads/wrench_force.hpp"
 
