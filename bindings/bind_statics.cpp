@@ -74,12 +74,14 @@ void bind_equilibrium(py::module_& m) {
       bound,
       [](const Equilibrium& e) {
         return py::make_tuple(to_array(e.q), to_array(e.tension), to_array(e.eigenvalues), e.stable,
-                              e.residual, e.iterations, e.load_steps, e.searches, e.status);
+                              e.friction_left_out, e.residual, e.iterations, e.load_steps,
+                              e.searches, e.status);
       },
       [](const py::tuple& s) {
-        return Equilibrium{to_vector(s[0]),   to_vector(s[1]),     to_vector(s[2]),
-                           s[3].cast<bool>(), s[4].cast<double>(), s[5].cast<int>(),
-                           s[6].cast<int>(),  s[7].cast<int>(),    s[8].cast<Status>()};
+        return Equilibrium{to_vector(s[0]),    to_vector(s[1]),   to_vector(s[2]),
+                           s[3].cast<bool>(),  s[4].cast<bool>(), s[5].cast<double>(),
+                           s[6].cast<int>(),   s[7].cast<int>(),  s[8].cast<int>(),
+                           s[9].cast<Status>()};
       });
 }
 
