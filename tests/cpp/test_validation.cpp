@@ -195,9 +195,9 @@ TEST_CASE("cables of the robot") {
 }
 
 TEST_CASE("base orientation") {
-  const std::string sentence = "base_orientation must be a right-handed rotation matrix, to 1e-9, ";
-  check_robot([](Robot& r) { r.base_orientation(2, 2) = 1.00000001; },
-              sentence + "got [[1, 0, 0], [0, 1, 0], [0, 0, 1.00000001]]");
+  const std::string sentence = "base_orientation must be a right-handed rotation matrix, to 1e-5, ";
+  check_robot([](Robot& r) { r.base_orientation(2, 2) = 1.0001; },
+              sentence + "got [[1, 0, 0], [0, 1, 0], [0, 0, 1.0001]]");
   check_robot([](Robot& r) { r.base_orientation(2, 2) = -1.0; },
               sentence + "got [[1, 0, 0], [0, 1, 0], [0, 0, -1]]");
   check_robot([](Robot& r) { r.base_orientation.setConstant(1e200); },
@@ -207,7 +207,7 @@ TEST_CASE("base orientation") {
   check_robot([](Robot& r) { r.base_orientation(1, 2) = nan; },
               "base_orientation[1][2] must be a finite number, got nan");
   Robot robot = amouri2020();
-  robot.base_orientation(2, 2) += 4e-10;
+  robot.base_orientation(2, 2) += 4e-6;
   CHECK(violations(robot).empty());
 }
 

@@ -136,7 +136,8 @@ class Model(_core.Model):
             If there is no equilibrium within the bending limit, or none was found.
         """
         found = self.find_equilibrium(tension, q0, wrenches)
-        ask_about_commands(self.robot, finite(tension, "tension"))
+        if tension is not None:
+            ask_about_commands(self.robot, finite(tension, "tension"))
         return checked_equilibrium(found) if throw else found
 
     def modes(
