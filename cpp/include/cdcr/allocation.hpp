@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "cdcr/export.hpp"
 #include "cdcr/model.hpp"
 
-namespace cdcr {
+namespace CDCR_EXPORT cdcr {
 
 /// How tensions are found. sections: each section's three cables in closed form; search: an active
 /// set, for any cables; automatic: the first where it applies.
@@ -101,4 +102,4 @@ struct Allocation {
 void cable_commands(const Model& model, const ConstVectorRef& q, const ConstVectorRef& tension,
                     VectorRef command) noexcept;
 
-}  // namespace cdcr
+}  // namespace CDCR_EXPORT cdcr

@@ -1,9 +1,10 @@
 #pragma once
 
+#include "cdcr/export.hpp"
 #include "cdcr/status.hpp"
 #include "cdcr/types.hpp"
 
-namespace cdcr {
+namespace CDCR_EXPORT cdcr {
 
 /// Turns the measured state into tensions, once each period; they are held until the next.
 ///
@@ -21,4 +22,4 @@ class Controller {
   [[nodiscard]] virtual Index num_cables() const noexcept = 0;
 };
 
-}  // namespace cdcr
+}  // namespace CDCR_EXPORT cdcr

@@ -3,9 +3,10 @@
 #include <functional>
 #include <string>
 
+#include "cdcr/export.hpp"
 #include "cdcr/integrator.hpp"
 
-namespace cdcr {
+namespace CDCR_EXPORT cdcr {
 
 /// A run, sampled: one row for each output time reached.
 struct Trajectory {
@@ -41,4 +42,4 @@ using Progress = std::function<bool(double t)>;
                                   IntegratorFactory factory = make_integrator,
                                   const Progress& progress = {}, const WrenchInput& loads = {});
 
-}  // namespace cdcr
+}  // namespace CDCR_EXPORT cdcr

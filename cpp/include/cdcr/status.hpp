@@ -1,6 +1,8 @@
 #pragma once
 
-namespace cdcr {
+#include "cdcr/export.hpp"
+
+namespace CDCR_EXPORT cdcr {
 
 /// How a computation ended. Anything but ok leaves the last good state in place.
 enum class Status {
@@ -22,4 +24,4 @@ enum class Status {
 /// The enumerator's own name, such as "step_limit". Real-time safe.
 [[nodiscard]] const char* name(Status status) noexcept;
 
-}  // namespace cdcr
+}  // namespace CDCR_EXPORT cdcr

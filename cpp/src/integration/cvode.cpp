@@ -32,12 +32,12 @@ Owner<Handle> own(Handle handle) {
 
 Owner<SUNContext> make_context() {
   SUNContext context = nullptr;
-  require(SUNContext_Create(nullptr, &context), "SUNContext_Create");
+  require(detail::create(&context), "SUNContext_Create");
   return own(context);
 }
 
 Owner<N_Vector> make_vector(Index size, SUNContext context) {
-  Owner<N_Vector> vector = own(N_VNew_Serial(size, context));
+  Owner<N_Vector> vector = own(N_VNew_Serial(static_cast<sunindextype>(size), context));
   detail::use_small_operations(vector.get());
   N_VConst(0.0, vector.get());
   return vector;
@@ -109,7 +109,8 @@ Cvode::Cvode(RobotOde& ode, Method method, const Options& options)
       context_(make_context()),
       trial_(make_vector(ode.num_states(), context_.get())),
       between_(make_vector(ode.num_states(), context_.get())),
-      matrix_(own(SUNDenseMatrix(ode.num_states(), ode.num_states(), context_.get()))),
+      matrix_(own(
+          SUNDenseMatrix(NV_LENGTH_S(trial_.get()), NV_LENGTH_S(trial_.get()), context_.get()))),
       linear_solver_(own(SUNLinSol_Dense(trial_.get(), matrix_.get(), context_.get()))),
       cvode_(own(CVodeCreate(method == Method::bdf ? CV_BDF : CV_ADAMS, context_.get()))),
       state_(VectorXd::Zero(ode.num_states())),
@@ -119,8 +120,7 @@ Cvode::Cvode(RobotOde& ode, Method method, const Options& options)
       pulls_(VectorXd::Zero(static_cast<Index>(ode.length_driven().size()))),
       signs_(pulls_) {
   void* const cvode = cvode_.get();
-  const auto silent = [](int, const char*, const char*, char*, void*) {};
-  require(CVodeSetErrHandlerFn(cvode, silent, nullptr), "CVodeSetErrHandlerFn");
+  require(detail::silence(context_.get(), cvode), "silence");
   require(CVodeSetUserData(cvode, this), "CVodeSetUserData");
   require(CVodeInit(cvode, derivative, time_, trial_.get()), "CVodeInit");
   require(CVodeSStolerances(cvode, options.rtol, options.atol), "CVodeSStolerances");

@@ -17,6 +17,27 @@ from cdcr.runs.command import Command, command_input
 from cdcr.runs.trajectory import SlackEvent, Trajectory
 
 MethodName = Literal["bdf", "adams", "dopri5", "rk4"]
+DEFAULT_METHOD: MethodName = "bdf" if _core.with_cvode else "dopri5"
+
+
+def available(method: str) -> bool:
+    """Return whether this build of cdcr has a method: bdf and adams need CVODE."""
+    return _core.with_cvode or method not in ("bdf", "adams")
+
+
+def find_method(name: MethodName) -> _core.Method:
+    """Return the method of that name, which this build of cdcr must have."""
+    try:
+        method = _core.Method[name]
+    except KeyError:
+        known = ", ".join(repr(m.name) for m in _core.Method)
+        raise ValueError(f"method must be one of {known}, got {name!r}") from None
+    if not available(name):
+        raise ValueError(
+            f"method {name!r} needs CVODE, and this cdcr was built without it: use 'dopri5' or "
+            "'rk4', or install SUNDIALS (libsundials-dev) and build cdcr again"
+        )
+    return method
 
 
 def warn_beyond_taylor_range(model: Model, q: FloatArray) -> None:
@@ -43,7 +64,7 @@ def simulate(
     command: Command = None,
     controller: _core.Controller | None = None,
     wrenches: Wrench | Sequence[Wrench] = (),
-    method: MethodName = "bdf",
+    method: MethodName = DEFAULT_METHOD,
     rtol: float | None = None,
     atol: float | None = None,
     step: float | None = None,
@@ -75,7 +96,8 @@ def simulate(
         Forces and moments on the robot; their profiles say how they change in time.
     method : {"bdf", "adams", "dopri5", "rk4"}, optional
         bdf and adams: CVODE. dopri5: Dormand-Prince 5(4), the quickest where nothing is stiff.
-        rk4: fixed step.
+        rk4: fixed step. Where cdcr was built without SUNDIALS there is no bdf and no adams, and
+        dopri5 is the default.
 
     Returns
     -------
@@ -104,11 +126,7 @@ def simulate(
     ValueError
         For an argument out of range; the sentence names it.
     """
-    try:
-        chosen = _core.Method[method]
-    except KeyError:
-        known = ", ".join(repr(m.name) for m in _core.Method)
-        raise ValueError(f"method must be one of {known}, got {method!r}") from None
+    chosen = find_method(method)
     if tension is not None and command is not None:
         raise ValueError("give either tension or command, two names for one thing, not both")
     asked = tension if command is None else command
