@@ -58,8 +58,7 @@ Trajectory run(const Model& model, const py::object& q0, const py::object& qd0, 
     return true;
   };
   const py::gil_scoped_release unlocked;
-  return simulate(model, q, qd, times, source, method, options, make_any_integrator, report,
-                  loads);
+  return simulate(model, q, qd, times, source, method, options, make_any_integrator, report, loads);
 }
 
 py::list slack_events(const Trajectory& run) {
