@@ -1,12 +1,14 @@
 # Everything a person does with this project. A first run installs what it needs and says so.
 PYTHON ?= python3
 VENV := .venv
-export PYTHON VENV
+# OFF builds without SUNDIALS and its hundreds of packages: without the methods bdf and adams.
+CVODE ?= ON
+export PYTHON VENV CVODE
 # Tools come from the venv; make's own PATH stays, so that PYTHON means the same throughout.
 IN_VENV := PATH="$(CURDIR)/$(VENV)/bin:$$PATH"
 
 .NOTPARALLEL:
-.PHONY: help demo test lint format bench wheel asan clean setup setup-dev test-cpp types test-python
+.PHONY: help demo test lint format bench wheel asan builds lock audit clean setup setup-dev test-cpp types test-python
 
 help: ## list the commands
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-8s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -35,6 +37,20 @@ asan: setup-dev ## C++ tests under the address and undefined-behaviour sanitizer
 	@$(IN_VENV) cmake --preset asan
 	@$(IN_VENV) cmake --build --preset asan
 	@$(IN_VENV) ctest --preset asan
+
+builds: setup-dev ## other ways to build, tested: clang, AVX2, shared and hidden, without CVODE (an hour)
+	@$(IN_VENV) tools/builds.sh
+
+lock: setup-dev ## find the versions and hashes of tools/lock anew
+	@$(IN_VENV) python -m pip install --quiet --upgrade 'pip>=25.1'
+	@$(IN_VENV) python -m pip install --quiet --group lock
+	@$(IN_VENV) tools/lock.sh
+
+audit: setup-dev ## look up known vulnerabilities of what tools/lock installs
+	@$(IN_VENV) python -m pip install --quiet --upgrade 'pip>=25.1'
+	@$(IN_VENV) python -m pip install --quiet --group lock
+	@$(IN_VENV) pip-audit --strict --require-hashes --disable-pip \
+	  -r tools/lock/demo.txt -r tools/lock/dev.txt
 
 clean: ## remove what make made, .venv included; out/ stays
 	rm -rf build dist $(VENV) .mypy_cache .pytest_cache .ruff_cache .hypothesis

@@ -9,17 +9,29 @@
 
 #include "arrays.hpp"
 #include "bind.hpp"
-#include "cdcr/cvode.hpp"
+#include "cdcr/simulate.hpp"
 #include "controllers.hpp"
 #include "docs.hpp"
 #include "gil.hpp"
 #include "pickling.hpp"
+
+#ifdef CDCR_WITH_CVODE
+#include "cdcr/cvode.hpp"
+#endif
 
 namespace cdcr::python {
 namespace {
 
 namespace py = pybind11;
 using namespace py::literals;
+
+#ifdef CDCR_WITH_CVODE
+constexpr bool with_cvode = true;
+constexpr auto* make_any_integrator = make_cvode_integrator;
+#else
+constexpr bool with_cvode = false;
+constexpr auto* make_any_integrator = make_integrator;
+#endif
 
 /// A Python callable as tension function: the slow path, one call of Python for each evaluation.
 CommandInput call_python(py::function function, Index num_cables,
@@ -73,7 +85,7 @@ Trajectory run(const Model& model, const py::object& q0, const py::object& qd0, 
   };
   const auto unlocked_run = [&] {
     const Unlocked unlocked;
-    return simulate(model, q, qd, times, source, method, options, make_cvode_integrator, report,
+    return simulate(model, q, qd, times, source, method, options, make_any_integrator, report,
                     loads, watched);
   };
   Trajectory done = unlocked_run();
@@ -138,6 +150,7 @@ constexpr const char* an_input = "TensionInput\n    What a run takes.";
 }  // namespace
 
 void bind_simulate(py::module_& m) {
+  m.attr("with_cvode") = with_cvode;
   py::native_enum<Method>(m, "Method", "enum.Enum", "How to integrate.")
       .value("rk4", Method::rk4)
       .value("dopri5", Method::dopri5)

@@ -8,22 +8,35 @@ if(NOT Eigen3_FOUND)
   )
 endif()
 
+# From here on CDCR_WITH_CVODE is ON or OFF.
 if(CDCR_WITH_CVODE)
-  find_package(SUNDIALS 6.4 QUIET COMPONENTS cvodes)
-  if(NOT SUNDIALS_FOUND OR NOT TARGET SUNDIALS::cvodes_static)
+  set(SUNDIALS_NOT_FOUND_MESSAGE "find_package is told not to look")
+  list(APPEND CMAKE_MODULE_PATH "${PROJECT_SOURCE_DIR}/cmake")
+  find_package(SUNDIALS 6.4...<8 QUIET MODULE)
+  string(
+    CONCAT how_to_get_it
+    "It needs CVODES of SUNDIALS 6.4 to 7, static or shared; "
+    "found: ${SUNDIALS_NOT_FOUND_MESSAGE}. On Debian or Ubuntu:\n"
+    "  apt-get install libsundials-dev\n"
+  )
+  if(SUNDIALS_FOUND)
+    set(CDCR_WITH_CVODE ON)
+  elseif(CDCR_WITH_CVODE STREQUAL AUTO)
+    message(
+      STATUS
+      "cdcr is built without CVODE (methods bdf and adams). ${how_to_get_it}"
+    )
+    set(CDCR_WITH_CVODE OFF)
+  else()
     message(
       FATAL_ERROR
-      "cdcr::cvode needs SUNDIALS 6.4 with static CVODES. On Debian or Ubuntu:\n"
-      "  apt-get install libsundials-dev\n"
-      "Without it, -DCDCR_WITH_CVODE=OFF builds cdcr::cdcr alone."
+      "cdcr::cvode cannot be built. ${how_to_get_it}"
+      "Without it, -DCDCR_WITH_CVODE=OFF builds everything but methods bdf and adams."
     )
   endif()
 endif()
 
 if(CDCR_BUILD_PYTHON)
-  if(NOT CDCR_WITH_CVODE)
-    message(FATAL_ERROR "The Python extension needs CDCR_WITH_CVODE=ON.")
-  endif()
   find_package(Python 3.10 QUIET COMPONENTS Interpreter Development.Module)
   if(NOT Python_FOUND)
     message(

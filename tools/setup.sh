@@ -3,13 +3,15 @@
 # Looks first and does only what is missing, so a second run takes a second or two.
 #
 # Usage: tools/setup.sh demo|dev     dev adds what tests and linters need
-# Environment: PYTHON (python3), VENV (.venv)
+# Environment: PYTHON (python3), VENV (.venv), CVODE (ON; OFF does without SUNDIALS, and so without
+# the methods bdf and adams: it saves some 300 Debian packages)
 set -eu
 cd "$(dirname "$0")/.."
 
 goal=${1:-demo}
 python=${PYTHON:-python3}
 venv=${VENV:-.venv}
+cvode=${CVODE:-ON}
 log=build/setup.log
 tree=build/release
 case $goal in demo) steps=4 ;; *) steps=3 ;; esac
@@ -21,6 +23,44 @@ die() {
   exit 1
 }
 quietly() { "$@" >>"$log" 2>&1 </dev/null; }
+
+# Runs a command into the log and shows how far it is, in one place on a terminal, else in tenths:
+# by ninja's "[12/53]", or by apt's three lines for each of so many packages.
+followed() {
+  what=$1
+  packages_due=$2
+  shift 2
+  { code=0 && "$@" || code=$?; echo "$code" >build/status; } 2>&1 </dev/null | {
+    done=0
+    shown=""
+    while IFS= read -r line; do
+      printf '%s\n' "$line" >>"$log"
+      case $line in
+        *\[[0-9]*/[0-9]*\]*)
+          done=${line#*\[}
+          all=${done#*/}
+          done=${done%%/*}
+          all=${all%%\]*}
+          ;;
+        Get:* | Unpacking\ * | Setting\ up\ *)
+          done=$((done + 1))
+          all=$((3 * packages_due))
+          ;;
+        *) continue ;;
+      esac
+      case $done$all in *[!0-9]* | 0*) continue ;; esac
+      percent=$((100 * done / all))
+      if [ -t 1 ]; then
+        printf '\r      %s: %3d %%' "$what" "$percent"
+      elif [ "$((percent / 10))" != "$shown" ]; then
+        shown=$((percent / 10))
+        note "$what: $percent %"
+      fi
+    done
+    if [ -t 1 ]; then echo; fi
+  }
+  return "$(cat build/status)"
+}
 
 { mkdir -p build && : >"$log"; } 2>/dev/null ||
   die "$(pwd)/build cannot be written; work in a copy that belongs to you."
@@ -66,8 +106,8 @@ find_missing_packages() {
   command -v "${CXX:-c++}" >/dev/null || need g++ "compiles the C++ core"
   installed share/eigen3/cmake/Eigen3Config.cmake 'lib*/cmake/eigen3/Eigen3Config.cmake' ||
     need libeigen3-dev "vectors and matrices of the C++ core"
-  installed 'lib/*/libsundials_cvodes.a' 'lib*/libsundials_cvodes.a' ||
-    need libsundials-dev "CVODE, the default integrator; brings many packages of its own"
+  [ "$cvode" = OFF ] || installed include/cvodes/cvodes.h ||
+    need libsundials-dev "CVODE, the default integrator; \"make CVODE=OFF ...\" does without"
   if ! "$python" -c 'import os, sys, sysconfig
 sys.exit(not os.path.exists(os.path.join(sysconfig.get_path("include"), "Python.h")))'; then
     package=$(python_package dev "header files (Python.h)")
@@ -94,13 +134,21 @@ install_packages() {
   fi
   note "by: ${sudo:+sudo }$command"
   # A package list that is missing or old is the usual cause of a first failure.
-  apt_get install -y --no-install-recommends $packages ||
-    { apt_get update && apt_get install -y --no-install-recommends $packages; } ||
+  try_install || { note "reading Debian's package lists" && quietly apt_get update && try_install; } ||
     die "apt-get could not install$packages; is the network up? Its own words are in $log."
 }
 
+# Says first how much it will be: these packages bring others.
+try_install() {
+  plan=$(apt_get install --assume-no --no-install-recommends $packages 2>>"$log" </dev/null || true)
+  due=$(echo "$plan" | sed -n 's/^.* upgraded, \([0-9]*\) newly installed.*/\1/p')
+  [ -n "$due" ] || return 1
+  note "$due packages with what they need. $(echo "$plan" | grep '^Need to get\|^After' | tr '\n' ' ')"
+  followed installing "$due" apt_get install -y --no-install-recommends $packages
+}
+
 apt_get() {
-  quietly $sudo env DEBIAN_FRONTEND=noninteractive NEEDRESTART_SUSPEND=1 \
+  $sudo env LC_ALL=C DEBIAN_FRONTEND=noninteractive NEEDRESTART_SUSPEND=1 \
     apt-get -o DPkg::Lock::Timeout=120 "$@"
 }
 
@@ -118,18 +166,19 @@ same_python() {
     [ "$("$venv/bin/python" -c "$identity")" = "$("$python" -c "$identity")" ]
 }
 
-pip() { quietly env PIP_DISABLE_PIP_VERSION_CHECK=1 "$venv/bin/python" -m pip "$@"; }
+pip() { env PIP_DISABLE_PIP_VERSION_CHECK=1 "$venv/bin/python" -m pip "$@"; }
 pip_online() {
-  PIP_RETRIES=${PIP_RETRIES:-2} pip "$@" ||
+  PIP_RETRIES=${PIP_RETRIES:-2} quietly pip "$@" ||
     die "pip could not download the Python packages; is the network up? Its own words are in $log."
 }
 
-# Installs a dependency group of pyproject.toml, unless that has been done since the last change.
-install_group() {
+# Installs what tools/lock names, unless that has been done since its last change.
+install_locked() {
+  lock=tools/lock/$1.txt
   stamp=$venv/.cdcr-$1
-  if [ ! "$stamp" -nt pyproject.toml ]; then
-    note "installing the tools of group \"$1\""
-    pip_online install --group "$1"
+  if [ ! "$stamp" -nt "$lock" ]; then
+    note "installing the packages of $lock"
+    pip_online install --require-hashes -r "$lock"
     touch "$stamp"
   fi
 }
@@ -139,20 +188,16 @@ if ! same_python; then
   rm -rf "$venv"
   quietly "$python" -m venv "$venv" || die "$python could not make $venv; see $log."
 fi
-# Groups need pip 25.1.
-"$venv/bin/python" -c 'import pip, sys
-sys.exit(tuple(map(int, pip.__version__.split(".")[:2])) < (25, 1))' ||
-  pip_online install --upgrade 'pip>=25.1'
-install_group build
-[ "$goal" = demo ] || install_group dev
+install_locked demo
+[ "$goal" = demo ] || install_locked dev
 
 # 3. cdcr ----------------------------------------------------------------------------------------
 
 stamp=$venv/.cdcr-installed
 up_to_date() {
-  [ -e "$stamp" ] &&
-    [ -z "$(find CMakeLists.txt LICENSE pyproject.toml cmake cpp bindings python \
-      -newer "$stamp" ! -name '*.md' ! -path '*/__pycache__*' -print -quit)" ]
+  [ "$(cat "$stamp" 2>/dev/null)" = "$cvode" ] &&
+    [ -z "$(find CMakeLists.txt LICENSE README.md pyproject.toml cmake cpp bindings licenses python \
+      -newer "$stamp" ! -path '*/*.md' ! -path '*/__pycache__*' -print -quit)" ]
 }
 
 # The tree of preset release, so that nothing is compiled twice: the tests link the same library.
@@ -160,8 +205,10 @@ up_to_date() {
 # The tools are already in .venv, so this needs no network: a failure is the build's own.
 build_wheel() {
   tests=$(sed -n 's/^CDCR_BUILD_TESTS:BOOL=//p' "$tree/CMakeCache.txt" 2>/dev/null || true)
-  pip wheel --no-deps --no-index --no-build-isolation -w build/wheel -C build-dir="$tree" \
-    -C build.targets=_core -C cmake.define.CDCR_BUILD_TESTS="${tests:-OFF}" \
+  failed_after=$(wc -l <"$log")
+  followed building 0 pip wheel -v --no-deps --no-index --no-build-isolation -w build/wheel \
+    -C build-dir="$tree" -C build.targets=_core -C cmake.define.CDCR_BUILD_TESTS="${tests:-OFF}" \
+    -C cmake.define.CDCR_WITH_CVODE="$cvode" \
     -C cmake.define.CDCR_PRECOMPILE_HEADERS=ON -C cmake.define.CDCR_WARNINGS_AS_ERRORS="$1" .
 }
 
@@ -171,7 +218,7 @@ build_demo() {
 }
 
 build_failed() {
-  grep -m 1 -A 5 -E 'error: |CMake Error' "$log" >&2 || true
+  tail -n "+$((failed_after + 1))" "$log" | grep -m 1 -A 5 -E 'error: |CMake Error' >&2 || true
   die "cdcr could not be built; the whole log is $log."
 }
 
@@ -179,14 +226,11 @@ step 3 "cdcr"
 if up_to_date; then
   note "unchanged since it was installed"
 else
-  note "building"
   rm -rf "$stamp" build/wheel
   : >build/started
   case $goal in demo) build_demo ;; *) build_wheel ON ;; esac || build_failed
-  note "installing with extras all"
-  pip uninstall -y cdcr
-  for wheel in build/wheel/cdcr-*.whl; do
-    pip_online install "$wheel[all]"
-  done
+  quietly pip uninstall -y cdcr
+  quietly pip install --no-deps --no-index build/wheel/cdcr-*.whl || die "pip could not install cdcr; see $log."
+  echo "$cvode" >"$stamp"
   touch -r build/started "$stamp"
 fi

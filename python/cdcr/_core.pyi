@@ -20,6 +20,7 @@ _FloatOrArray: TypeAlias = Any  # a float for one state, else an array
 
 __version__: str
 max_bending: float
+with_cvode: bool
 max_sections: int
 taylor_range: float
 

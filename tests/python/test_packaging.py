@@ -11,8 +11,10 @@ import pytest
 
 import cdcr
 from cdcr import _core
+from cdcr.files.toml import read_toml
 
 ROOT = Path(__file__).parents[2]
+LICENSES = ROOT / "licenses"
 README = (ROOT / "README.md").read_text()
 # What a plain import must not load: extras, and pydantic, which only reading a file needs.
 HEAVY = ["h5netcdf", "matplotlib", "PIL", "pandas", "pydantic", "rich", "scipy", "typer", "xarray"]
@@ -107,6 +109,49 @@ def test_readme_names_the_libraries_that_the_build_asks_for() -> None:
     libraries = re.findall(r"apt-get install (lib[\w-]+)", text)
     assert len(libraries) == 2
     assert [library for library in libraries if library not in README] == []
+
+
+def test_text_for_an_index_has_no_link_into_the_source() -> None:
+    text = metadata.distribution("cdcr").read_text("METADATA")
+    assert text is not None
+    assert "## What it does" in text
+    assert re.findall(r"\]\((?!https?:).*?\)", text) == []
+
+
+def test_licences_of_what_is_inside_are_installed() -> None:
+    files = [file for file in installed_files() if ".dist-info/licenses/" in file]
+    names = {file.partition("/licenses/")[2] for file in files}
+    assert names == {"LICENSE", *(f"licenses/{path.name}" for path in LICENSES.glob("*.txt"))}
+    assert names > {"licenses/Eigen.txt", "licenses/SUNDIALS.txt", "licenses/pybind11.txt"}
+
+
+def test_lock_has_the_versions_of_our_tools() -> None:
+    project = read_toml(ROOT / "pyproject.toml", "project file")
+    locked = "".join(path.read_text() for path in (ROOT / "tools" / "lock").glob("*.txt"))
+    for group in ("build", "test", "lint"):
+        for pinned in project["dependency-groups"][group]:
+            assert f"\n{pinned.partition(';')[0].strip()} " in f"\n{locked}", pinned
+
+
+def test_lock_has_a_hash_for_everything() -> None:
+    for path in (ROOT / "tools" / "lock").glob("*.txt"):
+        for entry in re.split(r"\n(?=\S)", path.read_text().strip()):
+            assert re.match(r"[\w.\-]+==\S+ .*\\\n +--hash=sha256:", entry), entry
+
+
+def test_public_headers_export_what_they_declare() -> None:
+    for header in (ROOT / "cpp" / "include" / "cdcr").glob("*.hpp*"):
+        opened = re.findall(r"^namespace (.*) \{$", header.read_text(), re.MULTILINE)
+        assert set(opened) <= {"CDCR_EXPORT cdcr", "cdcr::detail"}, header
+
+
+def test_method_of_cvode_is_refused_without_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(_core, "with_cvode", False)
+    model = cdcr.Model(cdcr.robots.amouri2020())
+    for method in ("bdf", "adams"):
+        with pytest.raises(ValueError, match=f"^method '{method}' needs CVODE, .* use 'dopri5' or"):
+            cdcr.simulate(model, [0, 0], [0, 0], t=[0, 1], method=method)
+    assert cdcr.simulate(model, [0, 0], [0, 0], t=[0, 1], method="dopri5").success
 
 
 def test_readme_example_prints_what_the_readme_says(tmp_path: Path) -> None:

@@ -6,9 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "cdcr/export.hpp"
 #include "cdcr/model.hpp"
 
-namespace cdcr {
+namespace CDCR_EXPORT cdcr {
 
 /// How tensions are found. sections: each section's three cables in closed form; search: an active
 /// set, for any cables; automatic: the first where it applies.
@@ -106,4 +107,4 @@ struct Allocation {
 void cable_commands(const Model& model, const ConstVectorRef& q, const ConstVectorRef& tension,
                     VectorRef command) noexcept;
 
-}  // namespace cdcr
+}  // namespace CDCR_EXPORT cdcr

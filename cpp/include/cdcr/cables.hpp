@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cdcr/export.hpp"
 #include "cdcr/model.hpp"
 #include "cdcr/types.hpp"
 
@@ -9,7 +10,7 @@
 // length [m] when it is driven by length. All functions are real-time safe; sizes are the caller's
 // duty.
 
-namespace cdcr {
+namespace CDCR_EXPORT cdcr {
 
 /// Generalised force Q = B F (d) [N m] of the tensions, were there no friction.
 void actuation_force(const Model& model, const ConstVectorRef& tension, VectorRef force) noexcept;
@@ -44,4 +45,4 @@ void tensions_along(const Model& model, const ConstVectorRef& q, const ConstVect
 /// Command that leaves the straight robot alone: no tension, straight lengths (num_cables).
 void rest_command(const Model& model, VectorRef command) noexcept;
 
-}  // namespace cdcr
+}  // namespace CDCR_EXPORT cdcr

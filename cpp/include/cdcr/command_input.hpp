@@ -1,8 +1,9 @@
 #pragma once
 
+#include "cdcr/export.hpp"
 #include "cdcr/signal.hpp"
 
-namespace cdcr {
+namespace CDCR_EXPORT cdcr {
 
 /// Commands of the cables over time: tensions [N], lengths [m] where driven by length; see Signal.
 /// All set up throws std::invalid_argument.
@@ -32,4 +33,4 @@ class CommandInput : public Signal {
 
 using TensionInput = CommandInput;  ///< its earlier name
 
-}  // namespace cdcr
+}  // namespace CDCR_EXPORT cdcr

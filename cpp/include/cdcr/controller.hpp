@@ -1,9 +1,10 @@
 #pragma once
 
+#include "cdcr/export.hpp"
 #include "cdcr/status.hpp"
 #include "cdcr/types.hpp"
 
-namespace cdcr {
+namespace CDCR_EXPORT cdcr {
 
 /// Turns the measured state into commands, once each period; they are held until the next.
 ///
@@ -30,4 +31,4 @@ class Controller {
   static constexpr Index any_size = -1;
 };
 
-}  // namespace cdcr
+}  // namespace CDCR_EXPORT cdcr

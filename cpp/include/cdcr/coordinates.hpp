@@ -1,8 +1,9 @@
 #pragma once
 
+#include "cdcr/export.hpp"
 #include "cdcr/types.hpp"
 
-namespace cdcr {
+namespace CDCR_EXPORT cdcr {
 
 /// Bending angle theta >= 0 and orientation angle phi in (-pi, pi] [rad] of one bending vector.
 struct Polar {
@@ -23,4 +24,4 @@ struct Polar {
 /// A straight sample keeps the phi of the sample before it. Starts with theta >= 0.
 void polar_along(const RowMatrixXd& q, RowMatrixXd& theta, RowMatrixXd& phi);
 
-}  // namespace cdcr
+}  // namespace CDCR_EXPORT cdcr

@@ -1,8 +1,9 @@
 #pragma once
 
+#include "cdcr/export.hpp"
 #include "cdcr/integrator.hpp"
 
-namespace cdcr {
+namespace CDCR_EXPORT cdcr {
 
 /// All four methods: bdf and adams by CVODE, the others by make_integrator. In target cdcr::cvode.
 ///
@@ -20,4 +21,4 @@ namespace cdcr {
 [[nodiscard]] std::unique_ptr<Integrator> make_cvode_integrator(RobotOde& ode, Method method,
                                                                 const Options& options);
 
-}  // namespace cdcr
+}  // namespace CDCR_EXPORT cdcr

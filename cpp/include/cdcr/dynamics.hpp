@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cdcr/export.hpp"
 #include "cdcr/model.hpp"
 #include "cdcr/total_force.hpp"
 #include "cdcr/types.hpp"
@@ -15,7 +16,7 @@
 // Every function here is real-time safe: no allocation, no exception, no I/O. Sizes are the
 // caller's duty; a non-finite input, or a section bent beyond max_bending, gives NaN.
 
-namespace cdcr {
+namespace CDCR_EXPORT cdcr {
 
 /// Mass matrix M(q) (d, d) [kg m^2].
 void mass_matrix(const Model& model, Data& data, const ConstVectorRef& q, MatrixRef M) noexcept;
@@ -63,4 +64,4 @@ void potential_gradient(const Model& model, Data& data, const ConstVectorRef& q,
 void potential_hessian(const Model& model, Data& data, const ConstVectorRef& q,
                        MatrixRef hessian) noexcept;
 
-}  // namespace cdcr
+}  // namespace CDCR_EXPORT cdcr

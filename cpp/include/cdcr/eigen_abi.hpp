@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "cdcr/export.hpp"
+
 // Eigen allocates its vectors differently under -mavx, -march=native or a sanitizer, and a vector
 // freed in another way than it was allocated in ruins the heap. Library and program must therefore
 // be built with the same such flags. Where they are not, linking fails for want of this symbol,
@@ -13,6 +15,13 @@
             EIGEN_MALLOC_ALREADY_ALIGNED)
 
 namespace cdcr::detail {
-extern const char CDCR_EIGEN_ABI;
+CDCR_EXPORT extern const char CDCR_EIGEN_ABI;
 [[gnu::used]] inline const char* const eigen_abi = &CDCR_EIGEN_ABI;
 }  // namespace cdcr::detail
+
+// In programs too: the linker keeps one copy of what both instantiate of Eigen, maybe the
+// program's.
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || \
+    (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "cdcr cannot be built with -ffast-math, -Ofast or a part of them: its checks would vanish"
+#endif

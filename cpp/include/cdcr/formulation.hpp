@@ -1,6 +1,8 @@
 #pragma once
 
-namespace cdcr {
+#include "cdcr/export.hpp"
+
+namespace CDCR_EXPORT cdcr {
 
 /// Which inertia functions a(sigma), b(sigma) a model of one section uses. The equations of motion
 /// are the same for all. cpp/README.md says what the printed ones keep and mend.
@@ -17,4 +19,4 @@ inline constexpr double taylor_range = 3.0 * 3.14159265358979323846 / 5.0;
 /// "exact", "taylor", "printed" or "printed-taylor".
 [[nodiscard]] const char* name(Formulation formulation) noexcept;
 
-}  // namespace cdcr
+}  // namespace CDCR_EXPORT cdcr

@@ -3,11 +3,12 @@
 #include <memory>
 #include <optional>
 
+#include "cdcr/export.hpp"
 #include "cdcr/robot_ode.hpp"
 #include "cdcr/status.hpp"
 #include "cdcr/types.hpp"
 
-namespace cdcr {
+namespace CDCR_EXPORT cdcr {
 
 /// rk4: fixed step. dopri5: Dormand-Prince 5(4), adaptive. bdf, adams: CVODE (cdcr/cvode.hpp).
 enum class Method { rk4, dopri5, bdf, adams };
@@ -68,4 +69,4 @@ using IntegratorFactory = std::unique_ptr<Integrator> (*)(RobotOde&, Method, con
 /// Throws std::invalid_argument naming the option that is out of range.
 void validate(const Options& options);
 
-}  // namespace cdcr
+}  // namespace CDCR_EXPORT cdcr

@@ -5,12 +5,13 @@
 #include <optional>
 #include <string>
 
+#include "cdcr/export.hpp"
 #include "cdcr/kinematics.hpp"
 #include "cdcr/status.hpp"
 
 // From where the tip should be to bending vectors, cpp/README.md eq. (7) and what follows it.
 
-namespace cdcr {
+namespace CDCR_EXPORT cdcr {
 
 /// How to search. What is left empty follows from the robot.
 struct InverseKinematicsOptions {
@@ -124,4 +125,4 @@ class InverseSolver {
                                                    const VectorXd& q0 = {},
                                                    const InverseKinematicsOptions& options = {});
 
-}  // namespace cdcr
+}  // namespace CDCR_EXPORT cdcr

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cdcr/export.hpp"
 #include "cdcr/model.hpp"
 #include "cdcr/types.hpp"
 
@@ -7,7 +8,7 @@
 // Z along the straight robot. Real-time safe where it says so; section and fraction are the
 // caller's duty: 0 <= section < num_sections, 0 <= fraction <= 1.
 
-namespace cdcr {
+namespace CDCR_EXPORT cdcr {
 
 /// Where a frame is: p_BF [m] and R_BF, seen from the base B.
 struct Pose {
@@ -30,4 +31,4 @@ void jacobian(const Model& model, const ConstVectorRef& q, Index section, double
 /// Lengths of the cables inside the robot (num_cables) [m], eq. (6). Real-time safe.
 void cable_lengths(const Model& model, const ConstVectorRef& q, VectorRef lengths) noexcept;
 
-}  // namespace cdcr
+}  // namespace CDCR_EXPORT cdcr

@@ -1,10 +1,11 @@
 #pragma once
 
+#include "cdcr/export.hpp"
 #include "cdcr/model.hpp"
 #include "cdcr/types.hpp"
 #include "cdcr/wrench.hpp"
 
-namespace cdcr {
+namespace CDCR_EXPORT cdcr {
 
 /// State (q, qd) and command to state rate, about one point: d(state)/dt = A state + B command.
 ///
@@ -23,4 +24,4 @@ void state_jacobian(const Model& model, Data& data, const ConstVectorRef& q,
                     const ConstVectorRef& qd, const ConstVectorRef& command,
                     const Wrenches& wrenches, MatrixRef A) noexcept;
 
-}  // namespace cdcr
+}  // namespace CDCR_EXPORT cdcr

@@ -4,11 +4,12 @@
 #include <memory>
 #include <vector>
 
+#include "cdcr/export.hpp"
 #include "cdcr/formulation.hpp"
 #include "cdcr/robot.hpp"
 #include "cdcr/types.hpp"
 
-namespace cdcr {
+namespace CDCR_EXPORT cdcr {
 
 /// A robot made ready for computing: its polynomials, stiffnesses and cable geometry.
 ///
@@ -111,4 +112,4 @@ class Data {
   std::unique_ptr<Kept> kept_;
 };
 
-}  // namespace cdcr
+}  // namespace CDCR_EXPORT cdcr

@@ -1,9 +1,10 @@
 #pragma once
 
+#include "cdcr/export.hpp"
 #include "cdcr/model.hpp"
 #include "cdcr/wrench.hpp"
 
-namespace cdcr {
+namespace CDCR_EXPORT cdcr {
 
 /// Small vibrations about a shape, cpp/several-sections.md eqs. (44), (45).
 struct Modes {
@@ -27,4 +28,4 @@ struct Modes {
 [[nodiscard]] Modes modes(const Model& model, const VectorXd& q, const VectorXd& command,
                           const Wrenches& wrenches = no_wrenches());
 
-}  // namespace cdcr
+}  // namespace CDCR_EXPORT cdcr

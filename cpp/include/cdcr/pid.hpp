@@ -2,8 +2,9 @@
 
 #include "cdcr/allocation.hpp"
 #include "cdcr/controller.hpp"
+#include "cdcr/export.hpp"
 
-namespace cdcr {
+namespace CDCR_EXPORT cdcr {
 
 /// Gains of a PID loop on the bending vectors, whose output is a generalised force. The same for
 /// every component, so the loop has no preferred direction.
@@ -48,4 +49,4 @@ class Pid : public Controller {
   VectorXd reference_, hold_, integral_, force_;
 };
 
-}  // namespace cdcr
+}  // namespace CDCR_EXPORT cdcr

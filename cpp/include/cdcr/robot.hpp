@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "cdcr/export.hpp"
 #include "cdcr/types.hpp"
 
-namespace cdcr {
+namespace CDCR_EXPORT cdcr {
 
 /// Largest number of sections of a robot.
 inline constexpr Index max_sections = 32;
@@ -95,4 +96,4 @@ void validate(const Robot& robot);
 /// Table 1 of Amouri, Mahfoudi, Zaatri (2020): one section, ten disks, three cables, no gravity.
 [[nodiscard]] Robot amouri2020();
 
-}  // namespace cdcr
+}  // namespace CDCR_EXPORT cdcr

@@ -4,11 +4,12 @@
 
 #include "cdcr/command_input.hpp"
 #include "cdcr/controller.hpp"
+#include "cdcr/export.hpp"
 #include "cdcr/model.hpp"
 #include "cdcr/status.hpp"
 #include "cdcr/wrench_input.hpp"
 
-namespace cdcr {
+namespace CDCR_EXPORT cdcr {
 
 /// The robot under its cables and wrenches as one ordinary differential equation: y = (q, qd),
 /// y' = f(t, y).
@@ -81,4 +82,4 @@ void require_command(const Model& model, const VectorXd& command);
 
 using Plant = RobotOde;  ///< its earlier name
 
-}  // namespace cdcr
+}  // namespace CDCR_EXPORT cdcr

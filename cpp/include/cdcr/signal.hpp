@@ -3,9 +3,10 @@
 #include <functional>
 #include <vector>
 
+#include "cdcr/export.hpp"
 #include "cdcr/types.hpp"
 
-namespace cdcr {
+namespace CDCR_EXPORT cdcr {
 
 /// Values as a function of time (and, for feedback, of the state): constant, a table or a function.
 ///
@@ -59,4 +60,4 @@ class Signal {
   Function function_;
 };
 
-}  // namespace cdcr
+}  // namespace CDCR_EXPORT cdcr

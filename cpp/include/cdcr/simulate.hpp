@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "cdcr/export.hpp"
 #include "cdcr/integrator.hpp"
 
-namespace cdcr {
+namespace CDCR_EXPORT cdcr {
 
 /// Something to look for in a run: where a function of time and state goes through zero. It is
 /// looked at several times a step and located on the interpolant of the method, to rounding.
@@ -71,4 +72,4 @@ using Progress = std::function<bool(double t)>;
                                   const Progress& progress = {}, const WrenchInput& loads = {},
                                   const Events& events = {});
 
-}  // namespace cdcr
+}  // namespace CDCR_EXPORT cdcr

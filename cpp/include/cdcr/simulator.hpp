@@ -3,9 +3,10 @@
 #include <memory>
 
 #include "cdcr/dynamics.hpp"
+#include "cdcr/export.hpp"
 #include "cdcr/status.hpp"
 
-namespace cdcr {
+namespace CDCR_EXPORT cdcr {
 
 /// The robot inside a control loop: one period at a time, tensions held over the period.
 ///
@@ -56,4 +57,4 @@ class Simulator {
   std::unique_ptr<Stages> stages_;
 };
 
-}  // namespace cdcr
+}  // namespace CDCR_EXPORT cdcr

@@ -1,10 +1,11 @@
 #pragma once
 
+#include "cdcr/export.hpp"
 #include "cdcr/model.hpp"
 #include "cdcr/status.hpp"
 #include "cdcr/wrench.hpp"
 
-namespace cdcr {
+namespace CDCR_EXPORT cdcr {
 
 /// A point of rest and whether the robot stays there.
 struct Equilibrium {
@@ -48,4 +49,4 @@ void static_stiffness(const Model& model, const ConstVectorRef& q, const ConstVe
 /// Whether all wrenches have an energy: forces that keep their direction, and no moments.
 [[nodiscard]] bool conservative(const Wrenches& wrenches) noexcept;
 
-}  // namespace cdcr
+}  // namespace CDCR_EXPORT cdcr

@@ -2,7 +2,9 @@
 
 #include <functional>
 
-namespace cdcr {
+#include "cdcr/export.hpp"
+
+namespace CDCR_EXPORT cdcr {
 
 /// Asked now and then by what may take long; true ends it, with status interrupted.
 using Interrupt = std::function<bool()>;
@@ -30,4 +32,4 @@ enum class Status {
 /// The enumerator's own name, such as "step_limit". Real-time safe.
 [[nodiscard]] const char* name(Status status) noexcept;
 
-}  // namespace cdcr
+}  // namespace CDCR_EXPORT cdcr

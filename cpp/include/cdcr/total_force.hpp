@@ -1,9 +1,10 @@
 #pragma once
 
 #include "cdcr/cables.hpp"
+#include "cdcr/export.hpp"
 #include "cdcr/wrench.hpp"
 
-namespace cdcr {
+namespace CDCR_EXPORT cdcr {
 
 /// Generalised force (num_coordinates) [N m] of all cables and wrenches: the one force of every
 /// right-hand side. command: as in cdcr/cables.hpp. Real-time safe.
@@ -15,4 +16,4 @@ void total_force(const Model& model, const ConstVectorRef& q, const ConstVectorR
   return model.has_plain_cables() && wrenches.empty();
 }
 
-}  // namespace cdcr
+}  // namespace CDCR_EXPORT cdcr

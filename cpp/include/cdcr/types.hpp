@@ -3,8 +3,9 @@
 #include <Eigen/Core>
 
 #include "cdcr/eigen_abi.hpp"
+#include "cdcr/export.hpp"
 
-namespace cdcr {
+namespace CDCR_EXPORT cdcr {
 
 using Eigen::Index;
 using Eigen::Matrix3d;
@@ -25,4 +26,4 @@ using MatrixRef = Eigen::Ref<MatrixXd>;
 /// One sample in each row, C-contiguous, as NumPy lays it out.
 using RowMatrixXd = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-}  // namespace cdcr
+}  // namespace CDCR_EXPORT cdcr

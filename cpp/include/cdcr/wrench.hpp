@@ -2,11 +2,12 @@
 
 #include <vector>
 
+#include "cdcr/export.hpp"
 #include "cdcr/model.hpp"
 #include "cdcr/status.hpp"
 #include "cdcr/types.hpp"
 
-namespace cdcr {
+namespace CDCR_EXPORT cdcr {
 
 /// A force and a moment on the backbone at a fraction of a section's length.
 struct Wrench {
@@ -36,4 +37,4 @@ void validate(const Model& model, const Wrenches& wrenches);
 void add_wrench_force(const Model& model, const ConstVectorRef& q, const Wrenches& wrenches,
                       VectorRef force) noexcept;
 
-}  // namespace cdcr
+}  // namespace CDCR_EXPORT cdcr

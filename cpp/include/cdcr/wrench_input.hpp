@@ -3,10 +3,11 @@
 #include <functional>
 #include <vector>
 
+#include "cdcr/export.hpp"
 #include "cdcr/signal.hpp"
 #include "cdcr/wrench.hpp"
 
-namespace cdcr {
+namespace CDCR_EXPORT cdcr {
 
 /// How the size of a wrench changes in time: a factor, 1 where nothing else is said.
 ///
@@ -58,4 +59,4 @@ class WrenchInput {
 
 using Loads = WrenchInput;  ///< its earlier name
 
-}  // namespace cdcr
+}  // namespace CDCR_EXPORT cdcr

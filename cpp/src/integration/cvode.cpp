@@ -53,12 +53,12 @@ Owner<Handle> own(Handle handle) {
 
 Owner<SUNContext> make_context() {
   SUNContext context = nullptr;
-  require(SUNContext_Create(nullptr, &context), "SUNContext_Create");
+  require(detail::create(&context), "SUNContext_Create");
   return own(context);
 }
 
 Owner<N_Vector> make_vector(Index size, SUNContext context) {
-  Owner<N_Vector> vector = own(N_VNew_Serial(size, context));
+  Owner<N_Vector> vector = own(N_VNew_Serial(static_cast<sunindextype>(size), context));
   detail::use_small_operations(vector.get());
   N_VConst(0.0, vector.get());
   return vector;
@@ -142,8 +142,7 @@ Cvode::Cvode(RobotOde& ode, Method method, const Options& options)
   void* const cvode = cvode_.get();
   const detail::Spare::Use spare(spare_);
   detail::Spare::serve(trial_.get(), matrix_.get());
-  const auto silent = [](int, const char*, const char*, char*, void*) {};
-  require(CVodeSetErrHandlerFn(cvode, silent, nullptr), "CVodeSetErrHandlerFn");
+  require(detail::silence(context_.get(), cvode), "silence");
   require(CVodeSetUserData(cvode, this), "CVodeSetUserData");
   if (CVodeInit(cvode, derivative, time_, trial_.get()) != CV_SUCCESS) {
     // It has freed its vectors, and would free them again.

@@ -21,6 +21,26 @@ from cdcr.runs.trajectory import SlackEvent, Trajectory
 
 MethodName = Literal["bdf", "adams", "dopri5", "rk4"]
 MAX_STEPS = 2**63 - 1  # that the core can count
+DEFAULT_METHOD: MethodName = "bdf" if _core.with_cvode else "dopri5"
+
+
+def available(method: str) -> bool:
+    """Return whether this build of cdcr has a method: bdf and adams need CVODE."""
+    return _core.with_cvode or method not in ("bdf", "adams")
+
+
+def find_method(name: object) -> _core.Method:
+    """Return the method of that name, which this build of cdcr must have."""
+    names = _core.Method.__members__
+    if not isinstance(name, str) or name not in names:
+        known = ", ".join(map(repr, names))
+        raise ValueError(f"method must be one of {known}, got {name!r}")
+    if not available(name):
+        raise ValueError(
+            f"method {name!r} needs CVODE, and this cdcr was built without it: use 'dopri5' or "
+            "'rk4', or install SUNDIALS (libsundials-dev) and build cdcr again"
+        )
+    return names[name]
 
 
 def warn_beyond_taylor_range(model: Model, q: FloatArray) -> None:
@@ -41,10 +61,7 @@ def integrator_options(
     method: object, *, max_steps: int | None = None, **given: float | None
 ) -> tuple[_core.Method, _core.Options]:
     """Return method and options as the core takes them, None for its defaults, or refuse them."""
-    names = [one.name for one in _core.Method]
-    if not (isinstance(method, str) and method in names):
-        known = ", ".join(map(repr, names))
-        raise ValueError(f"method must be one of {known}, got {method!r}")
+    chosen = find_method(method)
     check = Check()
     told: dict[str, Any] = {
         name: check.number(name, value, "a number")
@@ -57,7 +74,7 @@ def integrator_options(
             "max_steps", max_steps, requirement, low=-MAX_STEPS, high=MAX_STEPS
         )
     check.done()
-    return _core.Method[method], _core.Options(**told)
+    return chosen, _core.Options(**told)
 
 
 def simulate(
@@ -70,7 +87,7 @@ def simulate(
     command: Command = None,
     controller: _core.Controller | None = None,
     wrenches: Wrench | Sequence[Wrench] = (),
-    method: MethodName = "bdf",
+    method: MethodName = DEFAULT_METHOD,
     rtol: float | None = None,
     atol: float | None = None,
     step: float | None = None,
@@ -103,7 +120,8 @@ def simulate(
         Forces and moments on the robot; their profiles say how they change in time.
     method : {"bdf", "adams", "dopri5", "rk4"}, optional
         bdf and adams: CVODE. dopri5: Dormand-Prince 5(4), the quickest where nothing is stiff.
-        rk4: fixed step.
+        rk4: fixed step. Where cdcr was built without SUNDIALS there is no bdf and no adams, and
+        dopri5 is the default.
 
     Returns
     -------

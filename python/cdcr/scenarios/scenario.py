@@ -16,7 +16,7 @@ from cdcr.model.model import Model
 from cdcr.model.wrench import Wrench
 from cdcr.robot.robot import Robot
 from cdcr.runs.command import TensionTable
-from cdcr.runs.simulate import MethodName, integrator_options, simulate
+from cdcr.runs.simulate import DEFAULT_METHOD, MethodName, integrator_options, simulate
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.metrics import Metric, run_metrics
 
@@ -111,7 +111,7 @@ class Scenario:
     t_end: float = 0.0
     num_samples: int = 1001
     formulation: str = "exact"
-    method: MethodName = "bdf"
+    method: MethodName = DEFAULT_METHOD
     rtol: float | None = None
     atol: float | None = None
     step: float | None = None

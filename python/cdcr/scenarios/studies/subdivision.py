@@ -74,9 +74,7 @@ def responses() -> dict[int, Trajectory]:
     for parts in STEPS:
         model = model_of(parts, DAMPING)
         rest, tension = np.zeros(model.num_coordinates), (TENSION, 0.0, 0.0)
-        runs[parts] = simulate(
-            model, rest, rest, t=t, tension=tension, method="bdf", rtol=1e-8, atol=1e-10
-        )
+        runs[parts] = simulate(model, rest, rest, t=t, tension=tension, rtol=1e-8, atol=1e-10)
     return runs
 
 

@@ -1,0 +1,21 @@
+# Without optimisation cdcr is 200 times slower, and no build type means none: then it is Release.
+# A project that embeds cdcr chooses for itself, and is told.
+get_property(is_multi_config GLOBAL PROPERTY GENERATOR_IS_MULTI_CONFIG)
+if(NOT is_multi_config AND NOT CMAKE_BUILD_TYPE)
+  if(PROJECT_IS_TOP_LEVEL)
+    message(STATUS "cdcr: no CMAKE_BUILD_TYPE was given, so it is Release")
+    set(
+      CMAKE_BUILD_TYPE
+      Release
+      CACHE STRING
+      "Debug, Release, RelWithDebInfo or MinSizeRel"
+      FORCE
+    )
+  elseif(NOT CMAKE_CXX_FLAGS MATCHES "-O[1-3s]")
+    message(
+      WARNING
+      "cdcr is compiled without optimisation, which makes it 200 times slower: "
+      "-DCMAKE_BUILD_TYPE=Release gives the program and cdcr theirs."
+    )
+  endif()
+endif()
