@@ -20,8 +20,14 @@ def run(**arguments: Any) -> cdcr.Trajectory:
 
 
 CASES: dict[str, tuple[Callable[[], object], str]] = {
-    "scenario": (lambda: cdcr.scenarios.get(cast("Any", 1)), "there is no scenario 1. Known: "),
-    "robot": (lambda: cdcr.robots.get(cast("Any", [])), "there is no robot []. Known: "),
+    "scenario": (
+        lambda: cdcr.scenarios.get(cast("Any", 1)),
+        "the name of a scenario must be a string, got 1 (int). Known: ",
+    ),
+    "robot": (
+        lambda: cdcr.robots.get(cast("Any", [])),
+        "the name of a robot must be a string, got [] (list). Known: ",
+    ),
     "formulation": (lambda: cdcr.Model(MODEL.robot, cast("Any", [])), "formulation must be one of"),
     "stable_step": (lambda: cdcr.stable_step(NONE), "model must be a cdcr.Model, got NoneType"),
     "simulate": (lambda: run(model=None), "model must be a cdcr.Model, got NoneType"),
@@ -50,7 +56,10 @@ CASES: dict[str, tuple[Callable[[], object], str]] = {
     ),
     "rtol": (lambda: run(rtol="a"), "rtol must be a number, got 'a' (str)"),
     "step": (lambda: run(step=10**400), "step must be a number, got 1000"),
-    "max_steps": (lambda: run(max_steps=10**40), "max_steps must be a whole number, got 1000"),
+    "max_steps": (
+        lambda: run(max_steps=10**40),
+        "max_steps must be a whole number 1 to 9223372036854775807, got 1000",
+    ),
     "break_points": (
         lambda: run(tension=lambda t: [0.0] * 3, break_points=5),
         "break_points must be a sequence of times, got 5 (int)",

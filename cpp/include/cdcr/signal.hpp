@@ -38,6 +38,10 @@ class Signal {
 
   [[nodiscard]] Index size() const noexcept { return size_; }
   [[nodiscard]] bool is_function() const noexcept { return static_cast<bool>(function_); }
+  /// Whether it is a function of which no break points are known.
+  [[nodiscard]] bool is_unbroken_function() const noexcept {
+    return is_function() && times_.empty();
+  }
   [[nodiscard]] const std::vector<double>& break_points() const noexcept { return times_; }
 
   /// Segment that starts at or before t: 0 before the first break point, k after the k-th.

@@ -52,11 +52,12 @@ using Progress = std::function<bool(double t)>;
 /// Runs the robot from (q0, qd0) at times[0] through strictly increasing output times.
 ///
 /// Time counts from times[0] inside, so that a run does not depend on its zero. Break points of the
-/// input are hit exactly; under a function of time no step is longer than a thousandth of the run,
-/// or than the mean distance of the output times, unless `max_step` says so. Where a length-driven
-/// cable turns slack or taut the method starts anew, as at a break point. A run that fails keeps
-/// the samples up to there. Throws std::invalid_argument for arguments out of range, and whatever
-/// the input throws. `factory` is make_integrator, or make_cvode_integrator of cdcr/cvode.hpp.
+/// input are hit exactly; under a function of time without break points no step is longer than a
+/// thousandth of the run, or than the mean distance of the output times, unless `max_step` says so.
+/// Where a length-driven cable turns slack or taut the method starts anew, as at a break point. A
+/// run that fails keeps the samples up to there. Throws std::invalid_argument for arguments out of
+/// range, and whatever the input throws. `factory` is make_integrator, or make_cvode_integrator of
+/// cdcr/cvode.hpp.
 [[nodiscard]] Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
                                   const VectorXd& times, const CommandInput& input,
                                   Method method = Method::dopri5, const Options& options = {},

@@ -36,8 +36,8 @@ class WrenchInput {
   [[nodiscard]] bool empty() const noexcept { return wrenches_.empty(); }
   /// Whether all wrenches are constant over a stretch without break points.
   [[nodiscard]] bool hold() const noexcept { return hold_; }
-  /// Whether a profile is a function.
-  [[nodiscard]] bool has_function() const noexcept;
+  /// Whether a profile is a function of which no break points are known.
+  [[nodiscard]] bool has_unbroken_function() const noexcept;
   /// The same wrenches, time counted from `start` [s].
   [[nodiscard]] WrenchInput since(double start) const;
   /// Times at which a profile is not smooth, increasing [s].

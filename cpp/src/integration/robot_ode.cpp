@@ -164,11 +164,8 @@ Status check_state(const Model& model, const ConstVectorRef& y) noexcept {
 }
 
 Status check_tension(const Model& model, const ConstVectorRef& tension) noexcept {
-  if (tension.size() != model.num_cables()) return Status::invalid_tension;
-  for (Index j = 0; j < tension.size(); ++j) {
-    if (!(tension[j] >= 0.0) || !std::isfinite(tension[j])) return Status::invalid_tension;
-  }
-  return Status::ok;
+  const bool sound = tension.size() == model.num_cables() && tension.allFinite();
+  return sound && (tension.array() >= 0.0).all() ? Status::ok : Status::invalid_tension;
 }
 
 void require_command(const Model& model, const VectorXd& command) {

@@ -231,7 +231,8 @@ Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
   const CommandInput commands = input.since(times[0]);
   const WrenchInput wrenches = loads.since(times[0]);
   RobotOde ode(model, commands, wrenches);
-  const Options chosen = watchful(options, times, input.is_function() || loads.has_function());
+  const Options chosen =
+      watchful(options, times, input.is_unbroken_function() || loads.has_unbroken_function());
   const auto integrator = factory(ode, method, chosen);
   return Run(ode, times, *integrator, method, chosen, progress, events).go(q0, qd0);
 }
@@ -244,7 +245,7 @@ Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
   ShiftedController shifted(controller, times[0]);
   const WrenchInput wrenches = loads.since(times[0]);
   RobotOde ode(model, shifted, wrenches);
-  const Options chosen = watchful(options, times, loads.has_function());
+  const Options chosen = watchful(options, times, loads.has_unbroken_function());
   const auto integrator = factory(ode, method, chosen);
   controller.reset();
   return Run(ode, times, *integrator, method, chosen, progress, events).go(q0, qd0);

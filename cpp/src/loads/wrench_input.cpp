@@ -59,9 +59,9 @@ void WrenchInput::add(const Wrench& wrench, Profile profile) {
   factors_.push_back(std::move(factor));
 }
 
-bool WrenchInput::has_function() const noexcept {
+bool WrenchInput::has_unbroken_function() const noexcept {
   return std::any_of(factors_.begin(), factors_.end(),
-                     [](const Signal& factor) { return factor.is_function(); });
+                     [](const Signal& factor) { return factor.is_unbroken_function(); });
 }
 
 WrenchInput WrenchInput::since(double start) const {

@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cdcr import _core
-from cdcr.base.arrays import finite
-from cdcr.base.check import one_of
+from cdcr.base.check import Check, one_of
 from cdcr.model.model import Model
 
 Interpolation = Literal["linear", "previous"]
@@ -80,6 +79,9 @@ def command_input(
     model: Model, command: Command, break_points: Sequence[float] = (), name: str = "tension"
 ) -> _core.TensionInput:
     """Turn what a user gives as command or tension into the core's input; messages say `name`."""
+    check = Check()
+    breaks = check.numbers("break_points", break_points, "a sequence of times", "a number of s")
+    check.done()
     if command is None:
         command = model.rest_command()
     if callable(command):
@@ -87,10 +89,8 @@ def command_input(
         if not _takes_state(function):
             time_only = function
             function = lambda t, q, qd: time_only(t)  # noqa: E731
-        return _core.TensionInput.function(
-            model, function, finite(break_points, "break_points").tolist()
-        )
-    if len(break_points) > 0:
+        return _core.TensionInput.function(model, function, list(breaks))
+    if breaks:
         raise ValueError("break_points go with a tension function; a table has its own")
     if isinstance(command, TensionTable):
         linear = command.interpolation == "linear"

@@ -135,9 +135,9 @@ def simulate(
     step : float, optional
         Step of rk4 [s].
     max_step : float, optional
-        Largest step of the adaptive methods [s]. Where tensions or a wrench are a callable, no
-        step is longer than a thousandth of the run, or than the mean distance of the output times,
-        unless this says so: what is shorter than a step may be missed.
+        Largest step of the adaptive methods [s]. Where tensions or a wrench are a callable without
+        break points, no step is longer than a thousandth of the run, or than the mean distance of
+        the output times, unless this says so: what is shorter than a step may be missed.
     max_steps : int, optional
         Limit of internal steps in the run; by default a million, and a hundred more for each
         stretch between break points or periods of a controller.
