@@ -23,6 +23,13 @@ void bind_model(py::module_& m) {
                {"robot : Robot\n    The robot.\n",
                 "formulation : Formulation\n    Which inertia functions to use.\n"},
                "", docs::bad_argument))
+      .def(py::init([](const Model& other, const py::object& gravity) {
+             return other.with_gravity(*VectorArgument(gravity, "gravity", 3));
+           }),
+           "model"_a, "gravity"_a,
+           Doc("The same model under another gravity, which shares its tables.",
+               {docs::model, "gravity : (3,) array_like\n    In the base frame [m/s^2].\n"}, "",
+               docs::bad_argument))
       .def_property_readonly("num_sections", &Model::num_sections, "Number n of sections.")
       .def_property_readonly("num_coordinates", &Model::num_coordinates,
                              "Number d of coordinates q, two for each section.")

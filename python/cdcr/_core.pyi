@@ -2,7 +2,7 @@
 
 import enum
 from collections.abc import Callable, Sequence
-from typing import Any, TypeAlias, final
+from typing import Any, TypeAlias, final, overload
 
 from numpy.typing import ArrayLike
 
@@ -62,7 +62,10 @@ def status_message(status: Status) -> str: ...
 def polar_along(q: ArrayLike) -> tuple[_FloatArray, _FloatArray]: ...
 
 class Model(metaclass=_Bound):
+    @overload
     def __init__(self, robot: Robot, formulation: Formulation) -> None: ...
+    @overload
+    def __init__(self, model: Model, gravity: ArrayLike) -> None: ...
     @property
     def num_sections(self) -> int: ...
     @property

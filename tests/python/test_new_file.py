@@ -17,9 +17,10 @@ SECONDS = 60.0  # after which a process that should have ended is taken for stuc
 
 # Writes two files, the second into a folder that is not there yet, and stops before the end.
 WRITER = """
-import sys
+import signal, sys
 from pathlib import Path
 from cdcr.files.new_file import new_files
+signal.signal(signal.SIGQUIT, signal.SIG_DFL)  # which a background job may have inherited ignored
 with new_files([Path("new/out/a.txt"), Path("new/out/b.txt")]) as (a, b):
     a.write_text("whole")
     b.write_text("half")

@@ -125,3 +125,36 @@ def test_bdf_passes_the_kinks_of_friction() -> None:
         for rtol in (1e-8, 1e-10)
     )
     np.testing.assert_allclose(coarse.q, fine.q, atol=1e-5)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_time_given_twice_is_a_jump(model: cdcr.Model, method: Any) -> None:
+    t = [0.0, 0.25, 0.25, 0.5]
+    rows = np.array([[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0]])
+    out = [0.0, 0.125, 0.25, 0.5]
+    whole = cdcr.simulate(model, ZEROS, ZEROS, t=out, tension=(t, rows), method=method)
+    first = cdcr.simulate(model, ZEROS, ZEROS, t=out[:3], tension=(t[:2], rows[:2]), method=method)
+    second = cdcr.simulate(
+        model, first.q[-1], first.qd[-1], t=out[2:], tension=(t[2:], rows[2:]), method=method
+    )
+    np.testing.assert_allclose(whole.q[:3], first.q, rtol=0.0, atol=1e-15)
+    np.testing.assert_allclose(whole.q[3], second.q[1], rtol=0.0, atol=1e-12)
+    np.testing.assert_array_equal(whole.tension[2], rows[2])
+    push: dict[str, Any] = {"section": 0, "force": (0.2, 0.0, 0.0)}
+    bent = cdcr.simulate(
+        model,
+        ZEROS,
+        ZEROS,
+        t=out,
+        wrenches=cdcr.Wrench(**push, profile=(t, [0.0, 1.0, 0.0, 0.0])),
+        method=method,
+    )
+    alone = cdcr.simulate(
+        model,
+        ZEROS,
+        ZEROS,
+        t=out[:3],
+        wrenches=cdcr.Wrench(**push, profile=(t[:2], [0.0, 1.0])),
+        method=method,
+    )
+    np.testing.assert_allclose(bent.q[:3], alone.q, rtol=0.0, atol=1e-15)

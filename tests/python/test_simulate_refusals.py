@@ -107,9 +107,9 @@ ROWS = np.ones((2, 3))
             "a tension table needs one row of values for each time, got 0 times and 0 rows",
         ),
         (
-            ([0.0, 0.0], ROWS),
+            ([0.0, 0.0, 0.0], [[0.0, 0.0, 0.0]] * 3),
             "the times of a tension table must be finite and strictly increasing, got 0 s at "
-            "index 1 after 0 s",
+            "index 2 after 0 s",
         ),
         (
             lambda t: [1.0, 2.0],

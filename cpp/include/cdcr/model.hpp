@@ -19,6 +19,10 @@ class Model {
  public:
   explicit Model(Robot robot, Formulation formulation = Formulation::exact);
 
+  /// The same model under another gravity [m/s^2], in the base frame. Its tables are shared, so
+  /// that this costs a copy. Throws std::invalid_argument where it is not finite.
+  [[nodiscard]] Model with_gravity(const Vector3d& gravity) const;
+
   [[nodiscard]] const Robot& robot() const noexcept { return *robot_; }
   [[nodiscard]] Formulation formulation() const noexcept { return formulation_; }
   [[nodiscard]] Index num_sections() const noexcept { return stiffness_.size(); }
@@ -68,6 +72,8 @@ class Model {
   [[nodiscard]] const std::shared_ptr<const Parts>& parts() const noexcept { return parts_; }
 
  private:
+  void set_gravity(const Vector3d& gravity, const std::shared_ptr<Parts>& parts);
+
   std::shared_ptr<const Robot> robot_;  // shared by copies of a model
   std::vector<Cable> cables_;
   std::vector<Index> cable_rows_;

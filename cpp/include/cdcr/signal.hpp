@@ -23,8 +23,8 @@ class Signal {
   [[nodiscard]] static Signal constant(const VectorXd& value);
 
   /// `times` (N) [s], strictly increasing, and values (N, size). `previous` holds each row until
-  /// the next time, `linear` connects them. Before the first and after the last time, the first
-  /// and the last row hold.
+  /// the next time, `linear` connects them; there a time given twice is a jump. Before the first
+  /// and after the last time, the first and the last row hold.
   [[nodiscard]] static Signal table(const char* item, const VectorXd& times, const MatrixXd& values,
                                     Interpolation interpolation);
 

@@ -12,8 +12,9 @@ namespace CDCR_EXPORT cdcr {
 /// How the size of a wrench changes in time: a factor, 1 where nothing else is said.
 ///
 /// A table (`times`, strictly increasing, and one factor each) is held until its next time or,
-/// when `linear`, connected; before the first and after the last time these hold. A function of
-/// time takes the place of a table; then `times` are the points at which it is not smooth.
+/// when `linear`, connected, a time given twice for a jump; before the first and after the last
+/// time these hold. A function of time takes the place of a table; then `times` are the points at
+/// which it is not smooth.
 struct Profile {
   std::vector<double> times;    ///< [s]
   std::vector<double> factors;  ///< [-]

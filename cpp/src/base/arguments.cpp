@@ -9,9 +9,11 @@ void require_finite(const char* item, const VectorXd& v, Index size) {
           v.transpose(), "]");
 }
 
-void require_increasing(const char* item, const double* times, Index size) {
+void require_increasing(const char* item, const double* times, Index size, bool with_jumps) {
   for (Index i = 0; i < size; ++i) {
-    if (std::isfinite(times[i]) && (i == 0 || times[i] > times[i - 1])) continue;
+    const bool jumps =
+        with_jumps && i > 0 && times[i] == times[i - 1] && (i == 1 || times[i - 1] > times[i - 2]);
+    if (std::isfinite(times[i]) && (i == 0 || times[i] > times[i - 1] || jumps)) continue;
     refuse(item, " must be finite and strictly increasing, got ", times[i], " s at index ", i,
            i > 0 ? sentence(" after ", times[i - 1], " s") : "");
   }

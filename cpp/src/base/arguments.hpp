@@ -33,7 +33,8 @@ void require(bool sound, const Parts&... parts) {
 void require_finite(const char* item, const VectorXd& v, Index size);
 
 /// "t must be finite and strictly increasing, got 1 s at index 2 after 3 s".
-void require_increasing(const char* item, const double* times, Index size);
+/// With jumps, a time may stand twice.
+void require_increasing(const char* item, const double* times, Index size, bool with_jumps = false);
 
 /// Finite and above zero: "step must be > 0 s and finite, got -1".
 void require_positive(const char* item, double value, const char* unit);

@@ -20,6 +20,14 @@ void set_upper_rows(Index m, MatrixRef A) noexcept {
   A.topRightCorner(m, m).setIdentity();
 }
 
+[[maybe_unused]] bool fit(const Model& model, const Data& data, const ConstVectorRef& q,
+                          const ConstVectorRef& qd, const ConstVectorRef& command,
+                          const Wrenches& wrenches, const MatrixRef& A) noexcept {
+  return data.belongs_to(model) && detail::has_size(A, 2 * q.size(), 2 * q.size()) &&
+         detail::of_coordinates(model, q, qd) && detail::of_cables(model, command) &&
+         check_wrenches(model, wrenches) == Status::ok;
+}
+
 /// Rows d(qdd)/d(q, qd) of A, and d(qdd)/d(command) where B is wanted, under all forces.
 void differentiate_motion(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
                           const ConstVectorRef& command, const Wrenches& wrenches, MatrixRef A,
@@ -59,9 +67,7 @@ void state_jacobian(const Model& model, Data& data, const ConstVectorRef& q,
                     const ConstVectorRef& qd, const ConstVectorRef& command,
                     const Wrenches& wrenches, MatrixRef A) noexcept {
   const Index m = model.num_coordinates();
-  assert(data.belongs_to(model) && detail::has_size(A, 2 * m, 2 * m));
-  assert(detail::of_coordinates(model, q, qd) && detail::of_cables(model, command));
-  assert(check_wrenches(model, wrenches) == Status::ok);
+  assert(fit(model, data, q, qd, command, wrenches, A));
   set_upper_rows(m, A);
   if (model.has_closed_form() && force_is_constant(model, wrenches)) {
     actuation_force(model, command, data.force);
@@ -77,6 +83,7 @@ void linearize(const Model& model, Data& data, const ConstVectorRef& q, const Co
                const ConstVectorRef& command, const Wrenches& wrenches, MatrixRef A,
                MatrixRef B) noexcept {
   const Index m = model.num_coordinates();
+  assert(fit(model, data, q, qd, command, wrenches, A));
   assert(detail::has_size(B, 2 * m, model.num_cables()));
   if (model.num_cables() == 0) return state_jacobian(model, data, q, qd, command, wrenches, A);
   B.topRows(m).setZero();
@@ -86,9 +93,6 @@ void linearize(const Model& model, Data& data, const ConstVectorRef& q, const Co
                                     B.bottomRows(m));
     return;
   }
-  assert(data.belongs_to(model) && detail::has_size(A, 2 * m, 2 * m));
-  assert(detail::of_coordinates(model, q, qd) && detail::of_cables(model, command));
-  assert(check_wrenches(model, wrenches) == Status::ok);
   set_upper_rows(m, A);
   differentiate_motion(model, q, qd, command, wrenches, A, &B);
 }

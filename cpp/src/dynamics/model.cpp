@@ -14,17 +14,12 @@ namespace cdcr {
 namespace {
 
 detail::SectionSeries series_of(const Section& section, double payload, Formulation formulation) {
-  switch (formulation) {
-    case Formulation::exact:
-      break;
-    case Formulation::taylor:
-      return detail::cut_after_fourth_power(detail::exact_series(section, payload));
-    case Formulation::printed:
-      return detail::printed_series(section, payload);
-    case Formulation::printed_taylor:
-      return detail::cut_after_fourth_power(detail::printed_series(section, payload));
-  }
-  return detail::exact_series(section, payload);
+  const bool printed =
+      formulation == Formulation::printed || formulation == Formulation::printed_taylor;
+  const bool cut = formulation == Formulation::taylor || formulation == Formulation::printed_taylor;
+  const detail::SectionSeries series =
+      printed ? detail::printed_series(section, payload) : detail::exact_series(section, payload);
+  return cut ? detail::cut_after_fourth_power(series) : series;
 }
 
 }  // namespace
@@ -37,15 +32,12 @@ Model::Model(Robot robot, Formulation formulation) : formulation_(formulation) {
   cables_ = robot_->all_cables();
   stiffness_.resize(n);
   damping_.resize(n);
-  for (Index i = 0; i < n; ++i) {
-    const Section& section = robot_->sections[i];
-    stiffness_[i] = section.stiffness();
-    damping_[i] = section.damping;
-  }
   const auto parts = std::make_shared<Parts>(Parts{detail::Chain(*robot_), std::nullopt});
   first_ = parts->chain.first;
   coordinate_stiffness_.resize(parts->chain.num_coordinates());
   for (Index i = 0; i < n; ++i) {
+    stiffness_[i] = robot_->sections[i].stiffness();
+    damping_[i] = robot_->sections[i].damping;
     coordinate_stiffness_.segment(first_[i], first_[i + 1] - first_[i]).setConstant(stiffness_[i]);
   }
 
@@ -53,6 +45,7 @@ Model::Model(Robot robot, Formulation formulation) : formulation_(formulation) {
   const auto num_cables = static_cast<Index>(cables_.size());
   actuation_.setZero(parts->chain.num_coordinates(), num_cables);
   straight_lengths_.setZero(num_cables);
+  friction_.setZero(n, num_cables);
   for (Index j = 0; j < num_cables; ++j) {
     const Cable& cable = cables_[j];
     cable_rows_.push_back(first_[cable.end_section + 1]);
@@ -60,34 +53,20 @@ Model::Model(Robot robot, Formulation formulation) : formulation_(formulation) {
       actuation_.col(j).segment<detail::ConstantCurvature<double>::m>(first_[k]) =
           detail::ConstantCurvature<double>::actuation(cable.radius, cable.angle);
       straight_lengths_[j] += robot_->sections[k].length;
-    }
-  }
-
-  friction_.setZero(n, num_cables);
-  for (Index j = 0; j < num_cables; ++j) {
-    const Cable& cable = cables_[j];
-    for (Index k = 0; k <= cable.end_section; ++k) {
       friction_(k, j) = cable.friction.value_or(robot_->sections[k].cable_friction);
     }
     if (cable.length_driven()) has_plain_cables_ = false;
   }
   has_friction_ = (friction_.array() > 0.0).any();
   has_plain_cables_ = has_plain_cables_ && !has_friction_;
-  root_gravity_ = robot_->base_orientation.transpose() * robot_->gravity;
-  has_gravity_ = robot_->gravity != Vector3d::Zero();
 
   const bool point = robot_->payload_position.isZero(0.0) && robot_->payload_inertia.isZero(0.0);
   const Section& first = robot_->sections[0];
   const bool alike =
       first.disk_positions.empty() && first.disk_masses.empty() && first.disk_diameters.empty();
   if (n == 1 && point && (alike || formulation == Formulation::exact)) {
-    parts->single =
-        detail::SingleSection{detail::ShapeTable(series_of(first, robot_->payload, formulation)),
-                              first.length,
-                              stiffness_[0],
-                              damping_[0],
-                              root_gravity_,
-                              has_gravity_};
+    const detail::ShapeTable table(series_of(first, robot_->payload, formulation));
+    parts->single = detail::SingleSection{table, first.length, stiffness_[0], damping_[0], {}, {}};
     has_closed_form_ = true;
   } else if (formulation != Formulation::exact) {
     throw std::invalid_argument(std::string("formulation must be exact for this robot, got ") +
@@ -97,7 +76,28 @@ Model::Model(Robot robot, Formulation formulation) : formulation_(formulation) {
                                 "but a point on its tip");
   }
   singular_section_ = detail::find_singular_section(parts->chain);
+  set_gravity(robot_->gravity, parts);
+}
+
+void Model::set_gravity(const Vector3d& gravity, const std::shared_ptr<Parts>& parts) {
+  root_gravity_ = robot_->base_orientation.transpose() * gravity;
+  has_gravity_ = gravity != Vector3d::Zero();
+  parts->chain.gravity = gravity;
+  if (parts->single) {
+    parts->single->gravity = root_gravity_;
+    parts->single->has_gravity = has_gravity_;
+  }
   parts_ = parts;
+}
+
+Model Model::with_gravity(const Vector3d& gravity) const {
+  const auto robot = std::make_shared<Robot>(*robot_);
+  robot->gravity = gravity;
+  validate(*robot);
+  Model model = *this;
+  model.robot_ = robot;
+  model.set_gravity(gravity, std::make_shared<Parts>(*parts_));
+  return model;
 }
 
 void require_inertia(const Model& model) {

@@ -10,8 +10,8 @@
 namespace cdcr {
 namespace {
 
-void require_times(const char* item, const std::vector<double>& times) {
-  detail::require_increasing(item, times.data(), static_cast<Index>(times.size()));
+void require_times(const char* item, const std::vector<double>& times, bool with_jumps = false) {
+  detail::require_increasing(item, times.data(), static_cast<Index>(times.size()), with_jumps);
 }
 
 }  // namespace
@@ -30,7 +30,8 @@ Signal Signal::table(const char* item, const VectorXd& times, const MatrixXd& va
                   values.rows(), " rows");
   Signal signal;
   signal.times_.assign(times.data(), times.data() + times.size());
-  require_times(detail::sentence("the times of ", item).c_str(), signal.times_);
+  require_times(detail::sentence("the times of ", item).c_str(), signal.times_,
+                interpolation == Interpolation::linear);
   signal.size_ = values.cols();
   signal.values_ = values.transpose();
   signal.interpolation_ = interpolation;

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
@@ -56,6 +57,40 @@ class Model(_core.Model):
         super().__init__(robot._to_core(), _core.Formulation[formulation.replace("-", "_")])
         self._robot = robot
         self._formulation = formulation
+
+    def with_gravity(self, gravity: ArrayLike) -> Model:
+        """Return the same model under another gravity; its tables are shared, so it costs little.
+
+        Parameters
+        ----------
+        gravity : (3,) array_like
+            In the base frame [m/s^2].
+
+        Returns
+        -------
+        Model
+
+        Raises
+        ------
+        ValueError
+            For what is no vector of three finite numbers.
+
+        Examples
+        --------
+        >>> import cdcr
+        >>> model = cdcr.Model(cdcr.robots.amouri2020())
+        >>> hanging = model.with_gravity([0.0, 0.0, 9.81])
+        >>> hanging.robot.gravity
+        (0.0, 0.0, 9.81)
+        """
+        vector = finite(gravity, "gravity")
+        if vector.shape != (3,):
+            raise ValueError(f"gravity must have shape (3,), got {vector.shape}")
+        model = Model.__new__(Model)
+        _core.Model.__init__(model, self, vector)
+        model._robot = replace(self._robot, gravity=tuple(vector.tolist()))
+        model._formulation = self._formulation
+        return model
 
     @property
     def robot(self) -> Robot:

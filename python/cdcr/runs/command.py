@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cdcr import _core
-from cdcr.base.check import Check, one_of
+from cdcr.base.arrays import finite
+from cdcr.base.check import format_value, one_of
 from cdcr.model.model import Model
 
 Interpolation = Literal["linear", "previous"]
@@ -24,7 +25,8 @@ class TensionTable:
     Parameters
     ----------
     t : (N,) array_like
-        Times, strictly increasing [s]. Integrators stop exactly at each.
+        Times, strictly increasing [s]; where lines connect the rows, a time given twice is a jump
+        from its first row to its second. Integrators stop exactly at each.
     tension : (N, num_cables) array_like
         Commands at those times [N], [m] of cables driven by length. Before the first and after the
         last time these rows hold.
@@ -79,9 +81,10 @@ def command_input(
     model: Model, command: Command, break_points: Sequence[float] = (), name: str = "tension"
 ) -> _core.TensionInput:
     """Turn what a user gives as command or tension into the core's input; messages say `name`."""
-    check = Check()
-    breaks = check.numbers("break_points", break_points, "a sequence of times", "a number of s")
-    check.done()
+    breaks = finite(break_points, "break_points")
+    if breaks.ndim != 1:
+        got = format_value(break_points)
+        raise ValueError(f"break_points must be a sequence of times, got {got}")
     if command is None:
         command = model.rest_command()
     if callable(command):
@@ -89,8 +92,8 @@ def command_input(
         if not _takes_state(function):
             time_only = function
             function = lambda t, q, qd: time_only(t)  # noqa: E731
-        return _core.TensionInput.function(model, function, list(breaks))
-    if breaks:
+        return _core.TensionInput.function(model, function, breaks.tolist())
+    if breaks.size > 0:
         raise ValueError("break_points go with a tension function; a table has its own")
     if isinstance(command, TensionTable):
         linear = command.interpolation == "linear"
