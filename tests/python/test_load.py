@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import cdcr
+from cdcr.runs.simulate import DEFAULT_METHOD
 
 ARRAYS = ("t", "q", "qd", "tension", "command")
 STATS = ("steps", "rejected", "evaluations", "jacobians", "newton_failures")
@@ -46,7 +47,7 @@ def test_a_netcdf_file_holds_everything(run: cdcr.Trajectory, tmp_path: Path) ->
         np.testing.assert_array_equal(getattr(again, name), getattr(run, name))
     assert (again.model.robot, again.model.formulation) == (run.model.robot, "exact")
     assert (again.status, again.message) == (cdcr.Status.step_limit, run.message)
-    assert (again.method, again.slack_events) == ("bdf", run.slack_events)
+    assert (again.method, again.slack_events) == (DEFAULT_METHOD, run.slack_events)
     assert len(run.slack_events) > 0
     stored = json.loads(run.to_xarray().attrs["slack_events"])
     assert [cable - 1 for _, cable, _ in stored] == [event.cable for event in run.slack_events]

@@ -1,0 +1,22 @@
+"""What a build of cdcr lacks by choice is no failure of its tests."""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+
+import pytest
+
+from cdcr import _core
+
+REFUSED = "needs CVODE, and this cdcr was built without it"
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_call(item: pytest.Item) -> Generator[None]:
+    """Skip a test that asks for a method of CVODE where there is none."""
+    try:
+        yield
+    except Exception as error:
+        if not _core.with_cvode and REFUSED in str(error):
+            pytest.skip(f"{item.name}: {REFUSED}")
+        raise
