@@ -12,11 +12,14 @@ REFUSED = "needs CVODE, and this cdcr was built without it"
 
 
 @pytest.hookimpl(wrapper=True)
-def pytest_runtest_call(item: pytest.Item) -> Generator[None]:
-    """Skip a test that asks for a method of CVODE where there is none."""
+def skip_what_needs_cvode() -> Generator[None]:
+    """Skip a test, or its fixture, that asks for a method of CVODE where there is none."""
     try:
         yield
     except Exception as error:
         if not _core.with_cvode and REFUSED in str(error):
-            pytest.skip(f"{item.name}: {REFUSED}")
+            pytest.skip(REFUSED)
         raise
+
+
+pytest_runtest_setup = pytest_runtest_call = skip_what_needs_cvode
