@@ -42,12 +42,10 @@ builds: setup-dev ## other ways to build, tested: clang, AVX2, shared and hidden
 	@$(IN_VENV) tools/builds.sh
 
 lock: setup-dev ## find the versions and hashes of tools/lock anew
-	@$(IN_VENV) python -m pip install --quiet --upgrade 'pip>=25.1'
 	@$(IN_VENV) python -m pip install --quiet --group lock
 	@$(IN_VENV) tools/lock.sh
 
 audit: setup-dev ## look up known vulnerabilities of what tools/lock installs
-	@$(IN_VENV) python -m pip install --quiet --upgrade 'pip>=25.1'
 	@$(IN_VENV) python -m pip install --quiet --group lock
 	@$(IN_VENV) pip-audit --strict --require-hashes --disable-pip \
 	  -r tools/lock/demo.txt -r tools/lock/dev.txt

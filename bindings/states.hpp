@@ -35,7 +35,7 @@ class States {
     py::array_t<double> out = output({});
     double* data = out.mutable_data();
     each([&](Index i, const auto&... rows) { data[i] = f(rows...); });
-    return std::move(out);
+    return py::object(std::move(out));
   }
 
   /// f(rows.., vector) of each state, which writes the vector: (.., size).

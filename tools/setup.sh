@@ -218,7 +218,8 @@ build_demo() {
 }
 
 build_failed() {
-  tail -n "+$((failed_after + 1))" "$log" | grep -m 1 -A 5 -E 'error: |CMake Error' >&2 || true
+  tail -n "+$((failed_after + 1))" "$log" >build/failed.log
+  grep -m 1 -A 5 -E 'error: |CMake Error' build/failed.log >&2 || tail -n 5 build/failed.log >&2
   die "cdcr could not be built; the whole log is $log."
 }
 
@@ -230,7 +231,8 @@ else
   : >build/started
   case $goal in demo) build_demo ;; *) build_wheel ON ;; esac || build_failed
   quietly pip uninstall -y cdcr
-  quietly pip install --no-deps --no-index build/wheel/cdcr-*.whl || die "pip could not install cdcr; see $log."
+  quietly pip install --no-deps --no-index build/wheel/cdcr-*.whl ||
+    die "pip could not install cdcr; see $log."
   echo "$cvode" >"$stamp"
   touch -r build/started "$stamp"
 fi

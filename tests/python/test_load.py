@@ -23,7 +23,9 @@ def run() -> cdcr.Trajectory:
     model = cdcr.Model(cdcr.Robot(sections=plain * 2, cables=CABLES))
     command = [1.0, *[0.0] * 5, model.rest_command()[6]]
     t = np.linspace(0.0, 5.0, 51)
-    return cdcr.simulate(model, [-0.4, -0.4] * 2, np.zeros(4), t=t, command=command, max_steps=1500)
+    return cdcr.simulate(
+        model, [-0.4, -0.4] * 2, np.zeros(4), t=t, command=command, method="bdf", max_steps=1500
+    )
 
 
 def refuses(error: type[Exception], sentence: str) -> Any:

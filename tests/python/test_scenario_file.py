@@ -10,6 +10,7 @@ import pytest
 
 import cdcr
 from cdcr import _core
+from cdcr.runs.simulate import DEFAULT_METHOD
 from cdcr.scenarios import Scenario
 from cdcr.scenarios.file.reader import load_scenario
 from cdcr.scenarios.file.schema import IntegratorTable, ScenarioTable
@@ -55,7 +56,7 @@ def test_the_smallest_file(tmp_path: Path) -> None:
     assert scenario.robot == cdcr.robots.amouri2020()
     assert (scenario.q0, scenario.qd0) == ((0.0, 0.0), (0.0, 0.0))
     assert scenario.tension == (0.0, 0.0, 0.0)
-    assert (scenario.t_end, scenario.num_samples, scenario.method) == (2.0, 1001, "bdf")
+    assert (scenario.t_end, scenario.num_samples, scenario.method) == (2.0, 1001, DEFAULT_METHOD)
     assert (scenario.rtol, scenario.atol, scenario.step, scenario.max_step) == (None,) * 4
 
 

@@ -132,7 +132,7 @@ def test_overrides_reach_the_integrator(scenario: Scenario, method: Any) -> None
 @pytest.mark.parametrize(
     "options",
     [
-        {"method": "dopri5"},
+        {"method": "rk4"},
         {"rtol": 1e-5},
         {"atol": 1e-3},
         {"method": "rk4", "step": 0.02},

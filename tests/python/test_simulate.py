@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import cdcr
+from cdcr.runs.simulate import DEFAULT_METHOD
 from interruption import interrupt_soon
 
 METHODS = ["bdf", "adams", "dopri5", "rk4"]
@@ -247,7 +248,7 @@ def test_pickle(model: cdcr.Model) -> None:
     found = run(model, PULL)
     again = pickle.loads(pickle.dumps(found))
     assert same(again, found)
-    assert (again.status, again.message, again.method) == (found.status, "", "bdf")
+    assert (again.status, again.message, again.method) == (found.status, "", DEFAULT_METHOD)
     assert repr(again) == repr(found)
     assert repr(again.stats) == repr(found.stats)
     assert re.match(

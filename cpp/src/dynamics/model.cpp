@@ -1,6 +1,5 @@
 #include "cdcr/model.hpp"
 
-#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -72,8 +71,7 @@ Model::Model(Robot robot, Formulation formulation) : formulation_(formulation) {
     throw std::invalid_argument(std::string("formulation must be exact for this robot, got ") +
                                 name(formulation) +
                                 ": the paper's inertia is that of one section with equal, equally "
-                                "spaced disks, and nothing "
-                                "but a point on its tip");
+                                "spaced disks, and nothing but a point on its tip");
   }
   singular_section_ = detail::find_singular_section(parts->chain);
   set_gravity(robot_->gravity, parts);
