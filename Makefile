@@ -8,7 +8,7 @@ export PYTHON VENV CVODE
 IN_VENV := PATH="$(CURDIR)/$(VENV)/bin:$$PATH"
 
 .NOTPARALLEL:
-.PHONY: help demo test lint format bench wheel asan builds lock audit clean setup setup-dev test-cpp types test-python
+.PHONY: help demo test lint format bench bench-smoke wheel asan tsan fuzz builds lock audit clean setup setup-dev test-cpp types test-python
 
 help: ## list the commands
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-8s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -30,6 +30,12 @@ bench: setup-dev ## build and run the benchmarks
 	@$(IN_VENV) cmake --build --preset bench
 	@$(IN_VENV) python bench/run.py --build-dir build/bench
 
+bench-smoke: setup-dev
+	@$(IN_VENV) cmake --preset bench
+	@$(IN_VENV) cmake --build --preset bench
+	@set -e; for program in build/bench/bench/bench_*; do \
+	  if [ -f $$program ]; then $(IN_VENV) $$program --quick >/dev/null; fi; done
+
 wheel: setup-dev ## a wheel that needs nothing installed, in dist/
 	@$(IN_VENV) tools/wheel.sh
 
@@ -37,6 +43,18 @@ asan: setup-dev ## C++ tests under the address and undefined-behaviour sanitizer
 	@$(IN_VENV) cmake --preset asan
 	@$(IN_VENV) cmake --build --preset asan
 	@$(IN_VENV) ctest --preset asan
+
+tsan: setup-dev ## C++ tests of threads under the thread sanitizer
+	@$(IN_VENV) cmake --preset tsan
+	@$(IN_VENV) cmake --build --preset tsan
+	@$(IN_VENV) ctest --preset tsan -R 'cpp.(threads|simulate|cvode)'
+
+# How long each target of make fuzz runs.
+SECONDS ?= 60
+fuzz: setup-dev ## fuzz the C++ interface and the readers of files, SECONDS=60 each, by clang
+	@$(IN_VENV) cmake --preset fuzz
+	@$(IN_VENV) cmake --build --preset fuzz
+	@$(IN_VENV) tools/fuzz.sh $(SECONDS)
 
 builds: setup-dev ## other ways to build, tested: clang, AVX2, shared and hidden, without CVODE (an hour)
 	@$(IN_VENV) tools/builds.sh

@@ -65,7 +65,8 @@ Model::Model(Robot robot, Formulation formulation) : formulation_(formulation) {
       first.disk_positions.empty() && first.disk_masses.empty() && first.disk_diameters.empty();
   if (n == 1 && point && (alike || formulation == Formulation::exact)) {
     const detail::ShapeTable table(series_of(first, robot_->payload, formulation));
-    parts->single = detail::SingleSection{table, first.length, stiffness_[0], damping_[0], {}, {}};
+    parts->single = detail::SingleSection{table,       first.length,     stiffness_[0],
+                                          damping_[0], Vector3d::Zero(), false};
     has_closed_form_ = true;
   } else if (formulation != Formulation::exact) {
     throw std::invalid_argument(std::string("formulation must be exact for this robot, got ") +

@@ -13,7 +13,12 @@ struct Residual {
   double value;
 };
 
+/// With CDCR_RESIDUALS=1, prints a residual over its tolerance, the tolerance and the test, in
+/// columns with tabs between them, to stderr.
+void tell(Residual residual, double tolerance);
+
 inline bool operator<=(Residual residual, double tolerance) {
+  tell(residual, tolerance);
   return residual.value <= tolerance * tolerance_scale();
 }
 
