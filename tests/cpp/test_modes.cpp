@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "cdcr/dynamics.hpp"
 #include "cdcr/linearization.hpp"
@@ -146,6 +147,24 @@ TEST_CASE("bad arguments and robots without inertia are refused") {
   light.sections[0].backbone_mass = light.sections[0].disk_mass = 0.0;
   CHECK_THROWS_AS(static_cast<void>(modes(Model(light), VectorXd::Zero(2), none)),
                   std::invalid_argument);
+}
+
+TEST_CASE("what overflows is refused") {
+  const std::string sentence =
+      "are not finite: the masses, the stiffnesses or the loads are too large or too far apart for "
+      "double precision";
+  Robot stiff = amouri2020();
+  stiff.sections.push_back(stiff.sections[0]);
+  for (Section& section : stiff.sections) section.cable_stiffness = 1e306;
+  CHECK_THROWS_SENTENCE(modes(Model(stiff), VectorXd::Zero(4), VectorXd::Zero(6)),
+                        ("the modes at q = [0 0 0 0] " + sentence).c_str());
+  Robot chain = amouri2020();
+  chain.sections.resize(2, chain.sections[0]);
+  Wrench huge;
+  huge.section = 1;
+  huge.force = Vector3d::Constant(1.7e308);
+  CHECK_THROWS_SENTENCE(modes(Model(chain), VectorXd::Constant(4, 2.0), VectorXd::Zero(6), {huge}),
+                        ("the modes at q = [2 2 2 2] " + sentence).c_str());
 }
 
 TEST_SUITE_END();

@@ -50,10 +50,10 @@ std::optional<CommandInput> command(const Model& model, Input& input) {
     if (kind == 0) made = CommandInput::constant(value);
     if (kind == 1 || kind == 2) {
       const VectorXd t = times(input);
-      MatrixXd table(t.size(), cables);
-      for (Index i = 0; i < t.size(); ++i) table.row(i) = input.magnitudes(cables, 1.0);
+      const VectorXd values = input.magnitudes(t.size() * cables, 1.0);
       made = CommandInput::table(
-          t, table, kind == 1 ? Signal::Interpolation::linear : Signal::Interpolation::previous);
+          t, values.reshaped(t.size(), cables),
+          kind == 1 ? Signal::Interpolation::linear : Signal::Interpolation::previous);
     }
     if (kind == 3) {
       const double rate = input.number(100.0);

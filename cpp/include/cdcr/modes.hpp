@@ -24,7 +24,8 @@ struct Modes {
 /// wrenches make it unsymmetric, its symmetric part shapes the modes and the eigenvalues alone
 /// tell all. C is what A says of damping, with friction as at rest. damping_ratio is that of the
 /// eigenvalues as far as damping does not couple the modes. Throws std::invalid_argument for wrong
-/// sizes, values that are not finite, a robot without inertia and a singular mass matrix.
+/// sizes, values that are not finite, a robot without inertia, a singular mass matrix and what
+/// overflows.
 [[nodiscard]] Modes modes(const Model& model, const VectorXd& q, const VectorXd& command,
                           const Wrenches& wrenches = no_wrenches());
 

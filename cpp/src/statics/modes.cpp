@@ -7,6 +7,7 @@
 #include <complex>
 #include <vector>
 
+#include "base/arguments.hpp"
 #include "cdcr/dynamics.hpp"
 #include "cdcr/linearization.hpp"
 #include "cdcr/robot_ode.hpp"
@@ -39,6 +40,15 @@ void find_shapes(const MatrixXd& K, const MatrixXd& M, Modes& modes) {
     if (modes.shape(largest, i) < 0.0) modes.shape.col(i) *= -1.0;
   }
   modes.frequency = modes.squared_frequency.cwiseMax(0.0).cwiseSqrt();
+}
+
+/// Refuses what overflowed on the way.
+void require_finite_modes(const Modes& modes) {
+  detail::require(modes.squared_frequency.allFinite() && modes.shape.allFinite() &&
+                      modes.damping_ratio.allFinite() && modes.eigenvalues.allFinite(),
+                  "the modes at q = [", modes.q.transpose(),
+                  "] are not finite: the masses, the stiffnesses or the loads are too large or too "
+                  "far apart for double precision");
 }
 
 /// Eigenvalues of A, by magnitude. Scaling q by a mean frequency makes both halves of A alike.
@@ -82,6 +92,7 @@ Modes modes(const Model& model, const VectorXd& q, const VectorXd& command,
     }
   }
   result.eigenvalues = eigenvalues_of(A);
+  require_finite_modes(result);
   const double fastest = std::abs(result.eigenvalues[2 * m - 1]);
   result.stable = result.squared_frequency[0] > neutral * result.squared_frequency[m - 1] &&
                   result.eigenvalues.real().maxCoeff() <= undamped * fastest;
