@@ -92,7 +92,11 @@ def test_the_page_shows_all_pictures_with_captions(first: tuple[Path, Result]) -
         scenario = cdcr.scenarios.get(name)
         assert f"Fig. {scenario.paper_figure}" in text
         assert f"cdcr run {name}" in text
-        assert scenario.description[:60].replace("'", "&#x27;") in text
+        end = scenario.description[-40:].replace("'", "&#x27;")
+        assert end in text
+        assert text.count(f">{scenario.title}<") == 1  # the picture tells it too
+    assert "thetad" not in text
+    assert "H1 belongs to &theta;&#775;<sup>2</sup>" in text
 
 
 def test_the_page_holds_the_audit(first: tuple[Path, Result]) -> None:
