@@ -176,12 +176,12 @@ def plot_run_robot(
         show_robot(axes, run.model, states, run.tip)
         axes.plot(*run.tip.T, color=GREY, linewidth=0.9, linestyle=":", label="path of the tip")
         for k, (time, q, alpha) in enumerate(zip(chosen, states, fading, strict=True)):
+            name, colors = f"{time:.3g} s", section_colors(run.model)
+            if len(colors) > 1:
+                axes.add_line(ShapeSample(colors, alpha, name))
             robot = RobotArtists(axes, run.model, q, alpha=alpha, layer=3.0 + k)
-            if run.model.num_sections == 1:
-                robot.backbones[0].set_label(f"{time:.3g} s")
-            else:
-                sample = ShapeSample(section_colors(run.model), alpha, f"{time:.3g} s")
-                axes.add_line(sample)
+            if len(colors) == 1:
+                robot.backbones[0].set_label(name)
         robot.name_cables()
         if ax is None:
             _finish(axes)
