@@ -61,7 +61,7 @@ def first(tmp_path_factory: Any) -> tuple[Path, Result]:
 @pytest.fixture
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
     """Draw empty pictures, and leave out the audit, where they do not matter."""
-    monkeypatch.setattr(cdcr.scenarios.Scenario, "figure", lambda self, run: Figure())
+    monkeypatch.setattr(cdcr.scenarios.Scenario, "figure", lambda self, run, **_: Figure())
     monkeypatch.setattr(page, "audit", list)
 
 
@@ -151,7 +151,7 @@ def test_the_same_picture_is_the_same_file(tmp_path: Path) -> None:
 def test_what_stops_it_leaves_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: type[BaseException]
 ) -> None:
-    def fail(self: Any, run: Any) -> Figure:
+    def fail(self: Any, run: Any, **_: Any) -> Figure:
         if self.name == "gravity-ratio":
             raise error
         return Figure()
