@@ -44,7 +44,7 @@ def first(tmp_path_factory: Any) -> tuple[Path, Result]:
 @pytest.fixture
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
     """Draw an empty picture where the picture does not matter."""
-    monkeypatch.setattr(cdcr.scenarios.Scenario, "figure", lambda self, run: Figure())
+    monkeypatch.setattr(cdcr.scenarios.Scenario, "figure", lambda self, run, **_: Figure())
 
 
 def test_run_writes_three_files_and_says_so(first: tuple[Path, Result]) -> None:
@@ -154,7 +154,7 @@ def test_an_output_folder_that_is_a_file(tmp_path: Path) -> None:
 def test_an_error_of_the_system_names_file_and_reason(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def no_room(self: object, run: object) -> None:
+    def no_room(self: object, run: object, **_: object) -> None:
         raise OSError(28, "No space left on device", "disk")
 
     monkeypatch.setattr(cdcr.scenarios.Scenario, "figure", no_room)
@@ -167,7 +167,7 @@ def test_an_error_of_the_system_names_file_and_reason(
 def test_our_own_mistakes_are_not_taken_for_the_users(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def bug(self: object, run: object) -> None:
+    def bug(self: object, run: object, **_: object) -> None:
         raise ValueError("a bug")
 
     monkeypatch.setattr(cdcr.scenarios.Scenario, "figure", bug)

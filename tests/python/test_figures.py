@@ -61,7 +61,7 @@ def first(tmp_path_factory: Any) -> tuple[Path, Result]:
 @pytest.fixture
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
     """Draw empty pictures, and leave out the audit, where they do not matter."""
-    monkeypatch.setattr(cdcr.scenarios.Scenario, "figure", lambda self, run: Figure())
+    monkeypatch.setattr(cdcr.scenarios.Scenario, "figure", lambda self, run, **_: Figure())
     monkeypatch.setattr(page, "audit", list)
 
 
@@ -92,7 +92,11 @@ def test_the_page_shows_all_pictures_with_captions(first: tuple[Path, Result]) -
         scenario = cdcr.scenarios.get(name)
         assert f"Fig. {scenario.paper_figure}" in text
         assert f"cdcr run {name}" in text
-        assert scenario.description[:60].replace("'", "&#x27;") in text
+        end = scenario.description[-40:].replace("'", "&#x27;")
+        assert end in text
+        assert text.count(f">{scenario.title}<") == 1  # the picture tells it too
+    assert "thetad" not in text
+    assert "H1 belongs to &theta;&#775;<sup>2</sup>" in text
 
 
 def test_the_page_holds_the_audit(first: tuple[Path, Result]) -> None:
@@ -147,7 +151,7 @@ def test_the_same_picture_is_the_same_file(tmp_path: Path) -> None:
 def test_what_stops_it_leaves_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: type[BaseException]
 ) -> None:
-    def fail(self: Any, run: Any) -> Figure:
+    def fail(self: Any, run: Any, **_: Any) -> Figure:
         if self.name == "gravity-ratio":
             raise error
         return Figure()

@@ -252,7 +252,8 @@ def test_shapes_are_shown_over_the_first_half_swing(
     scenario: Scenario, run: cdcr.Trajectory
 ) -> None:
     period = values(scenario, run)["period_s"]
-    np.testing.assert_allclose(swing_times(run, 3), [0.0, period / 4, period / 2], rtol=REL)
+    assert period == pytest.approx(0.689, abs=1e-3)
+    np.testing.assert_allclose(swing_times(run, 3), [0.0, 0.17, 0.34], rtol=REL)  # as people say
     short = variant(scenario, t_end=0.2)
     np.testing.assert_allclose(swing_times(short, 3), [0.0, 0.1, 0.2], rtol=REL)
 
@@ -262,10 +263,10 @@ def test_the_picture_shows_robot_angles_and_tensions(
 ) -> None:
     pytest.importorskip("matplotlib")
     figure = scenario.figure(run)
-    space, theta, phi, tension = figure.axes
+    space, theta, tension = figure.axes  # none for phi, which does not move
     assert space.name == "3d"
     assert theta.get_ylabel() == r"bending angle $\theta$ [deg]"
-    assert phi.get_ylabel() == r"orientation $\varphi$ [deg]"
+    assert tension.get_title("left") == r"$\varphi$ stays 0 deg"
     assert tension.get_ylabel() == "tension [N]"
     assert tension.get_xlabel() == "time [s]"
     curve, static, paper = theta.get_lines()
@@ -273,8 +274,6 @@ def test_the_picture_shows_robot_angles_and_tensions(
     np.testing.assert_array_equal(np.asarray(curve.get_ydata()), np.rad2deg(run.theta[:, 0]))
     assert np.asarray(static.get_ydata()) == pytest.approx(14.9778, abs=1e-4)
     assert "14.98 deg" in theta.get_title("left")
-    low, high = phi.get_ylim()
-    assert high - low >= 10.0
     (legend,) = figure.legends
     assert [text.get_text() for text in legend.get_texts()][-3:] == [
         "cable 1",

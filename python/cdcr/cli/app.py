@@ -27,6 +27,13 @@ app = typer.Typer(
 
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace files that are there.")]
 
+Size = Annotated[
+    str | None,
+    typer.Option(
+        metavar="SIZE",
+        help="Of the pictures: journal (8.5 cm wide), slide (16:9), or WIDTHxHEIGHT in cm.",
+    ),
+]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object in place of tables.")]
 
 
@@ -139,6 +146,7 @@ def run_command(
     ] = None,
     overwrite: Overwrite = False,
     as_json: AsJson = False,
+    size: Size = None,
 ) -> None:
     """Run a scenario; write a picture (.png) and the data (.csv, .nc); print a summary.
 
@@ -152,6 +160,7 @@ def run_command(
             out,
             overwrite=overwrite,
             console=Console(stderr=True),
+            size=size,
             t_end=t_end,
             method=method,
             rtol=rtol,
@@ -212,11 +221,12 @@ def figures_command(
         "figures"
     ),
     overwrite: Overwrite = False,
+    size: Size = None,
 ) -> None:
     """Redraw all figures of the origin paper (.png, .svg); write index.html, which shows them.
 
     Files appear only when all are complete.
     """
     with _told_plainly():
-        written = figures.figures(out, overwrite=overwrite, console=Console(stderr=True))
+        written = figures.figures(out, overwrite=overwrite, size=size, console=Console(stderr=True))
     typer.echo(f"wrote {len(written) - 1} pictures and {written[-1]}")

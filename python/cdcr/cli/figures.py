@@ -10,7 +10,7 @@ from rich.console import Console
 from cdcr import scenarios
 from cdcr.base.extras import require
 from cdcr.cli.page import page
-from cdcr.cli.run import REPLACE, DelayedBar
+from cdcr.cli.run import REPLACE, DelayedBar, check_size
 from cdcr.files.new_file import check_files, new_files
 from cdcr.scenarios import Scenario
 
@@ -31,7 +31,11 @@ def targets(out: Path) -> tuple[Path, ...]:
 
 
 def write_figures(
-    out: Path, *, overwrite: bool = False, progress: Callable[[int, str], object] | None = None
+    out: Path,
+    *,
+    overwrite: bool = False,
+    size: str | None = None,
+    progress: Callable[[int, str], object] | None = None,
 ) -> tuple[Path, ...]:
     """Draw every figure of the paper as PNG and SVG, and write the page that shows them.
 
@@ -44,15 +48,15 @@ def write_figures(
         partial = {file.name: path for file, path in zip(files, written, strict=True)}
         for done, scenario in enumerate(drawn):
             tell(done, scenario.name)
-            _draw(scenario, partial)
+            _draw(scenario, partial, size)
         tell(len(drawn), INDEX)
         partial[INDEX].write_text(page(drawn), encoding="utf-8")
     return files
 
 
-def _draw(scenario: Scenario, partial: dict[str, Path]) -> None:
+def _draw(scenario: Scenario, partial: dict[str, Path], size: str | None) -> None:
     run = scenario.simulate() if scenario.has_run else None
-    figure = scenario.figure(run)
+    figure = scenario.figure(run, size=size)
     for suffix in SUFFIXES:  # the layout found for the first serves all
         # Without the date, the same picture is the same file.
         metadata = {"Date": None} if suffix == ".svg" else None
@@ -61,12 +65,15 @@ def _draw(scenario: Scenario, partial: dict[str, Path]) -> None:
         figure.set_layout_engine("none")
 
 
-def figures(out: Path, *, overwrite: bool, console: Console) -> tuple[Path, ...]:
+def figures(
+    out: Path, *, overwrite: bool, console: Console, size: str | None = None
+) -> tuple[Path, ...]:
     """Write the paper's figures and their page; a bar on a terminal's stderr shows how far it is.
 
     Returns the files written; the page is the last.
     """
+    check_size(size)
     check_files(targets(out), overwrite=overwrite, replace=REPLACE)
     require("matplotlib", "plot")
     with DelayedBar(console, "figures", len(paper_scenarios())) as bar:
-        return write_figures(out, overwrite=overwrite, progress=bar)
+        return write_figures(out, overwrite=overwrite, size=size, progress=bar)

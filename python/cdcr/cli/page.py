@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from html import escape
 from pathlib import Path
@@ -9,6 +10,8 @@ from string import Template
 
 from cdcr.paper._audit import Claim, audit
 from cdcr.scenarios import Scenario
+
+RATES = {"theta": "&theta;&#775;", "phi": "&phi;&#775;"}  # with a dot above
 
 
 def page(drawn: Iterable[Scenario]) -> str:
@@ -31,16 +34,22 @@ def _entry(scenario: Scenario) -> str:
 def _figure(scenario: Scenario) -> str:
     name, title = scenario.name, escape(scenario.title)
     return f"""<figure id="{name}">
-<h2><span class="number">Fig. {scenario.paper_figure}</span> {title}</h2>
+<h2>Fig. {scenario.paper_figure}</h2>
 <a href="{name}.svg"><img src="{name}.png" alt="{title}" loading="lazy"></a>
 <figcaption>
-<p>{escape(scenario.description)}</p>
+<p>{_typeset(scenario.description)}</p>
 <p class="source">{escape(scenario.source)}. <code>cdcr run {name}</code>;
 <a href="{name}.png">PNG</a>, <a href="{name}.svg">SVG</a></p>
 </figcaption>
 </figure>"""
 
 
+def _typeset(text: str) -> str:
+    """Return a text in HTML, with rates of angles and powers as formulae show them."""
+    rates = re.sub(r"\b(theta|phi)d\b", lambda rate: RATES[rate[1]], escape(text))
+    return re.sub(r"\^(-?\d+)", r"<sup>\1</sup>", rates)
+
+
 def _row(claim: Claim) -> str:
     cells = (claim.where, claim.claim, claim.computed, claim.verdict)
-    return f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in cells)}</tr>"
+    return f"<tr>{''.join(f'<td>{_typeset(cell)}</td>' for cell in cells)}</tr>"

@@ -94,7 +94,15 @@ class Report:
         }
 
 
-def run(name: str, out: Path, *, overwrite: bool, console: Console, **options: Any) -> Report:
+def run(
+    name: str,
+    out: Path,
+    *,
+    overwrite: bool,
+    console: Console,
+    size: str | None = None,
+    **options: Any,
+) -> Report:
     """Run a scenario by name or file and write its files; of a failed run its numbers.
 
     `options` are those of `Scenario.simulate`, None where not given.
@@ -102,7 +110,7 @@ def run(name: str, out: Path, *, overwrite: bool, console: Console, **options: A
     scenario = find_scenario(name)
     if not scenario.has_run:
         _refuse_options(scenario, options)
-        return _picture(scenario, out, overwrite=overwrite)
+        return _picture(scenario, out, overwrite=overwrite, size=size)
     files = scenario.files
     targets = tuple(out / f"{scenario.name}{suffix}" for suffix in files)
     of_integrator = {key: value for key, value in options.items() if key != "t_end"}
@@ -112,6 +120,7 @@ def run(name: str, out: Path, *, overwrite: bool, console: Console, **options: A
     for suffix in files:
         for module, extra in NEEDED[suffix]:
             require(module, extra)
+    check_size(size)
     check_files(targets, overwrite=overwrite, replace=REPLACE)
     with DelayedBar(console, scenario.name, options["t_end"] or scenario.t_end) as bar:
         start = time.perf_counter()
@@ -120,7 +129,7 @@ def run(name: str, out: Path, *, overwrite: bool, console: Console, **options: A
         wall_time = time.perf_counter() - start
     if not trajectory.success:
         targets, overwrite = _incomplete(targets), True
-    write(scenario, trajectory, targets, overwrite=overwrite)
+    write(scenario, trajectory, targets, overwrite=overwrite, size=size)
     return Report(
         scenario=scenario,
         method=options["method"] or scenario.method,
@@ -146,12 +155,23 @@ def _refuse_options(scenario: Scenario, given: dict[str, Any]) -> None:
         )
 
 
-def _picture(scenario: Scenario, out: Path, *, overwrite: bool) -> Report:
+def check_size(size: str | None) -> None:
+    """Refuse a size that no picture has."""
+    if size is not None:
+        require("matplotlib", "plot")
+        from cdcr.plotting.sizes import checked_size
+
+        with mistakes(lambda message: f"--{message}"):
+            checked_size(size)
+
+
+def _picture(scenario: Scenario, out: Path, *, overwrite: bool, size: str | None) -> Report:
     """Draw a scenario in which nothing runs."""
     targets = (out / f"{scenario.name}.png",)
+    check_size(size)
     check_files(targets, overwrite=overwrite, replace=REPLACE)
     require("matplotlib", "plot")
-    write(scenario, None, targets, overwrite=overwrite)
+    write(scenario, None, targets, overwrite=overwrite, size=size)
     return Report(scenario=scenario, metrics=scenario.summary(), files=targets)
 
 
@@ -174,13 +194,18 @@ def _is_file(name: str, known: tuple[str, ...]) -> bool:
 
 
 def write(
-    scenario: Scenario, run: Trajectory | None, targets: tuple[Path, ...], *, overwrite: bool
+    scenario: Scenario,
+    run: Trajectory | None,
+    targets: tuple[Path, ...],
+    *,
+    overwrite: bool,
+    size: str | None = None,
 ) -> None:
     """Write pictures and data of a run; they appear together when all are complete."""
     with new_files(targets, overwrite=overwrite, replace=REPLACE) as parts:
         for part, target in zip(parts, targets, strict=True):
             if target.suffix == ".png":
-                scenario.figure(run).savefig(part, format="png")
+                scenario.figure(run, size=size).savefig(part, format="png")
             elif run is not None:
                 write_run(run, part, target.suffix)
 

@@ -86,4 +86,6 @@ def print_report(console: Console, report: Report) -> None:
 
 
 def _number(value: float) -> str:
+    if isinstance(value, int):  # a count
+        return f"{value}"
     return f"{value:.1e}" if 0.0 < abs(value) < 1e-3 else f"{value:.4f}"

@@ -12,5 +12,6 @@ from cdcr.plotting.animation import animate
 from cdcr.plotting.modes import plot_modes
 from cdcr.plotting.panels import plot_run
 from cdcr.plotting.robot3d import plot_robot, plot_run_robot
+from cdcr.plotting.sizes import resize
 
-__all__ = ["animate", "plot_modes", "plot_robot", "plot_run", "plot_run_robot"]
+__all__ = ["animate", "plot_modes", "plot_robot", "plot_run", "plot_run_robot", "resize"]

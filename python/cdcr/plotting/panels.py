@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from cdcr.base.arrays import FloatArray
-from cdcr.plotting.style import ALARM, BLACK, GREY, StyledFigure, line_colors, style
+from cdcr.plotting.style import ALARM, BLACK, COLORS, GREY, StyledFigure, line_colors, style
 
 if TYPE_CHECKING:
     from cdcr.model.model import Model
@@ -22,13 +22,22 @@ MIN_LENGTH = 1e-3  # of the robot's length
 MIN_ENERGY = 1e-9  # of what bends it by about 1 rad
 MIN_ERROR = 1e-15  # [1]
 
-MAX_NAMED = 9  # lines named in one legend
+MAX_NAMED = 9  # names in one row of a legend
+MAX_CABLES = 18  # named in two rows
 ROOMY = 6  # lines named without crowding
-DASHES = ("-", "--", "-.", ":")  # lines often coincide: dashes let the lower one be seen
-
-
+# Lines often coincide: dashes let the lower one be seen.
+DASHES: tuple[Any, ...] = ("-", "--", "-.", ":", (0, (6, 1)), (0, (1, 2.5)))
 # The same for short samples in a crowded legend.
-SHORT_DASHES = ("-", (0, (2.5, 1.2)), (0, (1, 1)), (0, (3, 1, 1, 1)))
+SHORT_DASHES: tuple[Any, ...] = (
+    "-",
+    (0, (2.5, 1.2)),
+    (0, (1, 1)),
+    (0, (3, 1, 1, 1)),
+    (0, (4.5, 0.8)),
+    (0, (1, 2.2)),
+)
+MARKERS = ("", "o", "s", "^", "D", "v")  # of the cables after those that differ in dashes
+NUM_MARKED = 8  # places along a line that carry its marker
 STRAIGHT = 0.05  # share of the largest bending below which phi of several sections is not drawn
 
 
@@ -93,27 +102,22 @@ def plot_phi(axes: Axes, run: Trajectory) -> None:
 def shown_phi(run: Trajectory) -> FloatArray:
     """Return the orientation angles (N, n) [deg] as they are drawn.
 
-    One section shows all of them. Of several, those that pass near straight turn round and round:
-    they are shown between -180 and 180, and not at all (NaN) where a section is nearly straight.
+    They are those of the run, continuous; of several sections, not drawn (NaN) where a section is
+    nearly straight.
     """
     phi: FloatArray = np.rad2deg(run.phi)
-    if run.model.num_sections == 1:
-        return phi
-    wrapped = (phi + 180.0) % 360.0 - 180.0
-    theta = np.abs(run.theta)
-    wrapped[theta < STRAIGHT * theta.max()] = np.nan
-    wrapped[1:][np.abs(np.diff(wrapped, axis=0)) > 180.0] = np.nan
-    return wrapped
+    if run.model.num_sections > 1:
+        theta = np.abs(run.theta)
+        phi[theta < STRAIGHT * theta.max()] = np.nan
+    return phi
 
 
 def plot_tension(axes: Axes, run: Trajectory) -> None:
     """Draw the cable tensions [N] over time."""
     model = run.model
-    lines = zip(
-        _numbered("cable", model.num_cables), cable_colors(model), cable_dashes(model), strict=True
-    )
-    for j, (name, color, dashes) in enumerate(lines):
-        axes.plot(run.t, run.tension[:, j], color=color, linestyle=dashes, label=name)
+    names = _numbered("cable", model.num_cables, MAX_CABLES)
+    for j, (name, look) in enumerate(zip(names, cable_looks(model, len(run)), strict=True)):
+        axes.plot(run.t, run.tension[:, j], label=name, **look)
     if model.num_cables > 1:
         legend_above(axes, model.num_cables)
     axes.set_ylabel("tension [N]")
@@ -127,18 +131,30 @@ def plot_tension(axes: Axes, run: Trajectory) -> None:
 def cable_colors(model: Model) -> list[Any]:
     """One colour for each cable; of several sections, that of the section where it ends."""
     if model.num_sections == 1:
-        return line_colors(model.num_cables)
+        return [COLORS[j % len(COLORS)] for j in range(model.num_cables)]
     colors = line_colors(model.num_sections)
     return [colors[cable.end_section] for cable in model.robot.all_cables]
 
 
-def cable_dashes(model: Model) -> list[Any]:
-    """One kind of line for each cable: those that end together differ."""
-    if model.num_cables > MAX_NAMED:
-        return ["-"] * model.num_cables
+def cable_looks(model: Model, samples: int) -> list[dict[str, Any]]:
+    """One kind of line for each cable, as arguments of `plot`; 36 that end together differ.
+
+    Dashes tell the first few that end together apart, markers the others. `samples` are those of a
+    line.
+    """
     kinds = DASHES if model.num_cables <= ROOMY else SHORT_DASHES
     ends = [cable.end_section for cable in model.robot.all_cables]
-    return [kinds[ends[:j].count(end) % len(kinds)] for j, end in enumerate(ends)]
+    looks = []
+    for j, (end, color) in enumerate(zip(ends, cable_colors(model), strict=True)):
+        turn, kind = divmod(ends[:j].count(end), len(kinds))
+        look = {"color": color, "linestyle": kinds[kind]}
+        if turn:
+            every = max(1, samples // NUM_MARKED)
+            first = j * every // model.num_cables  # markers of coinciding lines stand apart
+            look |= {"marker": MARKERS[turn % len(MARKERS)], "markersize": 4.0}
+            look |= {"markevery": (first, every)}
+        looks.append(look)
+    return looks
 
 
 def _plot_tip(axes: Axes, run: Trajectory) -> None:
@@ -178,9 +194,9 @@ def _plot_lines(axes: Axes, t: FloatArray, values: FloatArray, names: Sequence[s
         legend_above(axes, count)
 
 
-def _numbered(noun: str, count: int) -> list[str]:
-    """Names for a legend in one row: noun 1, 2, 3, ..., not more than have room."""
-    step = -(-count // MAX_NAMED) or 1
+def _numbered(noun: str, count: int, room: int = MAX_NAMED) -> list[str]:
+    """Names for a legend: noun 1, 2, 3, ..., not more than have room."""
+    step = -(-count // room) or 1
     unnamed = "_"  # Matplotlib leaves it out of the legend
     names = [f"{k + 1}" if k % step == 0 else unnamed for k in range(count)]
     return [f"{noun} 1", *names[1:]] if names else []
@@ -188,10 +204,12 @@ def _numbered(noun: str, count: int) -> list[str]:
 
 def legend_above(axes: Axes, count: int = 4) -> None:
     """Put the legend of `count` lines above a panel, so that it lies on no data."""
+    named = len(axes.get_legend_handles_labels()[0])
+    rows = -(-named // MAX_NAMED)
     axes.legend(
         loc="lower right",
         bbox_to_anchor=(1.0, 1.0),
-        ncols=min(count, MAX_NAMED),
+        ncols=max(1, -(-named // max(1, rows))),
         borderaxespad=0.1,
         columnspacing=1.2 if count <= ROOMY else 0.7,
         handlelength=1.8 if count <= ROOMY else 1.3,

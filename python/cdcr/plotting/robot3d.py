@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.colors import to_rgba
+from matplotlib.figure import Figure
+from matplotlib.legend import Legend
+from matplotlib.legend_handler import HandlerTuple
+from matplotlib.lines import Line2D
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # type: ignore[import-untyped]
 from numpy.typing import ArrayLike
 
@@ -172,11 +176,12 @@ def plot_run_robot(
         show_robot(axes, run.model, states, run.tip)
         axes.plot(*run.tip.T, color=GREY, linewidth=0.9, linestyle=":", label="path of the tip")
         for k, (time, q, alpha) in enumerate(zip(chosen, states, fading, strict=True)):
-            if run.model.num_sections > 1:  # whose colours tell something else
-                (named,) = axes.plot([], [], [], color=BLACK, linewidth=2.4, alpha=alpha)
+            name, colors = f"{time:.3g} s", section_colors(run.model)
+            if len(colors) > 1:
+                axes.add_line(ShapeSample(colors, alpha, name))
             robot = RobotArtists(axes, run.model, q, alpha=alpha, layer=3.0 + k)
-            named = robot.backbones[0] if run.model.num_sections == 1 else named
-            named.set_label(f"{time:.3g} s")
+            if len(colors) == 1:
+                robot.backbones[0].set_label(name)
         robot.name_cables()
         if ax is None:
             _finish(axes)
@@ -192,13 +197,38 @@ def show_robot(axes: Any, model: Model, states: Iterable[FloatArray], *more: Flo
     axes.add_collection3d(base)
 
 
+class ShapeSample(Line2D):
+    """What a legend shows of a whole shape: a piece of each section, as faint as the shape."""
+
+    def __init__(self, colors: Sequence[Any], alpha: float, label: str) -> None:
+        super().__init__([], [], color=colors[0], linewidth=2.4, alpha=alpha, label=label)
+        self.pieces = tuple(
+            Line2D([], [], color=color, linewidth=2.4, alpha=alpha, solid_capstyle="butt")
+            for color in colors
+        )
+
+
+class _SampleHandler(HandlerTuple):
+    """Draws the pieces of a sample end to end."""
+
+    def create_artists(self, legend: Any, orig_handle: Any, *where: Any) -> Any:
+        return super().create_artists(legend, orig_handle.pieces, *where)
+
+
+def legend_of(figure: Figure, axes: Any, **look: Any) -> Legend:
+    """Add the legend of Axes3D to a figure; `look` goes to `Figure.legend`."""
+    handles, labels = axes.get_legend_handles_labels()
+    handlers = {ShapeSample: _SampleHandler(ndivide=None, pad=0.0)}
+    return figure.legend(handles, labels, handler_map=handlers, **look)
+
+
 def _finish(axes: Any) -> None:
     """Give a new picture its size, and its legend at the right."""
     figure = axes.figure
     scale, size = space.fit(axes, PICTURE)
     width = size[0]
     if axes.get_legend_handles_labels()[0]:
-        legend = figure.legend(loc="center right", borderaxespad=0.5, handlelength=1.4)
+        legend = legend_of(figure, axes, loc="center right", borderaxespad=0.5, handlelength=1.4)
         width += legend.get_window_extent().width / figure.dpi
     figure.set_size_inches(width, size[1])
     space.place(axes, scale, size)

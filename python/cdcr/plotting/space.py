@@ -18,6 +18,7 @@ MAX_TICKS = 7  # along the longest side
 FORESHORTENED = 0.6  # the y axis, in this view
 SLENDEREST = 0.3  # shortest side of the box over its longest: room for the numbers
 LABEL_OFFSET, TICK_OFFSET = 29.0, 11.5  # of a cube's labels and numbers [pt]
+ASIDE = 5.0  # farther off stands the label of y, whose numbers lie towards it [pt]
 LABELS = (0.55, 0.8, 0.9, 0.2)  # room left, below, right, above the box for its labels [in]
 
 
@@ -58,7 +59,7 @@ def _number_axes(axes: Any, low: FloatArray, high: FloatArray) -> None:
         axis.set_ticks(ticks[(ticks >= corner) & (ticks <= high[k])])
         # Matplotlib keeps labels off an axis by shares of the other two sides: even that out.
         away = np.sqrt(np.mean(np.delete(cube, k) ** 2))
-        axis.labelpad = LABEL_OFFSET / away - 21.0
+        axis.labelpad = LABEL_OFFSET / away - 21.0 + ASIDE * (k == 1)
         axis.set_tick_params(pad=TICK_OFFSET / away - 8.0)
 
 

@@ -16,6 +16,7 @@ from matplotlib.figure import Figure
 # Okabe and Ito, without black and without the yellow that is hard to see on white.
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00")
 BLACK, GREY, LIGHT_GREY = "#222222", "#777777", "#D9D9D9"
+NARROW, PRINTED = 12.0 / 2.54, 300  # pictures narrower than that [in] are for print, so fine [dpi]
 ALARM, DISK = "#B3261E", "#B8C4CE"
 
 STYLE: dict[str, Any] = {
@@ -69,6 +70,8 @@ class StyledFigure(Figure):
 
     def savefig(self, *args: Any, **kwargs: Any) -> None:
         """Save the picture; the arguments are those of Figure.savefig."""
+        if self.get_figwidth() < NARROW:
+            kwargs.setdefault("dpi", PRINTED)
         with style():
             super().savefig(*args, **kwargs)
 

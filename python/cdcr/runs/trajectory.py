@@ -285,15 +285,15 @@ class Trajectory(ReadOnlyArrays):
         events = tuple(SlackEvent(*event) for event in fields.pop("slack_events"))
         return cls(**fields, slack_events=events)
 
-    def plot(self) -> Figure:
+    def plot(self, *, size: str | tuple[float, float] | None = None) -> Figure:
         """Draw angles [deg], tensions, tip and energy over time. Needs the extra ``plot``.
 
         A free run (no damping, no tension) also shows ``energy_error``. Save the picture with
-        ``run.plot().savefig("run.png")``.
+        ``run.plot().savefig("run.png")``. `size` is as in `Scenario.figure`.
         """
         from cdcr import plotting
 
-        return plotting.plot_run(self)
+        return plotting.resize(plotting.plot_run(self), size)
 
     def plot_robot(self, times: ArrayLike | None = None, *, num: int = 5, ax: Any = None) -> Any:
         """Draw the robot in space at several times, earlier ones fainter. Needs the extra ``plot``.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -77,13 +78,26 @@ def static_theta(run: Trajectory, wrenches: Sequence[Wrench] = ()) -> FloatArray
 
 
 def swing_times(run: Trajectory, num: int) -> FloatArray:
-    """Return `num` times [s] to show a run at: its first half swing, or else all of it."""
+    """Return up to `num` times [s] to show a run at: its first half swing, or else all of it.
+
+    They are round numbers, of steps of 1, 2 or 5 in their last place, but for the run's ends.
+    """
     end = float(run.t[-1])
     if is_steady(run):
         periods = [oscillation_period(run.t, theta) for theta in run.theta.T]
         halves = [run.t[0] + period / 2.0 for period in periods if period is not None]
         end = min(halves, default=end)
-    return np.linspace(run.t[0], end, num)
+    return round_times(np.linspace(run.t[0], end, num), float(run.t[-1]))
+
+
+def round_times(times: FloatArray, last: float) -> FloatArray:
+    """Return rising times [s] as people say them, each once; none comes before the first."""
+    if len(times) < 2 or times[-1] <= times[0]:
+        return times[:1]
+    unit = 10.0 ** math.floor(math.log10((times[-1] - times[0]) / (len(times) - 1) / 2.0))
+    digits = max(0, -math.floor(math.log10(unit)))
+    said = np.round(np.round(times / unit) * unit, digits)
+    return np.unique(np.clip(said, times[0], last))
 
 
 def energy_drift(run: Trajectory) -> float | None:

@@ -23,6 +23,8 @@ from cdcr.scenarios.metrics import Metric, run_metrics
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from cdcr.plotting.sizes import Size
+
 FILES = {"picture": ".png", "csv": ".csv", "nc": ".nc"}
 
 
@@ -279,16 +281,30 @@ class Scenario:
         """
         return self.summarize(self, run)
 
-    def figure(self, run: Trajectory | None = None) -> Figure:
+    def figure(self, run: Trajectory | None = None, *, size: Size = None) -> Figure:
         """Return a picture of this scenario and a run of it. Needs the extra ``plot``.
 
         Parameters
         ----------
         run : Trajectory, optional
             The run; None where nothing runs.
+        size : str or tuple of float, optional
+            "journal" is one column, 8.5 cm wide; "slide" is 16:9; a pair, or "17x12", is width and
+            height [cm].
+            By default each picture has the size it was made for.
 
         Returns
         -------
         Figure
+
+        Raises
+        ------
+        ValueError
+            Where `size` is none of these.
         """
-        return self.plot(self, run)
+        if size is None:
+            return self.plot(self, run)
+        from cdcr.plotting.sizes import checked_size, resize
+
+        checked_size(size)
+        return resize(self.plot(self, run), size)

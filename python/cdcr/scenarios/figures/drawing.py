@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from cdcr._core import taylor_range
 from cdcr.base.arrays import FloatArray
 from cdcr.plotting import panels
+from cdcr.plotting.robot3d import legend_of
 from cdcr.plotting.style import StyledFigure
 
 if TYPE_CHECKING:
@@ -52,9 +53,8 @@ def legend_over(
     figure: Figure, axes: Any, room: FloatArray, height: float, *, ncols: int = 2, **look: Any
 ) -> None:
     """Put the legend of Axes3D over the middle of its room [in], at a share of the height."""
-    handles, labels = axes.get_legend_handles_labels()
     place = (room[0] / figure.get_figwidth() / 2.0, height)
-    figure.legend(handles, labels, loc="upper center", bbox_to_anchor=place, ncols=ncols, **look)
+    legend_of(figure, axes, loc="upper center", bbox_to_anchor=place, ncols=ncols, **look)
 
 
 def share_time(figure: Figure, charts: Sequence[Axes], run: Trajectory) -> None:

@@ -7,13 +7,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.axes import Axes
 
-from cdcr.plotting.style import ALARM, BLACK, GREY, StyledFigure, line_colors, style
-from cdcr.scenarios.figures.drawing import legend_below, new_figure, note, share_time
+from cdcr.plotting import panels
+from cdcr.plotting.style import ALARM, BLACK, COLORS, GREY, StyledFigure, line_colors, style
+from cdcr.scenarios.figures.drawing import legend_below, new_figure, note
 from cdcr.scenarios.studies import free_oscillation as study
 
 if TYPE_CHECKING:
     from cdcr.runs.trajectory import Trajectory
     from cdcr.scenarios.scenario import Scenario
+
+FIRST = 4.0  # the swings that are drawn one by one [s]
 
 
 def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
@@ -21,21 +24,40 @@ def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
     others = study.variants(scenario, float(run.t[-1]))
     with style():
         figure = new_figure(scenario.title, (10.4, 7.6))
-        free, damped, loose = figure.subplots(3, 1, height_ratios=[1.0, 1.0, 1.15])
-        _draw_theta(free, run)
+        grid = figure.add_gridspec(3, 2, height_ratios=[1.0, 1.0, 1.15], width_ratios=[1.0, 1.6])
+        free, damped = (figure.add_subplot(grid[row, 1]) for row in (0, 1))
+        loose = figure.add_subplot(grid[2, :])
+        for row, one in enumerate((run, others["damped"])):
+            _draw_first(figure.add_subplot(grid[row, 0]), one)
+        _draw_range(free, run)
         note(free, "the paper's equations: no damping, the amplitude stays")
-        _draw_theta(damped, others["damped"])
+        _draw_range(damped, others["damped"])
         _draw_band(damped, others["damped"])
         note(damped, rf"with a damping of {1e4 * study.DAMPING:.2f}$\cdot 10^{{-4}}$ N m s/rad")
         _draw_amplitudes(loose, run, others)
         note(loose, "no damping, loose integrators: none drawn here explains the settling")
-        share_time(figure, [free, damped, loose], run)
+        for axes in (free, damped, loose):
+            panels.show_time(axes, run, named=True)
         legend_below(figure, loose, ncols=4)
     return figure
 
 
-def _draw_theta(axes: Axes, run: Trajectory) -> None:
-    axes.plot(run.t, np.rad2deg(run.theta[:, 0]), linewidth=0.9)
+def _draw_first(axes: Axes, run: Trajectory) -> None:
+    """Draw the first swings."""
+    axes.plot(run.t, np.rad2deg(run.theta[:, 0]), linewidth=1.2)
+    _show_theta(axes)
+    axes.set_xlim(run.t[0], min(FIRST, run.t[-1]))
+    axes.set_xlabel("time [s]")
+
+
+def _draw_range(axes: Axes, run: Trajectory) -> None:
+    """Draw between which bending angles the robot swings, over the whole run."""
+    edge = np.rad2deg(study.amplitude(run))
+    axes.fill_between(run.t, -edge, edge, color=COLORS[0], alpha=0.35, linewidth=0)
+    _show_theta(axes)
+
+
+def _show_theta(axes: Axes) -> None:
     axes.set_ylabel(r"$\theta$ [deg]")
     axes.set_ylim(-52.0, 52.0)
     axes.set_yticks([-45, 0, 45])

@@ -19,9 +19,9 @@ if TYPE_CHECKING:
     from cdcr.runs.trajectory import Trajectory
     from cdcr.scenarios.scenario import Scenario
 
-SIZE = (12.4, 8.2)  # of the picture [in]
-ROOM = np.array([6.1, 7.2])  # of the robot in space, left [in]
-MIN_ERROR = 1e-2  # lower end of the error's axis [deg]
+SIZE = (12.4, 6.8)  # of the picture [in]
+ROOM = np.array([6.1, 6.0])  # of the robot in space, left [in]
+MIN_ERROR = 1e-3  # errors of less than that are as good as none, and not drawn [deg]
 
 
 def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
@@ -29,7 +29,7 @@ def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
     with style():
         figure = new_figure(scenario.title, SIZE)
         _draw_robot(figure, scenario, run)
-        place = {"left": 0.56, "right": 0.955, "bottom": 0.075, "top": 0.91, "hspace": 0.3}
+        place = {"left": 0.56, "right": 0.945, "bottom": 0.075, "top": 0.91, "hspace": 0.3}
         theta, error, tension = add_panels(figure, [1.2, 1.0, 1.6], **place)
         _draw_theta(theta, scenario, run)
         _draw_errors(error, scenario, run)
@@ -52,7 +52,7 @@ def _draw_robot(figure: StyledFigure, scenario: Scenario, run: Trajectory) -> No
     axes.plot(*line.T, color=BLACK, linewidth=1.8, linestyle=":", zorder=20, label="wanted")
     axes.plot(*run.tip.T, color=GREY, linewidth=1.0, zorder=19, label="path of the tip")
     space.fill(axes, ROOM)
-    legend_over(figure, axes, ROOM, 0.82)
+    legend_over(figure, axes, ROOM, 0.86)
 
 
 def _draw_theta(axes: Axes, scenario: Scenario, run: Trajectory) -> None:
@@ -63,7 +63,7 @@ def _draw_theta(axes: Axes, scenario: Scenario, run: Trajectory) -> None:
         axes.plot(run.t, asked[:, i], color=color, linestyle="--", linewidth=1.2)
         axes.plot(run.t, reached[:, i], color=color)
     axes.set_ylabel(r"bending angle $\theta$ [deg]")
-    axes.margins(y=0.12)
+    axes.margins(y=0.2)
     note(axes, "dashed: commanded; full: reached")
     held = int(np.searchsorted(run.t, min((GO + 3.0 * BACK) / 4.0, run.t[-1])))
     for i, color in enumerate(colors):
@@ -77,10 +77,11 @@ def _draw_errors(axes: Axes, scenario: Scenario, run: Trajectory) -> None:
     colors = line_colors(run.model.num_sections)
     for one, dashes in ((run, "-"), (better, "-.")):
         for values, color in zip(np.rad2deg(errors(scenario, one)).T, colors, strict=True):
-            axes.plot(one.t, np.maximum(values, MIN_ERROR), color=color, linestyle=dashes)
+            axes.plot(
+                one.t, np.where(values > MIN_ERROR, values, np.nan), color=color, linestyle=dashes
+            )
     axes.set_yscale("log")
     axes.set_ylabel("error [deg]")
-    axes.set_ylim(MIN_ERROR, 2e1)
     note(axes, f"full: as above; dash-dotted: cables of {1e-3 * stiffness:g} N/mm")
 
 

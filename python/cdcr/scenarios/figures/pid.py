@@ -18,8 +18,9 @@ if TYPE_CHECKING:
 
 SIZE = (12.4, 6.6)  # [in]
 ALONE, FORWARD = COLORS[1], COLORS[0]
+TICKS = (-5.0, 0.0, 5.0, 10.0, 20.0, 50.0, 100.0, 1000.0)  # of the tensions [N]
 SHOWN = {"radians": 6.0, "degrees": 1.0, "moment": 1.0}  # what comes after is steady or slow [s]
-TENSIONS = (-2.5, 12.0)  # shown; the first instants ask for far more [N]
+LINEAR = 10.0  # tensions up to that on a linear scale, the first instants' beyond [N]
 
 
 def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
@@ -37,19 +38,16 @@ def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
             tension.axhline(0.0, color=BLACK, linewidth=0.9)
             note(angle, f"{words} (recommended)" if reading == RECOMMENDED.reading else words)
             tension.set_xlabel("time [s]")
-            tension.set(xlim=(0.0, min(SHOWN[reading], float(run.t[-1]))), ylim=TENSIONS)
-            _tell_start(tension, max(others[Loop(reading, True, True)].tension[:, 0]))
+            tension.set(xlim=(0.0, min(SHOWN[reading], float(run.t[-1]))))
+            tension.set_yscale("symlog", linthresh=LINEAR, linscale=2.0)
         panels[0, 0].set_ylabel(r"bending angle $\theta$ [deg]")
         panels[1, 0].set_ylabel("tension of cable 1 [N]")
+        low, high = panels[1, 0].get_ylim()
+        shown = [tick for tick in TICKS if low <= tick <= high]
+        panels[1, 0].set_yticks(shown, [f"{tick:g}" for tick in shown])
         figure.align_ylabels()
         legend_below(figure, panels[0, 0])
     return figure
-
-
-def _tell_start(axes: Axes, highest: float) -> None:
-    if highest > TENSIONS[1]:
-        text = f"with feed-forward it starts at {highest:.1f} N"
-        axes.text(0.98, 0.95, text, transform=axes.transAxes, ha="right", va="top", fontsize=9.5)
 
 
 def _draw(axes: Axes, loop: Loop, t: FloatArray, values: FloatArray) -> None:

@@ -10,8 +10,9 @@ from matplotlib.axes import Axes
 
 from cdcr.base.arrays import FloatArray
 from cdcr.plotting import panels, plot_run_robot, space
+from cdcr.plotting.robot3d import legend_of
 from cdcr.plotting.style import BLACK, StyledFigure, line_colors, style
-from cdcr.scenarios.figures.drawing import share_time
+from cdcr.scenarios.figures.drawing import note, share_time
 from cdcr.scenarios.figures.workspace import add_panels, new_figure
 from cdcr.scenarios.metrics import static_theta, swing_times
 
@@ -24,6 +25,7 @@ SIZE = (12.4, 6.8)  # of the picture [in]
 ROBOT_ROOM = np.array([4.3, 6.4])  # of the robot in space, left [in]
 MIN_SPAN = 10.0  # of the orientation angle, so that rounding noise fills no panel [deg]
 NUM_SHAPES = 5  # of the robot in space
+STILL = 0.01  # orientation angles that move less need no panel [deg]
 
 
 def run_figure(scenario: Scenario, run: Trajectory) -> StyledFigure:
@@ -40,18 +42,21 @@ def _draw_robot(figure: StyledFigure, run: Trajectory, times: FloatArray) -> Non
     axes = space.add_axes(figure)
     plot_run_robot(run, times, ax=axes)
     space.fill(axes, ROBOT_ROOM)
-    handles, labels = axes.get_legend_handles_labels()
     beside = (ROBOT_ROOM[0] / SIZE[0], 0.5)
-    figure.legend(handles, labels, loc="center left", bbox_to_anchor=beside, handlelength=1.4)
+    legend_of(figure, axes, loc="center left", bbox_to_anchor=beside, handlelength=1.4)
 
 
 def _draw_panels(figure: StyledFigure, run: Trajectory, wrenches: Sequence[Wrench]) -> None:
-    plots = [panels.plot_theta, _plot_phi, panels.plot_tension]
-    charts = add_panels(figure, [2.0, 1.0, 1.0], left=0.525, top=0.91, hspace=0.35)
+    turns = bool(np.any(np.ptp(np.rad2deg(run.phi), axis=0) > STILL))
+    plots = [panels.plot_theta, *[_plot_phi] * turns, panels.plot_tension]
+    heights = [2.0, *[1.0] * turns, 1.0]
+    charts = add_panels(figure, heights, left=0.525, top=0.91, hspace=0.35)
     for axes, plot in zip(charts, plots, strict=True):
         plot(axes, run)
         if plot is panels.plot_theta:
             _mark_rest(axes, static_theta(run, wrenches))
+    if not turns and run.model.num_sections == 1 and run.model.num_cables <= panels.ROOMY:
+        note(charts[-1], rf"$\varphi$ stays {np.rad2deg(run.phi[0, 0]):.4g} deg")
     share_time(figure, charts, run)
 
 

@@ -7,21 +7,24 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from mpl_toolkits.mplot3d import proj3d  # type: ignore[import-untyped]
 
 from cdcr.base.arrays import FloatArray
 from cdcr.plotting import panels, space
+from cdcr.plotting.geometry import robot_shape
 from cdcr.plotting.robot3d import RobotArtists, section_colors, show_robot
 from cdcr.plotting.style import BLACK, GREY, StyledFigure
 from cdcr.scenarios.figures.drawing import legend_over
 
 if TYPE_CHECKING:
+    from cdcr.model.model import Model
     from cdcr.runs.trajectory import Trajectory
 
 SIZE = (12.4, 8.0)  # of the picture [in]
 ROOM = np.array([5.9, 7.0])  # of the robot in space, left [in]
-BEYOND = 0.045  # from a tip to the name of the shape [m]
 PLACE = {"left": 0.545, "bottom": 0.075, "top": 0.91, "hspace": 0.42}  # of the panels
-SLANTED = 0.3  # a name beside a tip starts or ends there, one above or below is centred
+DISTANCES = (12.0, 18.0, 26.0, 36.0, 48.0)  # from a tip to the middle of its name, tried [pt]
+ENOUGH = 7.0  # room that a name needs [pt]
 
 
 def draw_robot(
@@ -43,19 +46,86 @@ def draw_robot(
     space.fill(axes, ROOM)
     if fallen:
         axes.plot(*run.tip[:1].T, "o", color=BLACK, markersize=9, zorder=25, label=f"{fallen}, 0 s")
-    for q, name in zip(states, names, strict=True):
-        _name_shape(axes, *model.tip(q), name)
+    name_shapes(axes, model, states, names, run.tip)
     count = len(axes.get_legend_handles_labels()[0])
     legend_over(figure, axes, ROOM, 0.95, ncols=count, handlelength=1.4, columnspacing=1.2)
 
 
-def _name_shape(axes: Any, R: FloatArray, p: FloatArray, name: str) -> None:
-    """Write a name beyond the tip of a shape."""
-    paper = space.paper_directions(axes)
-    across, _ = away = paper @ R[:, 2] / np.linalg.norm(paper @ R[:, 2])
-    side = "center" if abs(across) < SLANTED else "left" if across > 0.0 else "right"
-    place = p + BEYOND * away @ paper
-    axes.text(*place, name, fontsize=9.5, color=BLACK, ha=side, va="center", zorder=30)
+def name_shapes(
+    axes: Any, model: Model, states: FloatArray, names: Sequence[str], *paths: FloatArray
+) -> None:
+    """Write names near the tips of shapes, each where it has most room, with a line to its tip.
+
+    Kept clear of are the shapes, the paths (M, 3) and the names written before. Axes3D must have
+    its place in the figure.
+    """
+    figure = axes.figure
+    renderer = figure.canvas.get_renderer()
+
+    def on_paper(points: FloatArray) -> FloatArray:
+        """Return where points (P, 3) are on the paper (P, 2) [pt]."""
+        x, y, _ = proj3d.proj_transform(*points.T, axes.get_proj())
+        pixels = axes.transData.transform(np.stack([x, y], axis=1))
+        return np.asarray(pixels * 72.0 / figure.dpi)
+
+    axes.apply_aspect()
+    drawn = [robot_shape(model, q).points for q in states] + [_dense(path) for path in paths]
+    taken = on_paper(np.concatenate([*drawn, _box(axes)]))
+    for q, name in zip(states, names, strict=True):
+        if not name:
+            continue
+        tip = on_paper(model.tip(q)[1][None])[0]
+        text = axes.annotate(
+            name,
+            proj_xy(axes, model.tip(q)[1]),
+            fontsize=9.5,
+            color=BLACK,
+            zorder=30,
+            ha="center",
+            va="center",
+            xytext=(0, 0),
+            textcoords="offset points",
+            arrowprops={"arrowstyle": "-", "color": GREY, "linewidth": 0.7, "shrinkA": 1},
+        )
+        extent = text.get_window_extent(renderer)
+        half = np.array([extent.width, extent.height]) * 36.0 / figure.dpi
+        offset = max(
+            (distance * np.array([np.cos(turn), np.sin(turn)]) * (1.0 + half / half.sum())
+             for distance in DISTANCES for turn in np.linspace(0.0, 2.0 * np.pi, 24, False)),
+            key=lambda offset: _room(tip + offset, half, taken) - 0.15 * np.hypot(*offset),
+        )  # fmt: skip
+        text.set_position(tuple(offset))
+        grid = np.stack(np.meshgrid([-1, -0.5, 0, 0.5, 1], [-1, 0, 1]), axis=-1).reshape(-1, 2)
+        taken = np.concatenate([taken, tip + offset + half * grid])
+
+
+def _room(center: FloatArray, half: FloatArray, taken: FloatArray) -> float:
+    """Return how far points (P, 2) stay from a box of half sizes, at most ENOUGH [pt]."""
+    away = np.maximum(np.abs(taken - center) - half, 0.0)
+    return min(ENOUGH, float(np.hypot(*away.T).min()))
+
+
+def _dense(path: FloatArray) -> FloatArray:
+    """Return a path (M, 3) with points along its pieces too."""
+    return np.concatenate([path[:-1] + s * np.diff(path, axis=0) for s in (0.0, 0.5)])
+
+
+def _box(axes: Any) -> FloatArray:
+    """Return points (P, 3) along the axes that carry numbers."""
+    s = np.linspace(0.0, 1.0, 60)
+    (x0, x1), (y0, y1), (z0, z1) = axes.get_xlim(), axes.get_ylim(), axes.get_zlim()
+    one = np.ones_like(s)
+    return np.concatenate([
+        np.stack([x0 + (x1 - x0) * s, y0 * one, z0 * one], axis=1),
+        np.stack([x1 * one, y0 + (y1 - y0) * s, z0 * one], axis=1),
+        np.stack([x1 * one, y1 * one, z0 + (z1 - z0) * s], axis=1),
+    ])  # fmt: skip
+
+
+def proj_xy(axes: Any, point: FloatArray) -> tuple[float, float]:
+    """Return where Axes3D draws a point (3,), in its flat data coordinates."""
+    x, y, _ = proj3d.proj_transform(*point, axes.get_proj())
+    return float(x), float(y)
 
 
 def draw_bending(axes: Axes, run: Trajectory, component: int) -> None:

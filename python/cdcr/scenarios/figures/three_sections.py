@@ -52,12 +52,12 @@ def _draw_goals(axes: Axes, scenario: Scenario, run: Trajectory, component: int)
 def _draw_tensions(axes: Axes, run: Trajectory, section: int) -> None:
     """Draw the tensions of the cables that end at a section."""
     model = run.model
-    colors, dashes = panels.cable_colors(model), panels.cable_dashes(model)
+    looks = panels.cable_looks(model, len(run))
     for j, cable in enumerate(model.robot.all_cables):
         if cable.end_section == section:
             label = f"cable {j + 1}"
             values = run.tension[:, j]
-            axes.plot(run.t, values, color=colors[j], linestyle=dashes[j], label=label)
+            axes.plot(run.t, values, label=label, **looks[j])
     axes.set_ylim(-0.05 * run.tension.max(), 1.08 * run.tension.max())
     axes.set_ylabel("tension [N]")
     note(axes, f"cables that end at section {section + 1}")

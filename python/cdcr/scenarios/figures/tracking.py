@@ -17,7 +17,7 @@ from cdcr.scenarios.studies.tracking import FINE_STEP, STEP, asked, error, fine_
 if TYPE_CHECKING:
     from cdcr.scenarios.scenario import Scenario
 
-SMALLEST = 1e-11  # error shown on the logarithmic axis [deg]
+SMALLEST = 1e-11  # error told from rounding; what is below is not drawn [deg]
 NUM_SHAPES = 4  # of the robot, where it does not just go round
 SAME = 1e-9  # bending angles that differ by less are one [rad]
 
@@ -61,10 +61,10 @@ def _draw_angles(axes: Axes, scenario: Scenario, run: Trajectory) -> None:
 
 def _draw_tensions(axes: Axes, scenario: Scenario, run: Trajectory) -> None:
     fine, coarse = (inverse(scenario, run, step) for step in (FINE_STEP, STEP))
-    for j in range(run.model.num_cables):
+    for j, color in enumerate(panels.cable_colors(run.model)):
         name = f"{j + 1}" if j else "cable 1"
-        axes.plot(fine.t, fine.tension[:, j], color=COLORS[j], label=name)
-        axes.plot(coarse.t, coarse.tension[:, j], ".", color=COLORS[j], markersize=4.5)
+        axes.plot(fine.t, fine.tension[:, j], color=color, label=name)
+        axes.plot(coarse.t, coarse.tension[:, j], ".", color=color, markersize=4.5)
     axes.set_ylabel("tension [N]")
     note(axes, f"by inverse dynamics; dots every {STEP:g} s")
     panels.legend_above(axes)
@@ -76,7 +76,8 @@ def _draw_errors(axes: Axes, scenario: Scenario, run: Trajectory) -> None:
         (fine_run(scenario, run), FINE_STEP, COLORS[1]),
     ):
         angle = np.rad2deg(error(scenario, other))
-        axes.semilogy(other.t, np.maximum(angle, SMALLEST), color=color, label=f"{step:g} s")
+        shown = np.where(angle > SMALLEST, angle, np.nan)  # rounding hides what is smaller
+        axes.semilogy(other.t, shown, color=color, label=f"every {step:g} s")
     axes.set_ylabel("path error [deg]")
-    note(axes, "under these tensions, lines between samples every")
+    note(axes, "sampled; blank: rounding")
     panels.legend_above(axes)

@@ -8,11 +8,10 @@ import numpy as np
 
 from cdcr.base.arrays import FloatArray
 from cdcr.plotting import panels
-from cdcr.plotting.geometry import states_at
 from cdcr.plotting.style import BLACK, COLORS, StyledFigure, style
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.figures import workspace
-from cdcr.scenarios.figures.drawing import note, share_time
+from cdcr.scenarios.figures.drawing import name_point, note, share_time
 from cdcr.scenarios.studies.two_cables import RESTS, settled
 
 if TYPE_CHECKING:
@@ -40,9 +39,16 @@ def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
 
 
 def _draw_paths(figure: StyledFigure, run: Trajectory, settled_tips: FloatArray) -> None:
-    times = [time for time in RESTS.values() if time <= run.t[-1]]
-    shown = states_at(run, np.array(times or [run.t[-1]]))
-    axes = workspace.add_surface(figure, run.model, shown, float(run.theta.max()))
-    axes.plot(*run.tip.T, color=COLORS[0], linewidth=1.0, zorder=20, label="path of the tip")
-    axes.plot(*settled_tips.T, color=BLACK, linewidth=1.6, ls="--", zorder=21, label="settled")
-    workspace.finish_surface(figure, axes)
+    """Draw the tip from above, where the swings about the settled path do not hide each other."""
+    axes = figure.add_axes((0.07, 0.11, 0.4, 0.76))
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.plot(*run.tip[:, :2].T, color=COLORS[0], linewidth=0.8, alpha=0.7, label="path of the tip")
+    axes.plot(*settled_tips[:, :2].T, color=BLACK, ls="--", label="settled")
+    axes.set(xlabel="tip x [m]", ylabel="tip y [m]")
+    for name, time in RESTS.items():
+        if time <= run.t[-1]:
+            x, y, _ = settled_tips[np.searchsorted(run.t, time)]
+            axes.plot(x, y, "o", color=BLACK, markersize=5, zorder=5)
+            name_point(axes, name, (x, y), (0, 10), ha="center")
+    panels.legend_above(axes)
+    note(axes, "seen from above")

@@ -189,7 +189,8 @@ class TrackedMotion:
         figure = run_figure(scenario, run)
         if self.simulate:
             asked = self.reference(run.t)
-            for axes, angles in zip(figure.axes[1:3], (asked.theta, asked.phi), strict=True):
+            for axes in figure.axes[1:-1]:  # of theta, and of phi where it moves
+                angles = asked.phi if "varphi" in axes.get_ylabel() else asked.theta
                 axes.plot(run.t, np.rad2deg(angles), color="black", linewidth=1.0, dashes=(6, 4))
                 axes.set_title("dashed: asked for", loc="left", fontsize=9.5)
         return figure

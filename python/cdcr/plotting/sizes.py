@@ -1,0 +1,192 @@
+"""Sizes of pictures: as drawn, of a journal's column, of a slide, or any other."""
+
+from __future__ import annotations
+
+import re
+import textwrap
+from typing import Any, Literal
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.legend import Legend
+from matplotlib.text import Text
+
+from cdcr.plotting import space
+from cdcr.plotting.robot3d import legend_of
+from cdcr.plotting.style import NARROW, style
+
+Size = str | tuple[float, float] | None
+
+CM = 1.0 / 2.54  # [in]
+COLUMN = 8.5 * CM  # width of a journal's column [in]
+SLIDE = (33.87 * CM, 19.05 * CM)  # 16:9 [in]
+SMALLEST, LARGEST = 1.0, 200.0  # of a side [cm]
+# Of a narrow picture [in]: a panel, room above, below its name and without, sides, the robot, a row
+# of a legend.
+PANEL, ABOVE, BELOW, UNNAMED, LEFT, RIGHT, SPACE, ROW = 0.95, 0.3, 0.4, 0.12, 0.62, 0.1, 2.9, 0.14
+LETTER = 0.054  # mean width of one [in]
+LONG = 26  # letters of a name with which a legend has one column
+TEXT = 0.7  # of the letters of a narrow picture, over those of a wide one
+
+
+def checked_size(size: Any) -> tuple[float, float] | Literal["journal"] | None:
+    """Return a size in inches, "journal" or None, or refuse it in one sentence.
+
+    A size is None, "journal", "slide", "WIDTHxHEIGHT" or a pair (width, height) in cm.
+    """
+    if size is None:
+        return None
+    if isinstance(size, str) and size == "journal":
+        return "journal"
+    if isinstance(size, str) and size == "slide":
+        return SLIDE
+    told = size
+    if isinstance(size, str):
+        size = re.split("[x,]", size)
+    try:
+        width, height = (float(side) for side in size)
+    except (TypeError, ValueError):
+        width = height = np.nan
+    if not (SMALLEST <= width <= LARGEST and SMALLEST <= height <= LARGEST):
+        raise ValueError(
+            "size must be 'journal' (8.5 cm wide), 'slide' (16:9) or width and height of "
+            f"{SMALLEST:g} to {LARGEST:g} cm, got {told!r}"
+        )
+    return (width * CM, height * CM)
+
+
+def resize(figure: Figure, size: Size) -> Figure:
+    """Give a figure a size, as `Scenario.figure` does; return it."""
+    sides = checked_size(size)
+    if sides is None:
+        return figure
+    with style():
+        width = COLUMN if isinstance(sides, str) else sides[0]
+        if width < NARROW:
+            _stack(figure, width)
+        if not isinstance(sides, str):
+            figure.set_size_inches(*sides)
+    return figure
+
+
+def _stack(figure: Figure, width: float) -> None:
+    """Put robot and panels one above the other, and make the letters small."""
+    figure.canvas.draw()  # settles ticks and layout
+    figure.set_layout_engine("none")
+    for text in figure.findobj(Text):
+        text.set_fontsize(TEXT * float(text.get_fontsize()))
+    letters = round((width - LEFT) / LETTER)  # of a line over a panel
+    title: Text | None = getattr(figure, "_suptitle")  # noqa: B009 - unknown to its types
+    lines = 0
+    if title is not None:
+        title.set_text(textwrap.fill(title.get_text(), round(width / LETTER * 0.73)))
+        lines = title.get_text().count("\n") + 1
+    spaces = [axes for axes in figure.axes if axes.name == "3d"]
+    charts = [axes for axes in figure.axes if axes.name != "3d"]
+    rows = sum(_rows(legend) for legend in figure.legends)
+    below = [BELOW if axes.get_xlabel() else UNNAMED for axes in charts]
+    above = [ABOVE + 0.1 * _retell(axes, letters) for axes in charts]
+    height = 0.16 * lines + 0.1 + SPACE * len(spaces) + ROW * rows + 0.05
+    height += sum(above) + sum(below) + PANEL * len(charts)
+    figure.set_size_inches(width, height)
+    top = height - 0.16 * lines - 0.1
+    if title is not None:
+        title.set_position((0.02, 1.0 - 0.05 / height))
+        title.set_verticalalignment("top")
+    for axes in spaces:
+        top -= SPACE
+        room = np.array([width, SPACE])
+        space.fill(axes, room)
+        box = axes.get_position()
+        axes.set_position((box.x0, box.y0 + top / height, box.width, box.height))
+    top -= ROW * rows
+    _move_legends(figure, top / height)
+    for axes, over, under in zip(charts, above, below, strict=True):
+        top -= over + PANEL
+        _place(axes, (LEFT, top, width - LEFT - RIGHT, PANEL))
+        top -= under
+    figure.canvas.draw()
+    for axes in charts:
+        _keep_inside(axes, width)
+
+
+def _keep_inside(axes: Any, width: float) -> None:
+    """Narrow a panel, so that no word at its sides leaves the picture, `width` [in] wide."""
+    extent, box = axes.get_tightbbox(), axes.get_window_extent()
+    if extent is None:
+        return
+    dpi = axes.get_figure(root=False).dpi
+    low = (box.x0 + max(0.0, 2.0 - extent.x0)) / dpi
+    high = (box.x1 - max(0.0, extent.x1 + 2.0 - width * dpi)) / dpi
+    _place(axes, (low, box.y0 / dpi, high - low, box.height / dpi))
+
+
+def _place(axes: Any, box: tuple[float, ...]) -> None:
+    """Put axes into a box (left, below, width, height) of their picture [in]."""
+    part = axes.get_figure(root=False)
+    left, below, wide, high = box
+    pixels = part.bbox
+    dpi = part.dpi
+    axes.set_position((
+        (left * dpi - pixels.x0) / pixels.width,
+        (below * dpi - pixels.y0) / pixels.height,
+        wide * dpi / pixels.width,
+        high * dpi / pixels.height,
+    ))  # fmt: skip
+
+
+def _retell(axes: Any, letters: int) -> int:
+    """Put the remark of a panel above its legend, in lines that fit; return the rows it needs."""
+    note, legend = axes.get_title(loc="left"), axes.get_legend()
+    size = TEXT * 9.5
+    told = textwrap.fill(note, letters)
+    axes.set_title(told, loc="left", fontsize=size, pad=(size + 5.0) if legend else None)
+    if legend is not None:
+        handles, labels = axes.get_legend_handles_labels()
+        axes.legend(
+            handles,
+            labels,
+            loc="lower right",
+            bbox_to_anchor=(1.0, 1.0),
+            ncols=len(labels) if sum(map(len, labels)) + 4 * len(labels) < letters else 9,
+            borderaxespad=0.1,
+            fontsize=TEXT * 9.5,
+            columnspacing=0.7,
+            handlelength=1.5,
+            handletextpad=0.4,
+        )
+    shared = axes.get_shared_y_axes().get_siblings(axes)
+    name = axes.get_ylabel() or next((one.get_ylabel() for one in shared if one.get_ylabel()), "")
+    axes.tick_params(labelleft=True)
+    axes.set_ylabel(name.replace(" [", "\n[") if len(name) > 12 else name, fontsize=TEXT * 10.5)
+    return 2 * bool(legend and note) + told.count("\n")
+
+
+def _columns(names: list[str]) -> int:
+    return 1 if max(map(len, names)) > LONG else 2
+
+
+def _rows(legend: Legend) -> int:
+    """Return how many rows a legend needs in a narrow picture."""
+    names = [text.get_text() for text in legend.get_texts()]
+    return -(-len(names) // _columns(names))
+
+
+def _move_legends(figure: Figure, below: float) -> None:
+    """Put each legend of the figure under the robot, in columns that fit."""
+    for legend in list(figure.legends):
+        names = [text.get_text() for text in legend.get_texts()]
+        owner = next(
+            axes for axes in figure.axes if set(names) <= set(axes.get_legend_handles_labels()[1])
+        )
+        legend.remove()
+        legend_of(
+            figure,
+            owner,
+            loc="lower center",
+            bbox_to_anchor=(0.5, below),
+            ncols=_columns(names),
+            fontsize=TEXT * 9.5,
+            borderaxespad=0.0,
+            labelspacing=0.25,
+        )

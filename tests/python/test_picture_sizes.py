@@ -1,0 +1,79 @@
+"""Sizes of pictures: of a journal's column, of a slide, and any other."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import cdcr
+
+pytest.importorskip("matplotlib")
+
+from matplotlib.text import Text
+from PIL import Image
+from typer.testing import CliRunner
+
+from cdcr.cli.app import app
+
+CM = 1.0 / 2.54  # [in]
+LEGIBLE = 5.5  # smallest letters in a journal's column [pt]
+
+
+def picture(name: str, size: Any) -> Any:
+    scenario = cdcr.scenarios.get(name)
+    run = scenario.simulate(t_end=1.0) if scenario.has_run else None
+    return scenario.figure(run, size=size)
+
+
+@pytest.mark.parametrize("name", ["step-tension", "pid", "factors-backbone", "length-drive"])
+def test_a_journals_column_holds_all_words(name: str) -> None:
+    figure = picture(name, "journal")
+    assert figure.get_figwidth() == pytest.approx(8.5 * CM)
+    figure.canvas.draw()
+    width, height = figure.bbox.size
+    for text in figure.findobj(Text):
+        if text.get_visible() and text.get_text() and text.axes is None:
+            box = text.get_window_extent()
+            assert box.x0 >= -1.0, text
+            assert box.x1 <= width + 1.0, text
+            assert box.y1 <= height + 1.0, text
+            assert text.get_fontsize() >= LEGIBLE, text
+    for axes in figure.axes:
+        if axes.name != "3d":
+            box = axes.get_tightbbox()
+            assert box.x0 >= -1.0
+            assert box.x1 <= width + 1.0
+
+
+@pytest.mark.parametrize(
+    ("size", "cm"), [("slide", (33.87, 19.05)), ((17.0, 12.0), (17.0, 12.0)), ("17x12", (17, 12))]
+)
+def test_sizes_are_in_centimetres(size: Any, cm: tuple[float, float]) -> None:
+    sides = picture("gravity-ratio", size).get_size_inches()
+    np.testing.assert_allclose(sides, np.array(cm) * CM, rtol=1e-12)
+
+
+def test_no_size_is_the_size_a_picture_was_made_for() -> None:
+    assert tuple(picture("block-diagram", None).get_size_inches()) == (11.0, 5.0)
+
+
+@pytest.mark.parametrize("size", ["poster", "17", (0.0, 5.0), (5.0, np.inf), (1, 2, 3), 7, "axb"])
+def test_other_sizes_are_refused(size: Any) -> None:
+    with pytest.raises(ValueError, match=r"size must be 'journal' .*, got "):
+        picture("block-diagram", size)
+
+
+def test_a_run_is_drawn_in_any_size() -> None:
+    run = cdcr.scenarios.get("step-tension").simulate(t_end=0.1)
+    assert run.plot(size="journal").get_figwidth() == pytest.approx(8.5 * CM)
+
+
+def test_the_command_line_takes_a_size(tmp_path: Path) -> None:
+    arguments = ["run", "block-diagram", "--out", str(tmp_path), "--size"]
+    assert CliRunner().invoke(app, [*arguments, "10x8"]).exit_code == 0
+    with Image.open(tmp_path / "block-diagram.png") as image:
+        assert image.size == (1181, 944)  # 300 dpi, for print
+    refused = CliRunner().invoke(app, [*arguments, "poster", "--overwrite"])
+    assert refused.exit_code == 2
+    assert "--size must be 'journal'" in refused.stderr
