@@ -31,7 +31,7 @@ NAMED_CABLES = 1e-13
 @pytest.fixture
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
     """Draw an empty picture where the picture does not matter."""
-    monkeypatch.setattr(cdcr.scenarios.Scenario, "figure", lambda self, run: Figure())
+    monkeypatch.setattr(cdcr.scenarios.Scenario, "figure", lambda self, run, size=None: Figure())
 
 
 def switched_on(i: int) -> str:

@@ -63,7 +63,7 @@ def test_sixteen_cables_of_a_section_all_look_different(sections: int) -> None:
         cdcr.Cable(angle=2.0 * np.pi * j / 16, radius=0.02, end_section=sections - 1)
         for j in range(16)
     ]
-    section = replace(cdcr.robots.amouri2020().sections[0], cable_angles=[])
+    section = replace(cdcr.robots.amouri2020().sections[0], cable_angles=())
     robot = cdcr.Robot(sections=[section] * sections, cables=cables)
     model = cdcr.Model(robot)
     looks = [

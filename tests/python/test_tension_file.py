@@ -87,7 +87,8 @@ def test_what_is_wrong_in_the_table(tmp_path: Path, rows: str, where: str, sente
 
 
 def test_times_must_increase(tmp_path: Path) -> None:
-    same = refusal(tmp_path, ROWS.replace("[0, 1]", "[1, 1]"), "pull.toml, [tension]")
+    back_in_time = ROWS.replace("[0, 1]", "[1, 0]")  # a time given twice is a jump
+    same = refusal(tmp_path, back_in_time, "pull.toml, [tension]")
     assert "increasing" in same
     (tmp_path / "tension.csv").write_text("t,cable 1,cable 2,cable 3\n2,0,0,0\n1,0,0,0\n")
     back = refusal(tmp_path, CSV, "tension.csv")

@@ -21,7 +21,7 @@ class CommandInput : public Signal {
                                              std::vector<double> break_points = {});
 
   /// The same commands, time counted from `start` [s].
-  [[nodiscard]] CommandInput since(double start) const {
+  [[nodiscard]] CommandInput commands_since(double start) const {
     return CommandInput(Signal::since(start));
   }
 

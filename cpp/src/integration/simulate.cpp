@@ -228,7 +228,7 @@ Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
                     const Options& options, IntegratorFactory factory, const Progress& progress,
                     const WrenchInput& loads, const Events& events) {
   check_arguments(model, q0, qd0, times, events);
-  const CommandInput commands = input.since(times[0]);
+  const CommandInput commands = input.commands_since(times[0]);
   const WrenchInput wrenches = loads.since(times[0]);
   RobotOde ode(model, commands, wrenches);
   const Options chosen =

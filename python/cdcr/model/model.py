@@ -59,7 +59,9 @@ class Model(_core.Model):
         self._formulation = formulation
 
     def with_gravity(self, gravity: ArrayLike) -> Model:
-        """Return the same model under another gravity; its tables are shared, so it costs little.
+        """Return the same model under another gravity, which shares its tables.
+
+        Gravity enters by the weights of cpp/README.md eq. (15) alone.
 
         Parameters
         ----------

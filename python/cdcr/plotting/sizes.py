@@ -56,7 +56,25 @@ def checked_size(size: Any) -> tuple[float, float] | Literal["journal"] | None:
 
 
 def resize(figure: Figure, size: Size) -> Figure:
-    """Give a figure a size, as `Scenario.figure` does; return it."""
+    """Give a figure a size, as `Scenario.figure` does; return it.
+
+    Parameters
+    ----------
+    figure : Figure
+        It is changed.
+    size : optional
+        As in `Scenario.figure`: "journal", "slide" or (width, height) [cm]; None leaves it.
+
+    Returns
+    -------
+    Figure
+        The same.
+
+    Raises
+    ------
+    ValueError
+        For another size.
+    """
     sides = checked_size(size)
     if sides is None:
         return figure

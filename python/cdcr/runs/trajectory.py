@@ -98,20 +98,15 @@ class Trajectory(ReadOnlyArrays):
         require_kind("model", self.model, Model)
         if self.command is None:
             object.__setattr__(self, "command", self.tension)
-        num_samples, num_cables = np.size(finite(self.t, "t")), self.model.num_cables
-        shapes = {
-            "t": (num_samples,),
-            "q": (num_samples, self.model.num_coordinates),
-            "qd": (num_samples, self.model.num_coordinates),
-            "tension": (num_samples, num_cables),
-            "command": (num_samples, num_cables),
-        }
+        rows = np.size(finite(self.t, "t"))
+        states, pulls = (rows, self.model.num_coordinates), (rows, self.model.num_cables)
+        shapes = {"t": (rows,), "q": states, "qd": states, "tension": pulls, "command": pulls}
         for name, shape in shapes.items():
             array = np.array(finite(getattr(self, name), name))
             if array.shape != shape:
                 raise ValueError(f"{name} must have shape {shape}, got {array.shape}")
             object.__setattr__(self, name, read_only(array))
-        if num_samples == 0:
+        if rows == 0:
             raise ValueError(f"a run must have at least one sample, got none. {self.message}")
 
     def __len__(self) -> int:
@@ -141,12 +136,10 @@ class Trajectory(ReadOnlyArrays):
 
     @property
     def success(self) -> bool:
-        """Whether the run reached its last output time, or an event that ends it."""
+        """Whether it reached its last output time, or an event that ends it."""
         return self.status.name in ("ok", "event")
 
-    # cached_property writes to the instance's __dict__, which a frozen dataclass leaves open.
-
-    @cached_property
+    @cached_property  # it writes to __dict__, which a frozen dataclass leaves open
     def _polar(self) -> tuple[FloatArray, FloatArray]:
         theta, phi = _core.polar_along(self.q)
         return read_only(theta), read_only(phi)
@@ -288,8 +281,12 @@ class Trajectory(ReadOnlyArrays):
     def plot(self, *, size: str | tuple[float, float] | None = None) -> Figure:
         """Draw angles [deg], tensions, tip and energy over time. Needs the extra ``plot``.
 
-        A free run (no damping, no tension) also shows ``energy_error``. Save the picture with
-        ``run.plot().savefig("run.png")``. `size` is as in `Scenario.figure`.
+        A free run (no damping, no tension) also shows ``energy_error``.
+
+        Parameters
+        ----------
+        size : optional
+            As in `Scenario.figure`.
         """
         from cdcr import plotting
 
