@@ -44,7 +44,8 @@ struct Rig {
   Wrenches wrenches;
 };
 
-/// body(rig) in a few states, straight ones among them, with cables slack and taut.
+/// body(model, data, q, qd, command, wrenches) in a few states, straight ones among them, with
+/// cables slack and taut.
 template <class Body>
 void for_each_state(Body body) {
   Random random;
@@ -56,15 +57,15 @@ void for_each_state(Body body) {
     rig.command = random_command(rig.model, rig.q, 10.0, random);
     rig.wrenches = random_wrenches(rig.model, 3, random);
     CAPTURE(i);
-    body(rig);
+    body(rig.model, rig.data, rig.q, rig.qd, rig.command, rig.wrenches);
   }
 }
 
 TEST_SUITE_BEGIN("realtime_sections");
 
 TEST_CASE("dynamics of three sections under everything allocate nothing") {
-  for_each_state([](Rig& rig) {
-    auto& [model, data, q, qd, command, wrenches] = rig;
+  for_each_state([](const Model& model, Data& data, const VectorXd& q, const VectorXd& qd,
+                    const VectorXd& command, const Wrenches& wrenches) {
     VectorXd v(6);
     MatrixXd M(6, 6), A(12, 12), B(12, model.num_cables());
     CHECK(allocations_of([&] { mass_matrix(model, data, q, M); }) == 0);
@@ -88,8 +89,8 @@ TEST_CASE("dynamics of three sections under everything allocate nothing") {
 }
 
 TEST_CASE("cables, wrenches and kinematics of three sections allocate nothing") {
-  for_each_state([](Rig& rig) {
-    auto& [model, data, q, qd, command, wrenches] = rig;
+  for_each_state([](const Model& model, Data& /*data*/, const VectorXd& q, const VectorXd& qd,
+                    const VectorXd& command, const Wrenches& wrenches) {
     VectorXd force = VectorXd::Zero(6), each(model.num_cables());
     MatrixXd along(4, model.num_cables()), J(6, 6);
     const Index spring = model.num_cables() - 1;
@@ -108,8 +109,8 @@ TEST_CASE("cables, wrenches and kinematics of three sections allocate nothing") 
 }
 
 TEST_CASE("a simulator's step with all of it allocates nothing, not even when it fails") {
-  for_each_state([](Rig& rig) {
-    auto& [model, data, q, qd, command, wrenches] = rig;
+  for_each_state([](const Model& model, Data& /*data*/, const VectorXd& q, const VectorXd& qd,
+                    const VectorXd& command, const Wrenches& wrenches) {
     Simulator sim(model, 1e-5, 2);
     Status status = Status::ok;
     CHECK(allocations_of([&] { status = sim.step(command, wrenches); }) == 0);
