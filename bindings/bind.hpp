@@ -4,7 +4,6 @@
 
 #include "cdcr/allocation.hpp"
 #include "cdcr/controller.hpp"
-#include "cdcr/modes.hpp"
 #include "cdcr/simulate.hpp"
 #include "cdcr/statics.hpp"
 #include "initialised.hpp"
@@ -21,7 +20,6 @@ CDCR_BOUND_CLASS(cdcr::CommandInput);
 CDCR_BOUND_CLASS(cdcr::Controller);
 CDCR_BOUND_CLASS(cdcr::Equilibrium);
 CDCR_BOUND_CLASS(cdcr::Model);
-CDCR_BOUND_CLASS(cdcr::Modes);
 CDCR_BOUND_CLASS(cdcr::Options);
 CDCR_BOUND_CLASS(cdcr::python::PythonPid);
 CDCR_BOUND_CLASS(cdcr::python::PythonSimulator);
