@@ -1,7 +1,7 @@
 # clang-tidy, one source at a time and side by side, again only after a change.
 # Needs the compile database of preset tidy: make lint.
-SOURCES := $(wildcard cpp/src/*/*.cpp bindings/*.cpp)
-HEADERS := $(wildcard cpp/include/cdcr/*.hpp cpp/src/*/*.hpp bindings/*.hpp)
+SOURCES := $(wildcard cpp/src/*/*.cpp bindings/*.cpp bindings/fmu/*.cpp)
+HEADERS := $(wildcard cpp/include/cdcr/*.hpp cpp/src/*/*.hpp bindings/*.hpp bindings/fmu/*.hpp)
 
 all: $(SOURCES:%=build/tidy/ok/%)
 
