@@ -1,4 +1,4 @@
-"""The commands: list, info, run, new, audit, figures."""
+"""The commands: list, info, run, new, audit, figures, export-fmu, export-mjcf."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import typer
 from rich.console import Console
 
 import cdcr
-from cdcr.cli import audit, figures, info, info_json, new, run, tables
+from cdcr.cli import audit, export, figures, info, info_json, new, run, tables
 
 app = typer.Typer(
     help="Dynamics of cable-driven continuum robots.",
@@ -33,6 +33,9 @@ Size = Annotated[
         metavar="SIZE",
         help="Of the pictures: journal (8.5 cm wide), slide (16:9), or WIDTHxHEIGHT in cm.",
     ),
+]
+Robot = Annotated[
+    str, typer.Argument(metavar="ROBOT|FILE.toml", help="A name from `cdcr list` or a file.")
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object in place of tables.")]
 
@@ -97,9 +100,7 @@ def list_command(as_json: AsJson = False) -> None:
 
 @app.command("info", short_help="Show what a robot is made of.")
 def info_command(
-    robot: Annotated[
-        str, typer.Argument(metavar="ROBOT|FILE.toml", help="A name from `cdcr list` or a file.")
-    ],
+    robot: Robot,
     as_json: AsJson = False,
 ) -> None:
     """Show what a robot is made of and how it is at rest.
@@ -230,3 +231,45 @@ def figures_command(
     with _told_plainly():
         written = figures.figures(out, overwrite=overwrite, size=size, console=Console(stderr=True))
     typer.echo(f"wrote {len(written) - 1} pictures and {written[-1]}")
+
+
+@app.command("export-fmu", short_help="Write a robot as an FMU, for co-simulation.")
+def export_fmu_command(
+    robot: Robot,
+    out: Annotated[Path, typer.Option(metavar="FILE.fmu", help="The file to write.")],
+    fmi: Annotated[int, typer.Option(metavar="3|2", help="Version of the standard.")] = 3,
+    step: Annotated[
+        float | None,
+        typer.Option(
+            metavar="SECONDS",
+            help="Fixed step of Runge-Kutta 4 inside; without it, dopri5 with its tolerances.",
+        ),
+    ] = None,
+    overwrite: Overwrite = False,
+) -> None:
+    """Write a robot as a functional mock-up unit (FMI 3 or 2) for co-simulation on Linux.
+
+    Inputs are tensions, or lengths where a cable is driven by length; parameters gravity and the
+    state at the start; outputs the state, the tip, lengths and tensions of the cables.
+    """
+    with _told_plainly():
+        export.export_fmu(robot, out, fmi=fmi, step=step, overwrite=overwrite)
+        typer.echo(f"wrote {out}, for FMI {fmi}")
+
+
+@app.command("export-mjcf", short_help="Write a robot as a model of MuJoCo.")
+def export_mjcf_command(
+    robot: Robot,
+    out: Annotated[Path, typer.Option(metavar="FILE.xml", help="The file to write.")],
+    links: Annotated[
+        int, typer.Option(metavar="NUMBER", help="Rigid links of each section, 1 to 100.")
+    ] = 10,
+    overwrite: Overwrite = False,
+) -> None:
+    """Write a robot as a chain of rigid links for MuJoCo, with its cables, gravity and payload.
+
+    Friction of cables is left out.
+    """
+    with _told_plainly():
+        export.export_mjcf(robot, out, links=links, overwrite=overwrite)
+        typer.echo(f"wrote {out}")
