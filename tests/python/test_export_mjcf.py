@@ -47,7 +47,7 @@ class Chain:
     def stiffness(self, angles: Array) -> Array:
         steps = 1e-6 * np.eye(self.model.nv)
         columns = [(self.force(angles - e) - self.force(angles + e)) / 2e-6 for e in steps]
-        return np.array(columns).T
+        return np.transpose(np.array(columns, dtype=np.float64))
 
     def rest(self, commands: Array) -> Array:
         """Angles at rest, by Newton's method from the straight robot, commands growing."""
