@@ -42,6 +42,18 @@ def test_version_comes_from_cmake() -> None:
     assert cdcr.__version__ == project.group(1)
 
 
+def test_the_conda_recipe_has_this_version_and_needs_what_the_package_needs() -> None:
+    recipe = (ROOT / "packaging" / "conda" / "recipe.yaml").read_text()
+    assert f'version: "{cdcr.__version__}"' in recipe
+    project = read_toml(ROOT / "pyproject.toml", "project file")["project"]
+    extras = project["optional-dependencies"]
+    needed = [*project["dependencies"], *extras["plot"], *extras["data"], *extras["cli"]]
+    renamed = {"matplotlib": "matplotlib-base"}
+    for name, version in re.findall(r"([\w-]+)(?:\[\w+\])?(>=[\d.]+)", "\n".join(needed)):
+        if name != "tomli":  # of Pythons that are older than conda-forge's
+            assert f"- {renamed.get(name, name)} {version}\n" in recipe, name
+
+
 def test_changelog_opens_with_this_version() -> None:
     versions = re.findall(r"^## \[(.+?)\]", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE)
     assert versions[0] in {cdcr.__version__, "Unreleased"}
