@@ -14,7 +14,7 @@ import pytest
 from numpy.typing import NDArray
 
 import cdcr
-from cdcr.export.links import chain, joints
+from cdcr.export.links import Chain as Links
 from cdcr.export.mjcf import mjcf_text
 
 mujoco: Any = pytest.importorskip("mujoco", reason="its models are compared with MuJoCo itself")
@@ -196,7 +196,7 @@ def test_nothing_moves_without_tension_and_gravity() -> None:
 def test_links_have_the_mass_of_the_robot(case: Case) -> None:
     robot, _ = case()
     for links in (1, 3, 7):
-        bodies = chain(robot, joints(robot, links))
+        bodies = Links(robot, links).links
         assert sum(link.mass for link in bodies) == pytest.approx(robot.mass, rel=1e-12)
         moment = sum(
             link.mass * (link.center + np.array([0.0, 0.0, link.start])) for link in bodies

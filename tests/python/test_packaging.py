@@ -65,6 +65,11 @@ def test_installed_with_its_types(file: str) -> None:
     assert file in installed_files()
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="FMUs are for Linux")
+def test_installed_with_the_shared_object_of_fmus() -> None:
+    assert "cdcr/_fmu.so" in installed_files()
+
+
 def test_installs_the_package_and_nothing_else() -> None:
     belongs = re.compile(
         r"cdcr/([\w/-]+\.(html|py|pyi|toml)|py\.typed|_core\.[\w.-]+\.so|_fmu\.so)"

@@ -56,37 +56,62 @@ class Piece:
         return Piece(bottom, top, self.mass * share, self.diameter)
 
 
-def section_ends(robot: Robot) -> list[float]:
-    """Return the arc lengths at which sections begin, and the last one ends [m]."""
-    return list(accumulate((section.length for section in robot.sections), initial=0.0))
+class Chain:
+    """A robot of so many links a section.
+
+    Attributes
+    ----------
+    robot : Robot
+        The robot.
+    cables : tuple of Cable
+        Its cables, in the order of the commands.
+    ends : list of float
+        Arc lengths at which sections begin, and the last one ends [m].
+    joints : list of Joint
+        Base to tip.
+    links : list of Link
+        Between the joints; the first one is fixed to the base, the last one is the tip's.
+    """
+
+    def __init__(self, robot: Robot, count: int) -> None:
+        self.robot = robot
+        self.cables = robot.all_cables
+        self.ends = list(accumulate((section.length for section in robot.sections), initial=0.0))
+        self.joints = [
+            Joint(
+                section=i,
+                part=part,
+                height=self.ends[i] + (part + 0.5) * section.length / count,
+                stiffness=section.stiffness * count,
+                damping=section.damping * count,
+            )
+            for i, section in enumerate(robot.sections)
+            for part in range(count)
+        ]
+        length = self.ends[-1]
+        borders = [0.0, *(joint.height for joint in self.joints), length]
+        self.links = [
+            _link(robot, self.ends, *pair, last=pair[1] == length) for pair in pairwise(borders)
+        ]
+
+    def fastest(self) -> float:
+        """Return the largest frequency of the straight chain, in a plane, cables held [rad/s]."""
+        heights = np.array([joint.height for joint in self.joints])
+        mass = np.zeros((len(heights), len(heights)))
+        for link in self.links[1:]:
+            turns = heights <= link.start
+            arms = np.where(turns, link.start + link.center[2] - heights, 0.0)
+            mass += link.mass * np.outer(arms, arms) + link.inertia[1, 1] * np.outer(turns, turns)
+        stiffness = np.diag([joint.stiffness for joint in self.joints])
+        for cable in self.cables:
+            through = np.array([joint.section <= cable.end_section for joint in self.joints])
+            stiffness += cable.stiffness * cable.radius**2 * np.outer(through, through)
+        inverse = np.linalg.inv(np.linalg.cholesky(mass))
+        return float(np.sqrt(np.linalg.eigvalsh(inverse @ stiffness @ inverse.T)[-1]))
 
 
-def joints(robot: Robot, links: int) -> list[Joint]:
-    """Return the joints of a robot with so many links a section, base to tip."""
-    return [
-        Joint(
-            section=i,
-            part=part,
-            height=start + (part + 0.5) * section.length / links,
-            stiffness=section.stiffness * links,
-            damping=section.damping * links,
-        )
-        for i, (section, start) in enumerate(
-            zip(robot.sections, section_ends(robot)[:-1], strict=True)
-        )
-        for part in range(links)
-    ]
-
-
-def chain(robot: Robot, at: Sequence[Joint]) -> list[Link]:
-    """Return the links between the joints, the first one fixed to the base, the last the tip's."""
-    length = section_ends(robot)[-1]
-    borders = [0.0, *(joint.height for joint in at), length]
-    return [_link(robot, *pair, last=pair[1] == length) for pair in pairwise(borders)]
-
-
-def _link(robot: Robot, start: float, end: float, *, last: bool) -> Link:
-    pieces = list(_pieces(robot, start, end, last))
+def _link(robot: Robot, ends: Sequence[float], start: float, end: float, *, last: bool) -> Link:
+    pieces = list(_pieces(robot, ends, start, end, last))
     bodies = [_as_body(piece, start) for piece in pieces]
     if last and robot.payload:
         position = np.array(robot.payload_position)
@@ -105,9 +130,11 @@ def _link(robot: Robot, start: float, end: float, *, last: bool) -> Link:
     return Link(start, end, mass, center, inertia, tuple(disks))
 
 
-def _pieces(robot: Robot, start: float, end: float, last: bool) -> Iterator[Piece]:
+def _pieces(
+    robot: Robot, ends: Sequence[float], start: float, end: float, last: bool
+) -> Iterator[Piece]:
     """Yield what lies from start to before the end, that of the last link included."""
-    for section, (bottom, top) in zip(robot.sections, pairwise(section_ends(robot)), strict=True):
+    for section, (bottom, top) in zip(robot.sections, pairwise(ends), strict=True):
         if max(bottom, start) < min(top, end):
             whole = Piece(bottom, top, section.backbone_mass, section.backbone_diameter)
             yield whole.between(start, end)
@@ -124,19 +151,3 @@ def _as_body(piece: Piece, start: float) -> tuple[float, FloatArray, FloatArray]
     across = axial / 2.0 + piece.mass * along**2 / 12.0
     place = np.array([0.0, 0.0, 0.5 * (piece.bottom + piece.top) - start])
     return piece.mass, place, np.diag([across, across, axial])
-
-
-def fastest(robot: Robot, at: Sequence[Joint], links: Sequence[Link]) -> float:
-    """Return the largest frequency of the straight chain, in a plane, cables held [rad/s]."""
-    heights = np.array([joint.height for joint in at])
-    mass = np.zeros((len(at), len(at)))
-    for link in links[1:]:
-        turns = heights <= link.start
-        arms = np.where(turns, link.start + link.center[2] - heights, 0.0)
-        mass += link.mass * np.outer(arms, arms) + link.inertia[1, 1] * np.outer(turns, turns)
-    stiffness = np.diag([joint.stiffness for joint in at])
-    for cable in robot.all_cables:
-        through = np.array([joint.section <= cable.end_section for joint in at], dtype=np.float64)
-        stiffness += cable.stiffness * cable.radius**2 * np.outer(through, through)
-    inverse = np.linalg.inv(np.linalg.cholesky(mass))
-    return float(np.sqrt(np.linalg.eigvalsh(inverse @ stiffness @ inverse.T)[-1]))

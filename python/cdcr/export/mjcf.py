@@ -8,13 +8,14 @@ from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from os import PathLike
 from pathlib import Path
+from typing import NamedTuple
 from xml.etree import ElementTree
 
 import numpy as np
 
 from cdcr import _core
 from cdcr.base.check import Check, count, require_kind
-from cdcr.export.links import Joint, Link, chain, fastest, joints, section_ends
+from cdcr.export.links import Chain, Joint, Link
 from cdcr.files.new_file import new_file
 from cdcr.robot.cable import Cable
 from cdcr.robot.robot import Robot
@@ -26,6 +27,13 @@ _LONGEST_STEP = 2e-3  # [s]
 _RANGE = 10.0  # largest command over the tension that bends a section by 180 degrees
 _HIDDEN = {"contype": "0", "conaffinity": "0"}  # from collisions
 _COLORS = ("0.00 0.45 0.70 1", "0.84 0.37 0.00 1", "0.00 0.62 0.45 1", "0.80 0.47 0.65 1")
+
+
+class Site(NamedTuple):
+    """A point of a link, where a cable passes."""
+
+    name: str
+    place: tuple[float, float, float]  # in the link's frame [m]
 
 
 def write_mjcf(
@@ -97,19 +105,20 @@ def mjcf_text(robot: Robot, file: Path, *, links: int = 10) -> str:
         section.cable_friction for section in robot.sections
     ):
         warnings.warn("MuJoCo's model leaves the friction of cables out", stacklevel=3)
-    at = joints(robot, links)
-    bodies = chain(robot, at)
-    _require_mass(at, bodies)
+    chain = Chain(robot, links)
+    _require_mass(chain)
+    bends = [_bend(chain, i, links) for i in range(len(robot.sections))]
+    sites = _sites(chain, bends)
 
     root = ElementTree.Element("mujoco", model=file.stem)
     about = f" by cdcr {_core.__version__}; SI units; commands: tension [N], or length [m] "
     root.append(ElementTree.Comment(about))
     ElementTree.SubElement(root, "compiler", angle="radian", inertiafromgeom="false")
-    step = min(_LONGEST_STEP, _STEP / fastest(robot, at, bodies))
+    step = min(_LONGEST_STEP, _STEP / chain.fastest())
     options = {"timestep": f"{step:.2g}", "integrator": "implicitfast"}
     ElementTree.SubElement(root, "option", options, gravity=_numbers(robot.gravity))
-    _add_bodies(root, robot, at, bodies, links)
-    _add_cables(root, robot, at, bodies, links)
+    _add_bodies(root, chain, bends, sites)
+    _add_cables(root, chain, sites)
     ElementTree.indent(root)
     return ElementTree.tostring(root, encoding="unicode") + "\n"
 
@@ -118,8 +127,8 @@ def _numbers(values: Iterable[float]) -> str:
     return " ".join(repr(float(value)) for value in values)
 
 
-def _require_mass(at: Sequence[Joint], bodies: Sequence[Link]) -> None:
-    for joint, link in zip(at, bodies[1:], strict=True):
+def _require_mass(chain: Chain) -> None:
+    for joint, link in zip(chain.joints, chain.links[1:], strict=True):
         if not (link.mass > 0.0 and np.linalg.eigvalsh(link.inertia)[0] > 0.0):
             raise ValueError(
                 f"each link must have a mass and an inertia, as MuJoCo's bodies have; that beyond "
@@ -131,38 +140,39 @@ def _require_mass(at: Sequence[Joint], bodies: Sequence[Link]) -> None:
 
 
 def _add_bodies(
-    root: ElementTree.Element,
-    robot: Robot,
-    at: Sequence[Joint],
-    bodies: Sequence[Link],
-    links: int,
+    root: ElementTree.Element, chain: Chain, bends: Sequence[float], sites: Sequence[Sequence[Site]]
 ) -> None:
     world = ElementTree.SubElement(root, "worldbody")
-    light = {"pos": _numbers((0.0, 0.0, 2.0 * robot.length)), "dir": "0 0 -1"}
+    light = {"pos": _numbers((0.0, 0.0, 2.0 * chain.ends[-1])), "dir": "0 0 -1"}
     ElementTree.SubElement(world, "light", light)
-    axes = np.array(robot.base_orientation).T[:2].ravel()
+    axes = np.array(chain.robot.base_orientation).T[:2].ravel()
     body = ElementTree.SubElement(world, "body", name="base", xyaxes=_numbers(axes))
-    sites = _sites(robot, at, bodies, links)
-    for i, link in enumerate(bodies):
-        if i > 0:
-            joint = at[i - 1]
-            place = (0.0, 0.0, link.start - bodies[i - 1].start)
-            name = f"link{joint.section + 1}_{joint.part + 1}"
-            body = ElementTree.SubElement(body, "body", name=name, pos=_numbers(place))
-            inertia = link.inertia[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
-            ElementTree.SubElement(
-                body,
-                "inertial",
-                pos=_numbers(link.center),
-                mass=repr(link.mass),
-                fullinertia=_numbers(inertia),
-            )
-            _add_hinges(body, joint, _bend(robot, joint.section, links))
-        _add_geoms(body, robot, link)
-        for name, place in sites[i]:
-            ElementTree.SubElement(body, "site", name=name, pos=_numbers(place), size="0.0005")
-    tip = (0.0, 0.0, bodies[-1].end - bodies[-1].start)
-    ElementTree.SubElement(body, "site", name="tip", pos=_numbers(tip), size="0.001")
+    _add_geoms(body, chain, chain.links[0])
+    _add_sites(body, sites[0])
+    for joint, (below, link), holes in zip(
+        chain.joints, pairwise(chain.links), sites[1:], strict=True
+    ):
+        place = (0.0, 0.0, link.start - below.start)
+        name = f"link{joint.section + 1}_{joint.part + 1}"
+        body = ElementTree.SubElement(body, "body", name=name, pos=_numbers(place))
+        inertia = link.inertia[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+        ElementTree.SubElement(
+            body,
+            "inertial",
+            pos=_numbers(link.center),
+            mass=repr(link.mass),
+            fullinertia=_numbers(inertia),
+        )
+        _add_hinges(body, joint, bends[joint.section])
+        _add_geoms(body, chain, link)
+        _add_sites(body, holes)
+    tip = Site("tip", (0.0, 0.0, chain.links[-1].end - chain.links[-1].start))
+    _add_sites(body, [tip])
+
+
+def _add_sites(body: ElementTree.Element, sites: Sequence[Site]) -> None:
+    for name, place in sites:
+        ElementTree.SubElement(body, "site", name=name, pos=_numbers(place), size="0.0005")
 
 
 def _add_hinges(body: ElementTree.Element, joint: Joint, bend: float) -> None:
@@ -184,9 +194,8 @@ def _add_hinges(body: ElementTree.Element, joint: Joint, bend: float) -> None:
         )
 
 
-def _add_geoms(body: ElementTree.Element, robot: Robot, link: Link) -> None:
-    ends = section_ends(robot)
-    for section, (bottom, top) in zip(robot.sections, pairwise(ends), strict=True):
+def _add_geoms(body: ElementTree.Element, chain: Chain, link: Link) -> None:
+    for section, (bottom, top) in zip(chain.robot.sections, pairwise(chain.ends), strict=True):
         low, high = max(bottom, link.start), min(top, link.end)
         if low < high:
             ElementTree.SubElement(
@@ -208,78 +217,69 @@ def _add_geoms(body: ElementTree.Element, robot: Robot, link: Link) -> None:
 # Cables ------------------------------------------------------------------------------------------
 
 
-def _bend(robot: Robot, section: int, links: int) -> float:
+def _bend(chain: Chain, section: int, links: int) -> float:
     """Return how far a hinge of a section may turn [rad].
 
     No further than to where the sites of a cable at both its sides meet.
     """
-    half = robot.sections[section].length / links / 2.0
-    radii = [cable.radius for cable in robot.all_cables if cable.end_section >= section]
+    half = chain.robot.sections[section].length / links / 2.0
+    radii = [cable.radius for cable in chain.cables if cable.end_section >= section]
     return min([math.pi / links, *(math.sqrt(2.0) * math.atan(half / r) for r in radii)])
 
 
-def _sites(
-    robot: Robot, at: Sequence[Joint], bodies: Sequence[Link], links: int
-) -> list[list[tuple[str, tuple[float, float, float]]]]:
-    """Return name and place of the sites of each link, each cable's in their order along it.
+def _sites(chain: Chain, bends: Sequence[float]) -> list[list[Site]]:
+    """Return the sites of each link, each cable's in their order along it.
 
     Across a joint that bends by theta towards a cable at radius r, with sites at a distance a, the
     cable shortens by 2 r sin(theta/2) + 2 a (1 - cos(theta/2)); the nearer the sites, the nearer
     to r theta. Where the joint is bent as far as it goes they must not have met.
     """
-    found: list[list[tuple[str, tuple[float, float, float]]]] = [[] for _ in bodies]
-    ends = section_ends(robot)
-    for j, cable in enumerate(robot.all_cables):
+    found: list[list[Site]] = [[] for _ in chain.links]
+    for j, cable in enumerate(chain.cables):
         x, y = cable.radius * math.cos(cable.angle), cable.radius * math.sin(cable.angle)
         heights = [(0, 0.0)]
-        for k, joint in enumerate(at):
+        for k, joint in enumerate(chain.joints):
             if joint.section <= cable.end_section:
-                bend = _bend(robot, joint.section, links)
-                apart = cable.radius * math.tan(bend / math.sqrt(2.0))
+                apart = cable.radius * math.tan(bends[joint.section] / math.sqrt(2.0))
                 heights += [(k, joint.height - apart), (k + 1, joint.height + apart)]
-        heights.append((heights[-1][0], ends[cable.end_section + 1]))
+        heights.append((heights[-1][0], chain.ends[cable.end_section + 1]))
         for number, (i, height) in enumerate(heights):
-            place = (x, y, height - bodies[i].start)
-            found[i].append((f"hole{j + 1}_{number + 1}", place))
+            place = (x, y, height - chain.links[i].start)
+            found[i].append(Site(f"hole{j + 1}_{number + 1}", place))
     return found
 
 
-def _add_cables(
-    root: ElementTree.Element,
-    robot: Robot,
-    at: Sequence[Joint],
-    bodies: Sequence[Link],
-    links: int,
-) -> None:
+def _add_cables(root: ElementTree.Element, chain: Chain, sites: Sequence[Sequence[Site]]) -> None:
     paths = ElementTree.SubElement(root, _CABLE)
     actuators = ElementTree.SubElement(root, "actuator")
     sensors = ElementTree.SubElement(root, "sensor")
     for kind in ("framepos", "framequat"):
         ElementTree.SubElement(sensors, kind, name=f"tip_{kind}", objtype="site", objname="tip")
-    names = [name for sites in _sites(robot, at, bodies, links) for name, _ in sites]
-    ends = section_ends(robot)
-    for j, cable in enumerate(robot.all_cables):
+    names = [site.name for holes in sites for site in holes]
+    for j, cable in enumerate(chain.cables):
         name = f"cable{j + 1}"
         color = _COLORS[cable.end_section % len(_COLORS)]
         path = ElementTree.SubElement(paths, "spatial", name=name, width="0.0005", rgba=color)
         for site in names:
             if site.startswith(f"hole{j + 1}_"):
                 ElementTree.SubElement(path, "site", site=site)
-        actuator = _actuator(robot, cable, ends[cable.end_section + 1])
+        actuator = _actuator(chain, cable)
         actuator.attrib |= {"name": name, _CABLE: name}
         actuators.append(actuator)
         ElementTree.SubElement(sensors, f"{_CABLE}pos", {"name": f"{name}_length", _CABLE: name})
-    rest = [ends[c.end_section + 1] if c.length_driven else 0.0 for c in robot.all_cables]
+    rest = [chain.ends[c.end_section + 1] if c.length_driven else 0.0 for c in chain.cables]
     keys = ElementTree.SubElement(root, "keyframe")
     ElementTree.SubElement(keys, "key", name="rest", ctrl=_numbers(rest))
 
 
-def _actuator(robot: Robot, cable: Cable, straight: float) -> ElementTree.Element:
+def _actuator(chain: Chain, cable: Cable) -> ElementTree.Element:
     """Return what pulls a cable: a force along its path would push, so the sign is turned."""
     if not cable.length_driven:
-        stiffest = max(section.stiffness for section in robot.sections[: cable.end_section + 1])
+        passed = chain.robot.sections[: cable.end_section + 1]
+        stiffest = max(section.stiffness for section in passed)
         most = _RANGE * math.pi * stiffest / cable.radius
         return ElementTree.Element("motor", gear="-1", ctrlrange=_numbers((0.0, most)))
+    straight = chain.ends[cable.end_section + 1]
     strongest = cable.stiffness * straight
     return ElementTree.Element(
         "position",
