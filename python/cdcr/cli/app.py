@@ -222,11 +222,21 @@ def figures_command(
     ),
     overwrite: Overwrite = False,
     size: Size = None,
+    jobs: Annotated[
+        int | None,
+        typer.Option(
+            metavar="NUMBER",
+            min=1,
+            help="Processes that draw; by default as many as there are processors to use.",
+        ),
+    ] = None,
 ) -> None:
     """Redraw all figures of the origin paper (.png, .svg); write index.html, which shows them.
 
     Files appear only when all are complete.
     """
     with _told_plainly():
-        written = figures.figures(out, overwrite=overwrite, size=size, console=Console(stderr=True))
+        written = figures.figures(
+            out, overwrite=overwrite, size=size, jobs=jobs, console=Console(stderr=True)
+        )
     typer.echo(f"wrote {len(written) - 1} pictures and {written[-1]}")
