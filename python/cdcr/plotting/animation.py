@@ -60,6 +60,22 @@ def animate(
     if path.suffix == ".gif" and fps > MAX_GIF_FPS:
         raise ValueError(f"fps must be at most {MAX_GIF_FPS:g} in a .gif, got {fps!r}")
     checked_size(size)
+    with new_file(path, overwrite=overwrite) as partial:
+        write_frames(run, partial, path.suffix, fps=fps, speed=speed, size=size, progress=progress)
+    return path
+
+
+def write_frames(
+    run: Trajectory,
+    path: Path,
+    suffix: str,
+    *,
+    fps: float = 30.0,
+    speed: float = 1.0,
+    size: Size = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> None:
+    """Write a film to a file of any name, in the format of a suffix."""
     times = frame_times(run, speed / fps)
 
     def frames() -> Iterator[NDArray[np.uint8]]:
@@ -68,9 +84,7 @@ def animate(
             if progress is not None:
                 progress(done, len(times))
 
-    with new_file(path, overwrite=overwrite) as partial:
-        write_film(partial, path.suffix, frames(), fps)
-    return path
+    write_film(path, suffix, frames(), fps)
 
 
 def frame_times(run: Trajectory, step: float) -> FloatArray:
