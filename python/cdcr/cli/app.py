@@ -1,4 +1,4 @@
-"""The commands: list, info, run, new, audit, figures."""
+"""The commands: list, info, run, new, validate, schema, audit, figures."""
 
 from __future__ import annotations
 
@@ -9,7 +9,19 @@ import typer
 from rich.console import Console
 
 import cdcr
-from cdcr.cli import audit, complete, figures, info, info_json, new, run, tables, watch
+from cdcr.cli import (
+    audit,
+    complete,
+    figures,
+    info,
+    info_json,
+    new,
+    run,
+    schema,
+    tables,
+    validate,
+    watch,
+)
 from cdcr.cli.plain import AsJson, Overwrite, Quiet, Size, print_json
 from cdcr.cli.plain import told_plainly as _told_plainly
 
@@ -165,7 +177,7 @@ def run_command(
         run_once()
 
 
-@app.command("new", short_help="Write a scenario file to start from.")
+@app.command("new", short_help="Write a scenario file or a robot file to start from.")
 def new_command(
     file: Annotated[Path, typer.Argument(metavar="FILE.toml", help="The file to write.")],
     name: Annotated[
@@ -177,15 +189,80 @@ def new_command(
             autocompletion=complete.scenario_names,
         ),
     ] = None,
+    robot: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME",
+            help="Write a robot file: the robot of `cdcr list` to start from.",
+            autocompletion=complete.robot_names,
+        ),
+    ] = None,
     overwrite: Overwrite = False,
 ) -> None:
     """Write a scenario file that `run` takes as it is, with every option in a comment.
 
-    With --from, the file of a scenario of `cdcr list`.
+    With --from, the file of a scenario of `cdcr list`; with --robot, a robot file, which a scenario
+    file names in `robot = "FILE.toml"`.
     """
     with _told_plainly(), run.mistakes():
-        new.write_scenario(file, name, overwrite=overwrite)
-        typer.echo(f"wrote {file}; next: cdcr run {file}")
+        if robot is None:
+            new.write_scenario(file, name, overwrite=overwrite)
+        elif name is not None:
+            raise run.Mistake("give either --from or --robot, not both")
+        else:
+            new.write_robot(file, robot, overwrite=overwrite)
+        typer.echo(f"wrote {file}; next: cdcr {'run' if robot is None else 'info'} {file}")
+
+
+@app.command("validate", short_help="Check robot and scenario files without running.")
+def validate_command(
+    files: Annotated[
+        list[str],
+        typer.Argument(
+            metavar="FILE.toml...",
+            help="Files of robots and scenarios.",
+            autocompletion=complete.toml_files,
+        ),
+    ],
+    as_json: AsJson = False,
+) -> None:
+    """Check robot and scenario files, and the files they name, without running.
+
+    One sentence for each fault, with its line where that is known. Exit code 2 where there is any.
+    """
+    with _told_plainly():
+        verdicts = [validate.validate(file) for file in files]
+    if as_json:
+        print_json({"files": [verdict.as_dict() for verdict in verdicts]})
+    for verdict in verdicts if not as_json else ():
+        if verdict.holds:
+            typer.echo(f"{verdict.file}: ok, {verdict.holds}")
+        for fault in verdict.faults:
+            typer.echo(f"cdcr: {fault}", err=True)
+    if any(verdict.faults for verdict in verdicts):
+        raise typer.Exit(2)
+
+
+@app.command("schema", short_help="Print the JSON schema of robot or scenario files.")
+def schema_command(
+    kind: Annotated[
+        str,
+        typer.Argument(
+            metavar="robot|scenario", help="The files.", autocompletion=complete.kinds_of_files
+        ),
+    ],
+) -> None:
+    """Print the JSON schema of robot or scenario files, by which editors complete and check keys.
+
+    Files written by `cdcr new` name it: taplo and Even Better TOML (VS Code) look for it beside the
+    file, under cdcr-robot.schema.json or cdcr-scenario.schema.json.
+    """
+    with _told_plainly():
+        for known in schema.KINDS:
+            if kind == known:
+                typer.echo(schema.text(known))
+                return
+        raise run.Mistake(f"the schema must be one of {', '.join(schema.KINDS)}, got {kind!r}")
 
 
 @app.command("audit", short_help="Hold the origin paper's claims against its own equations.")

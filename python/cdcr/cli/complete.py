@@ -25,6 +25,11 @@ def sizes(incomplete: str) -> list[str]:
     return _begun(SIZES, incomplete)
 
 
+def kinds_of_files(incomplete: str) -> list[str]:
+    """Return the kinds of files that begin so."""
+    return _begun(("robot", "scenario"), incomplete)
+
+
 def scenario_names(incomplete: str) -> list[str]:
     """Return the scenarios of the package that begin so."""
     from cdcr import scenarios
