@@ -1,9 +1,13 @@
-"""What ``cdcr export-fmu`` and ``cdcr export-mjcf`` do: write a robot for other software."""
+"""The commands ``cdcr export-fmu`` and ``cdcr export-mjcf``: write a robot for other software."""
 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Annotated
 
+import typer
+
+from cdcr.cli.plain import Overwrite, Robot, told_plainly
 from cdcr.cli.run import find_robot, mistakes
 from cdcr.export.fmu import fmu_bytes
 from cdcr.export.mjcf import mjcf_text
@@ -12,19 +16,53 @@ from cdcr.files.new_file import new_file
 _REPLACE = "give --overwrite to replace it"
 
 
-def export_fmu(name: str, out: Path, *, fmi: int, step: float | None, overwrite: bool) -> None:
-    """Write a robot, known by name or by its file, as an FMU."""
-    robot = find_robot(name)
-    with mistakes():
-        content = fmu_bytes(robot, out, fmi=fmi, step=step)
-    with new_file(out, overwrite=overwrite, replace=_REPLACE) as part:
-        part.write_bytes(content)
+def add_commands(app: typer.Typer) -> None:
+    """Add both commands to the command line."""
+    app.command("export-fmu", short_help="Write a robot as an FMU, for co-simulation.")(export_fmu)
+    app.command("export-mjcf", short_help="Write a robot as a model of MuJoCo.")(export_mjcf)
 
 
-def export_mjcf(name: str, out: Path, *, links: int, overwrite: bool) -> None:
-    """Write a robot, known by name or by its file, as a model of MuJoCo."""
-    robot = find_robot(name)
-    with mistakes():
-        text = mjcf_text(robot, out, links=links)
-    with new_file(out, overwrite=overwrite, replace=_REPLACE) as part:
-        part.write_text(text, encoding="utf-8", newline="\n")
+def export_fmu(
+    robot: Robot,
+    out: Annotated[Path, typer.Option(metavar="FILE.fmu", help="The file to write.")],
+    fmi: Annotated[int, typer.Option(metavar="3|2", help="Version of the standard.")] = 3,
+    step: Annotated[
+        float | None,
+        typer.Option(
+            metavar="SECONDS",
+            help="Fixed step of Runge-Kutta 4 inside; without it, dopri5 with its tolerances.",
+        ),
+    ] = None,
+    overwrite: Overwrite = False,
+) -> None:
+    """Write a robot as a functional mock-up unit (FMI 3 or 2) for co-simulation on Linux.
+
+    Inputs are tensions, or lengths where a cable is driven by length; parameters gravity and the
+    state at the start; outputs the state, the tip, lengths and tensions of the cables.
+    """
+    with told_plainly():
+        with mistakes():
+            content = fmu_bytes(find_robot(robot), out, fmi=fmi, step=step)
+        with new_file(out, overwrite=overwrite, replace=_REPLACE) as part:
+            part.write_bytes(content)
+        typer.echo(f"wrote {out}, for FMI {fmi}")
+
+
+def export_mjcf(
+    robot: Robot,
+    out: Annotated[Path, typer.Option(metavar="FILE.xml", help="The file to write.")],
+    links: Annotated[
+        int, typer.Option(metavar="NUMBER", help="Rigid links of each section, from 1.")
+    ] = 10,
+    overwrite: Overwrite = False,
+) -> None:
+    """Write a robot as a chain of rigid links for MuJoCo, with its cables, gravity and payload.
+
+    Friction of cables is left out.
+    """
+    with told_plainly():
+        with mistakes():
+            text = mjcf_text(find_robot(robot), out, links=links)
+        with new_file(out, overwrite=overwrite, replace=_REPLACE) as part:
+            part.write_text(text, encoding="utf-8", newline="\n")
+        typer.echo(f"wrote {out}")

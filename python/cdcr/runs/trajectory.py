@@ -6,7 +6,7 @@ import base64
 import html
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from cdcr import _core
 from cdcr.base.arrays import FloatArray, ReadOnlyArrays, finite, read_only
 from cdcr.base.check import count, require_kind
 from cdcr.model.model import Model
-from cdcr.runs.events import EventRecord
+from cdcr.runs.events import EventRecord, SlackEvent
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -28,26 +28,9 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from cdcr._core import Stats, Status
+    from cdcr.plotting.sizes import Size
 
 __all__ = ["SlackEvent", "Trajectory"]
-
-
-class SlackEvent(NamedTuple):
-    """A length-driven cable turned slack or taut.
-
-    Attributes
-    ----------
-    time : float
-        When [s].
-    cable : int
-        Index of the cable.
-    slack : bool
-        Slack from here on, or taut again.
-    """
-
-    time: float
-    cable: int
-    slack: bool
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -278,7 +261,7 @@ class Trajectory(ReadOnlyArrays):
         events = tuple(SlackEvent(*event) for event in fields.pop("slack_events"))
         return cls(**fields, slack_events=events)
 
-    def plot(self, *, size: str | tuple[float, float] | None = None) -> Figure:
+    def plot(self, *, size: Size = None) -> Figure:
         """Draw angles [deg], tensions, tip and energy over time. Needs the extra ``plot``.
 
         A free run (no damping, no tension) also shows ``energy_error``.
@@ -292,7 +275,9 @@ class Trajectory(ReadOnlyArrays):
 
         return plotting.resize(plotting.plot_run(self), size)
 
-    def plot_robot(self, times: ArrayLike | None = None, *, num: int = 5, ax: Any = None) -> Any:
+    def plot_robot(
+        self, times: ArrayLike | None = None, *, num: int = 5, ax: Any = None, size: Size = None
+    ) -> Any:
         """Draw the robot in space at several times, earlier ones fainter. Needs the extra ``plot``.
 
         Parameters
@@ -303,6 +288,8 @@ class Trajectory(ReadOnlyArrays):
             How many shapes when `times` is not given.
         ax : Axes3D, optional
             Axes to draw into; by default those of a new figure.
+        size : optional
+            Of the new figure, as in `Scenario.figure`.
 
         Returns
         -------
@@ -311,7 +298,7 @@ class Trajectory(ReadOnlyArrays):
         """
         from cdcr import plotting
 
-        return plotting.plot_run_robot(self, times, num=num, ax=ax)
+        return plotting.plot_run_robot(self, times, num=num, ax=ax, size=size)
 
     def animate(
         self,
@@ -319,6 +306,7 @@ class Trajectory(ReadOnlyArrays):
         *,
         fps: float = 30.0,
         speed: float = 1.0,
+        size: Size = None,
         overwrite: bool = False,
         progress: Callable[[int, int], None] | None = None,
     ) -> Path:
@@ -333,6 +321,8 @@ class Trajectory(ReadOnlyArrays):
             Frames for each second of film.
         speed : float
             Seconds of the run for each second of film: 0.5 is slow motion.
+        size : optional
+            As in `Scenario.figure`; a slide has 1920 x 1080 pixels.
         overwrite : bool
             Whether an existing file may be replaced.
         progress : callable, optional
@@ -346,5 +336,5 @@ class Trajectory(ReadOnlyArrays):
         from cdcr import plotting
 
         return plotting.animate(
-            self, path, fps=fps, speed=speed, overwrite=overwrite, progress=progress
+            self, path, fps=fps, speed=speed, size=size, overwrite=overwrite, progress=progress
         )
