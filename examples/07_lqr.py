@@ -80,7 +80,10 @@ for name, distance in off.items():
     left.plot(t, distance, label=name)
 left.set(xlabel="time [s]", ylabel="tip off its place [mm]")
 left.legend()
-right.plot(t, runs["LQR"].tension, linewidth=1)
-right.set(xlabel="time [s]", ylabel="tensions of the nine cables [N]", xlim=(0, 1))
+for j, pull in enumerate(runs["LQR"].tension.T):
+    label = f"ends at section {j // 3 + 1}" if j % 3 == 0 else None
+    right.plot(t, pull - hold[j], color=f"C{j // 3}", linewidth=1, label=label)
+right.set(xlabel="time [s]", ylabel="tension more than held, LQR [N]", xlim=(0, 1))
+right.legend(title="cable")
 fig.tight_layout()
 fig.savefig(sys.argv[1]) if len(sys.argv) > 1 else plt.show()
