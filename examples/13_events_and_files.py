@@ -31,19 +31,16 @@ model = cdcr.Model(cdcr.Robot.load(files / "robot.toml"))
 # %%
 # Tensions of a file
 # ------------------
-# Each row holds until the next. NumPy reads such a file in one line.
+# A column of times and one for each cable. Each row holds until the next.
 
-(files / "drive.csv").write_text(
-    "t [s],cable 1 [N],cable 2 [N],cable 3 [N]\n0.0,4,0,0\n1.0,8,0,0\n2.0,12,0,0\n3.0,20,0,0\n"
-)
-times, *tension = np.loadtxt(files / "drive.csv", delimiter=",", skiprows=1).T
-pull = cdcr.TensionTable(times, np.transpose(tension), "previous")
+rows = ["t,cable 1,cable 2,cable 3", "0,4,0,0", "1,8,0,0", "2,12,0,0", "3,20,0,0"]
+(files / "drive.csv").write_text("\n".join(rows))
+pull = cdcr.TensionTable.load(files / "drive.csv", model, interpolation="previous")
 
 # %%
 # Events
 # ------
-# Functions of time and state that go through zero, with attributes as SciPy's ``solve_ivp`` has
-# them.
+# Functions of time and state that go through zero; attributes as SciPy's ``solve_ivp`` has them.
 
 SHELF = 0.6  # height [m]
 
