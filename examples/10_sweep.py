@@ -4,7 +4,7 @@ A sweep on all cores
 
 A pull in two steps can set a robot down without a swing, when the second step comes as the first
 swing ends. How large should the first step be, and when should the second come? Two thousand runs
-tell. ``cdcr.simulate`` lets other threads work while it computes, so threads fill all cores.
+tell, shared out over the cores.
 
 Look at the dark spot: it lies where the theory of input shaping says, and shows what being off
 costs.
@@ -51,6 +51,9 @@ def residual(share, wait):
 # %%
 # All of them
 # -----------
+# ``cdcr.simulate`` lets other threads work while it computes, the more of the time the longer the
+# runs are. Tensions, events and controllers that are Python functions keep the others waiting: for
+# those take processes.
 
 shares = np.linspace(0.3, 0.75, 46)
 waits = half_period * np.linspace(0.6, 1.4, 45)
