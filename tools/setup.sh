@@ -172,13 +172,14 @@ pip_online() {
     die "pip could not download the Python packages; is the network up? Its own words are in $log."
 }
 
-# Installs what tools/lock names, unless that has been done since its last change.
+# Installs what tools/lock names, unless that has been done since its last change. Python compiles
+# what it imports, which is a part of what they bring.
 install_locked() {
   lock=tools/lock/$1.txt
   stamp=$venv/.cdcr-$1
   if [ ! "$stamp" -nt "$lock" ]; then
     note "installing the packages of $lock"
-    pip_online install --require-hashes -r "$lock"
+    pip_online install --no-compile --require-hashes -r "$lock"
     touch "$stamp"
   fi
 }
