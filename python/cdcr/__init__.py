@@ -38,6 +38,7 @@ from cdcr.runs.trajectory import SlackEvent, Trajectory
 
 if TYPE_CHECKING:
     from cdcr import paper, scenarios
+    from cdcr import plotting as plotting
 
 __version__: str = _core.__version__
 
@@ -81,10 +82,10 @@ __all__ = [
 
 def __getattr__(name: str) -> Any:
     """Load what few programs need when it is asked for."""
-    if name in ("paper", "scenarios"):
+    if name in ("paper", "plotting", "scenarios"):
         return import_module(f"cdcr.{name}")
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:
-    return __all__
+    return [*__all__, "plotting"]  # not in __all__, as it needs an extra

@@ -213,6 +213,7 @@ def _axes(ax: Any, size: Size) -> Any:
     if getattr(ax, "name", "") != "3d":
         kind = type(ax).__name__
         raise ValueError(f"ax must be an Axes3D, as projection='3d' makes one, got {kind}")
+    space.label(ax)
     return ax
 
 
