@@ -37,7 +37,7 @@ from cdcr.runs.simulate import simulate
 from cdcr.runs.trajectory import SlackEvent, Trajectory
 
 if TYPE_CHECKING:
-    from cdcr import paper, scenarios
+    from cdcr import control, paper, scenarios
 
 __version__: str = _core.__version__
 
@@ -64,6 +64,7 @@ __all__ = [
     "Wrench",
     "__version__",
     "bending",
+    "control",
     "inverse_run",
     "max_bending",
     "merge_state",
@@ -81,7 +82,7 @@ __all__ = [
 
 def __getattr__(name: str) -> Any:
     """Load what few programs need when it is asked for."""
-    if name in ("paper", "scenarios"):
+    if name in ("control", "paper", "scenarios"):
         return import_module(f"cdcr.{name}")
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
