@@ -32,9 +32,10 @@ from cdcr.robot.robot import Robot
 from cdcr.robot.section import Section
 from cdcr.robot.states import merge_state, subdivide_state
 from cdcr.runs.command import TensionTable
+from cdcr.runs.events import SlackEvent
 from cdcr.runs.pid import Pid
 from cdcr.runs.simulate import simulate
-from cdcr.runs.trajectory import SlackEvent, Trajectory
+from cdcr.runs.trajectory import Trajectory
 
 if TYPE_CHECKING:
     from cdcr import control, paper, scenarios

@@ -22,6 +22,7 @@ HEAVY = [
     "control",
     "h5netcdf",
     "matplotlib",
+    "mcap",
     "PIL",
     "pandas",
     "pydantic",

@@ -17,7 +17,7 @@ from cdcr import robots, scenarios
 from cdcr.base.extras import require
 from cdcr.files.new_file import check_files, new_files
 from cdcr.robot.robot import Robot
-from cdcr.runs.export import write_run
+from cdcr.runs.save import write_run
 from cdcr.runs.stats import STATS
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios import Scenario
@@ -28,6 +28,7 @@ from cdcr.scenarios.metrics import Metric
 NEEDED = {
     ".png": (("matplotlib", "plot"),),
     ".csv": (),
+    ".mcap": (("mcap", "mcap"),),
     ".nc": (("xarray", "data"), ("h5netcdf", "data"), ("h5py", "data")),
 }
 REPLACE = "give --overwrite to replace, or another folder with --out"

@@ -101,8 +101,8 @@ class OutputTable(BaseModel):
     model_config = STRICT
 
     num_samples: int = optional(f"a whole number 2 to {MAX_SAMPLES}", ge=2, le=MAX_SAMPLES)
-    files: list[Literal["picture", "csv", "nc"]] = optional(
-        'an array with one or more of "picture", "csv", "nc"', min_length=1
+    files: list[Literal["picture", "csv", "nc", "mcap"]] = optional(
+        'an array with one or more of "picture", "csv", "nc", "mcap"', min_length=1
     )
 
 
