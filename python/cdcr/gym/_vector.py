@@ -16,6 +16,7 @@ from cdcr.gym._env import Observation, spaces
 from cdcr.gym._picture import Picture
 from cdcr.gym._randomization import Ranges
 from cdcr.gym._task import FAILED, Task
+from cdcr.model.model import Model
 from cdcr.robot.robot import Robot
 
 Bools = NDArray[np.bool_]
@@ -102,6 +103,11 @@ class RobotVectorEnv(VectorEnv[Observation, NDArray[np.float32], NDArray[Any]]):
         self._done = np.zeros(self.num_envs, dtype=bool)
         self._rngs = [seeding.np_random()[0] for _ in range(self.num_envs)]
         self._pictures: list[Picture] = []
+
+    @property
+    def model(self) -> Model:
+        """The robot without what differs between episodes."""
+        return self._task.model
 
     def reset(
         self,
