@@ -40,6 +40,7 @@ from cdcr.runs.trajectory import Trajectory
 if TYPE_CHECKING:
     from cdcr import control, paper, scenarios
     from cdcr import gym as gym
+    from cdcr import plotting as plotting
 
 __version__: str = _core.__version__
 
@@ -84,10 +85,10 @@ __all__ = [
 
 def __getattr__(name: str) -> Any:
     """Load what few programs need when it is asked for."""
-    if name in ("control", "gym", "paper", "scenarios"):
+    if name in ("control", "gym", "paper", "plotting", "scenarios"):
         return import_module(f"cdcr.{name}")
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:
-    return [*__all__, "gym"]  # which `import *` must not ask for: it needs its extra
+    return [*__all__, "gym", "plotting"]  # not in __all__, as each needs an extra

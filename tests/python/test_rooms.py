@@ -8,7 +8,10 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 PACKAGE = ROOT / "python" / "cdcr"
-TOPS = {"bench", "bindings", "cmake", "cpp", "docs", "licenses", "python", "tests", "tools"}
+TOPS = {
+    *("bench", "bindings", "cmake", "cpp", "docs", "examples", "licenses", "python", "tests"),
+    "tools",
+}
 MADE = {"build", "dist", "out"}  # by make, and in .gitignore
 MOST = 15  # modules at the top of the package
 SPINE = (

@@ -238,6 +238,7 @@ def _in_space(axes: Any) -> Any:
     if getattr(axes, "name", "") != "3d":
         kind = type(axes).__name__
         raise ValueError(f"ax must be an Axes3D, as projection='3d' makes one, got {kind}")
+    space.label(axes)
     return axes
 
 
