@@ -33,6 +33,14 @@ class InverseKinematics:
         Steps tried, from all starts together.
     message : str
         Why not, in one sentence; empty when reachable.
+
+    Examples
+    --------
+    >>> import cdcr
+    >>> model = cdcr.Model(cdcr.robots.amouri2020())
+    >>> goal = model.inverse_kinematics([0.5, 0.0, 0.9])
+    >>> goal.reachable, round(goal.distance, 3)
+    (False, 0.259)
     """
 
     q: FloatArray

@@ -35,6 +35,16 @@ class TensionTable:
         last time these rows hold.
     interpolation : {"linear", "previous"}, optional
         Connect the rows by lines, or hold each until the next time.
+
+    Examples
+    --------
+    >>> import cdcr
+    >>> table = cdcr.TensionTable([0.0, 1.0, 2.0], [[0, 0, 0], [5, 0, 0], [5, 5, 0]])
+    >>> model = cdcr.Model(cdcr.robots.amouri2020())
+    >>> cdcr.simulate(model, [0, 0], [0, 0], t=[0.0, 0.5, 1.5], tension=table).tension
+    array([[0. , 0. , 0. ],
+           [2.5, 0. , 0. ],
+           [5. , 2.5, 0. ]])
     """
 
     t: ArrayLike

@@ -96,6 +96,13 @@ class Scenario:
         From scenario and run, None where nothing runs, to the findings of `summary`.
     plot : callable
         From scenario and run, None where nothing runs, to the picture of `figure`.
+
+    Examples
+    --------
+    >>> import cdcr.scenarios
+    >>> scenario = cdcr.scenarios.get("free-oscillation")
+    >>> scenario.t_end, scenario.robot.num_cables, scenario.has_run
+    (60.0, 3, True)
     """
 
     name: str
