@@ -1,4 +1,4 @@
-"""The commands: list, info, run, new, validate, schema, audit, figures."""
+"""The commands: list, info, run, new, validate, schema, audit, figures, export-fmu, export-mjcf."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ import cdcr
 from cdcr.cli import (
     audit,
     complete,
+    export,
     figures,
     info,
     info_json,
@@ -22,7 +23,7 @@ from cdcr.cli import (
     validate,
     watch,
 )
-from cdcr.cli.plain import AsJson, Overwrite, Quiet, Size, print_json
+from cdcr.cli.plain import AsJson, Overwrite, Quiet, Robot, Size, print_json
 from cdcr.cli.plain import told_plainly as _told_plainly
 
 app = typer.Typer(
@@ -32,6 +33,7 @@ app = typer.Typer(
     rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
+app.add_typer(export.commands)
 
 
 def _version(wanted: bool) -> None:
@@ -62,14 +64,7 @@ def list_command(as_json: AsJson = False) -> None:
 
 @app.command("info", short_help="Show what a robot is made of.")
 def info_command(
-    robot: Annotated[
-        str,
-        typer.Argument(
-            metavar="ROBOT|FILE.toml",
-            help="A name from `cdcr list` or a file.",
-            autocompletion=complete.robots,
-        ),
-    ],
+    robot: Robot,
     as_json: AsJson = False,
 ) -> None:
     """Show what a robot is made of and how it is at rest.
