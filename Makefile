@@ -7,8 +7,10 @@ export PYTHON VENV CVODE
 # Tools come from the venv; make's own PATH stays, so that PYTHON means the same throughout.
 IN_VENV := PATH="$(CURDIR)/$(VENV)/bin:$$PATH"
 
+SPHINX := python -m sphinx -W --keep-going -q -d build/docs-doctrees
+
 .NOTPARALLEL:
-.PHONY: help demo test lint format bench bench-smoke wheel asan tsan fuzz builds lock audit clean setup setup-dev test-cpp types test-python
+.PHONY: help demo test lint format bench bench-smoke wheel docs docs-links asan tsan fuzz builds lock audit clean setup setup-dev setup-docs test-cpp types test-python
 
 help: ## list the commands
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-8s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -42,6 +44,13 @@ bench-smoke: setup-dev
 wheel: setup-dev ## a wheel that needs nothing installed, in dist/
 	@$(IN_VENV) tools/wheel.sh
 
+docs: setup-docs ## the documentation site in build/docs; every page's code runs, warnings are errors
+	@$(IN_VENV) $(SPHINX) -b html docs build/docs
+	@$(IN_VENV) python docs/check_site.py build/docs
+
+docs-links: setup-docs ## look up the links of the site that lead elsewhere
+	@$(IN_VENV) $(SPHINX) -b linkcheck docs build/docs-links
+
 asan: setup-dev ## C++ tests under the address and undefined-behaviour sanitizers
 	@$(IN_VENV) cmake --preset asan
 	@$(IN_VENV) cmake --build --preset asan
@@ -69,7 +78,7 @@ lock: setup-dev ## find the versions and hashes of tools/lock anew
 audit: setup-dev ## look up known vulnerabilities of what tools/lock installs
 	@$(IN_VENV) python -m pip install --quiet --group lock
 	@$(IN_VENV) pip-audit --strict --require-hashes --disable-pip \
-	  -r tools/lock/demo.txt -r tools/lock/dev.txt
+	  -r tools/lock/demo.txt -r tools/lock/dev.txt -r tools/lock/docs.txt
 
 clean: ## remove what make made, .venv included; out/ stays
 	rm -rf build dist $(VENV) .mypy_cache .pytest_cache .ruff_cache .hypothesis
@@ -79,6 +88,9 @@ setup:
 
 setup-dev:
 	@tools/setup.sh dev
+
+setup-docs:
+	@tools/setup.sh docs
 
 test-cpp: setup-dev
 	@$(IN_VENV) cmake --preset release

@@ -18,7 +18,20 @@ ROOT = Path(__file__).parents[2]
 LICENSES = ROOT / "licenses"
 README = (ROOT / "README.md").read_text()
 # What a plain import must not load: extras, and pydantic, which only reading a file needs.
-HEAVY = ["h5netcdf", "matplotlib", "PIL", "pandas", "pydantic", "rich", "scipy", "typer", "xarray"]
+HEAVY = [
+    "control",
+    "gymnasium",
+    "h5netcdf",
+    "matplotlib",
+    "mcap",
+    "PIL",
+    "pandas",
+    "pydantic",
+    "rich",
+    "scipy",
+    "typer",
+    "xarray",
+]
 
 
 def installed_files() -> list[str]:

@@ -33,6 +33,7 @@ app = typer.Typer(
     rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
+app.add_typer(export.commands)
 
 
 def _version(wanted: bool) -> None:
@@ -309,6 +310,3 @@ def figures_command(
         )
     if not quiet:
         typer.echo(f"wrote {len(written) - 1} pictures and {written[-1]}")
-
-
-export.add_commands(app)

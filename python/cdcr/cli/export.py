@@ -1,4 +1,4 @@
-"""The commands ``cdcr export-fmu`` and ``cdcr export-mjcf``: write a robot for other software."""
+"""The commands ``cdcr export-fmu`` and ``cdcr export-mjcf``: a robot for other software."""
 
 from __future__ import annotations
 
@@ -13,16 +13,13 @@ from cdcr.export.fmu import fmu_bytes
 from cdcr.export.mjcf import mjcf_text
 from cdcr.files.new_file import new_file
 
+commands = typer.Typer()
+
 _REPLACE = "give --overwrite to replace it"
 
 
-def add_commands(app: typer.Typer) -> None:
-    """Add both commands to the command line."""
-    app.command("export-fmu", short_help="Write a robot as an FMU, for co-simulation.")(export_fmu)
-    app.command("export-mjcf", short_help="Write a robot as a model of MuJoCo.")(export_mjcf)
-
-
-def export_fmu(
+@commands.command("export-fmu", short_help="Write a robot as an FMU, for co-simulation.")
+def export_fmu_command(
     robot: Robot,
     out: Annotated[Path, typer.Option(metavar="FILE.fmu", help="The file to write.")],
     fmi: Annotated[int, typer.Option(metavar="3|2", help="Version of the standard.")] = 3,
@@ -41,14 +38,16 @@ def export_fmu(
     state at the start; outputs the state, the tip, lengths and tensions of the cables.
     """
     with told_plainly():
+        described = find_robot(robot)
         with mistakes():
-            content = fmu_bytes(find_robot(robot), out, fmi=fmi, step=step)
+            content = fmu_bytes(described, out, fmi=fmi, step=step)
         with new_file(out, overwrite=overwrite, replace=_REPLACE) as part:
             part.write_bytes(content)
         typer.echo(f"wrote {out}, for FMI {fmi}")
 
 
-def export_mjcf(
+@commands.command("export-mjcf", short_help="Write a robot as a model of MuJoCo.")
+def export_mjcf_command(
     robot: Robot,
     out: Annotated[Path, typer.Option(metavar="FILE.xml", help="The file to write.")],
     links: Annotated[
@@ -61,8 +60,9 @@ def export_mjcf(
     Friction of cables is left out.
     """
     with told_plainly():
+        described = find_robot(robot)
         with mistakes():
-            text = mjcf_text(find_robot(robot), out, links=links)
+            text = mjcf_text(described, out, links=links)
         with new_file(out, overwrite=overwrite, replace=_REPLACE) as part:
             part.write_text(text, encoding="utf-8", newline="\n")
         typer.echo(f"wrote {out}")

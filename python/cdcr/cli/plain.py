@@ -24,7 +24,6 @@ Size = Annotated[
         autocompletion=complete.sizes,
     ),
 ]
-Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but errors.")]
 Robot = Annotated[
     str,
     typer.Argument(
@@ -33,6 +32,7 @@ Robot = Annotated[
         autocompletion=complete.robots,
     ),
 ]
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but errors.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object in place of tables.")]
 
 

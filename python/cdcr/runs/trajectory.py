@@ -30,8 +30,6 @@ if TYPE_CHECKING:
     from cdcr._core import Stats, Status
     from cdcr.plotting.sizes import Size
 
-__all__ = ["SlackEvent", "Trajectory"]
-
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Trajectory(ReadOnlyArrays):
@@ -184,9 +182,20 @@ class Trajectory(ReadOnlyArrays):
         return float(np.max(np.abs(self.energy_error)))
 
     def to_xarray(self) -> xarray.Dataset:
-        """Return the run as a Dataset with named dimensions, units and a description of the run.
+        """Return the run as a Dataset with named dimensions and units. Needs the extra ``data``.
 
-        Needs the extra ``data``.
+        Dimensions, each with its labels: ``time`` [s], ``section`` (1, 2, ... from the base),
+        ``component`` of a bending vector ("x", "y"), ``cable`` (1, 2, ... section by section) and
+        ``axis`` of the base frame ("x", "y", "z"). Variables: ``q`` [rad] and ``qd`` [rad/s]
+        (time, section, component), ``theta`` and ``phi`` (time, section) [rad], ``tension``
+        (time, cable) [N], ``tip`` (time, axis) [m], ``kinetic_energy``, ``potential_energy`` and
+        ``energy`` (time) [J]; where cables are driven by length also ``command`` (time, cable), [N]
+        or [m], and ``cable_energy`` (time) [J]. Each has attributes ``units`` and ``long_name``;
+        those of the Dataset tell robot, formulation, method, how the run ended and what it cost.
+
+        Returns
+        -------
+        xarray.Dataset
         """
         from cdcr.runs import export
 
@@ -203,14 +212,19 @@ class Trajectory(ReadOnlyArrays):
         return export.to_dataframe(self)
 
     def save(self, path: str | PathLike[str], *, overwrite: bool = False) -> Path:
-        """Write the run to netCDF (``.nc``, extra ``data``) or CSV (``.csv``), in SI units.
+        """Write the run to netCDF (``.nc``), CSV (``.csv``) or an MCAP log (``.mcap``).
 
-        Both keep every bit of every number. The file appears only when it is complete.
+        In SI units, every bit of every number; netCDF needs the extra ``data``, MCAP the extra
+        ``mcap``. The file appears only when it is complete. An MCAP log, which Foxglove opens, has
+        JSON messages with schemas: numbers on ``/state``, ``/tension``, ``/energy``, named as the
+        columns of a CSV file, ``/tip_pose`` (foxglove.PoseInFrame), ``/tf``, the ends of all
+        sections (foxglove.FrameTransforms), and ``/backbone`` for a 3D panel
+        (foxglove.SceneUpdate). `load` reads the other two.
 
         Parameters
         ----------
         path : path-like
-            The file, ending in ``.nc`` or ``.csv``, in a folder that exists.
+            The file, ending in ``.nc``, ``.csv`` or ``.mcap``, in a folder that exists.
         overwrite : bool
             Whether an existing file may be replaced.
 
@@ -222,15 +236,15 @@ class Trajectory(ReadOnlyArrays):
         Raises
         ------
         ValueError
-            For another suffix.
+            For another suffix, or times below 0 s in an MCAP log, which has none.
         FileExistsError
             If the file exists and ``overwrite`` is false.
         FileNotFoundError
             If the folder is missing.
         """
-        from cdcr.runs import export
+        from cdcr.runs import save
 
-        return export.save(self, path, overwrite=overwrite)
+        return save.save(self, path, overwrite=overwrite)
 
     @classmethod
     def load(cls, path: str | PathLike[str], *, model: Model | None = None) -> Trajectory:
