@@ -1,4 +1,4 @@
-"""The commands: list, info, run, new, audit, figures."""
+"""The commands: list, info, run, new, audit, figures, view."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import typer
 from rich.console import Console
 
 import cdcr
-from cdcr.cli import audit, figures, info, info_json, new, run, tables
+from cdcr.cli import audit, figures, info, info_json, new, run, tables, view
 
 app = typer.Typer(
     help="Dynamics of cable-driven continuum robots.",
@@ -230,3 +230,61 @@ def figures_command(
     with _told_plainly():
         written = figures.figures(out, overwrite=overwrite, size=size, console=Console(stderr=True))
     typer.echo(f"wrote {len(written) - 1} pictures and {written[-1]}")
+
+
+@app.command("view", short_help="Show a robot or a run in the browser, live.")
+def view_command(
+    target: Annotated[
+        str,
+        typer.Argument(
+            metavar="ROBOT|SCENARIO|FILE",
+            help="A name from `cdcr list`, a file .toml of a robot or a scenario, or a run .nc.",
+        ),
+    ],
+    live: Annotated[
+        bool, typer.Option("--live", help="Begin where the run does, but simulate at once.")
+    ] = False,
+    reference: Annotated[
+        str | None, typer.Option(metavar="FILE.nc", help="A run to show beside it, faintly.")
+    ] = None,
+    speed: Annotated[
+        float, typer.Option(metavar="NUMBER", help="Time simulated or played over real time.")
+    ] = 1.0,
+    port: Annotated[
+        int, typer.Option(min=0, max=65535, help="On this machine; 0 for any free one.")
+    ] = 8080,
+    browser: Annotated[
+        bool, typer.Option("--browser/--no-browser", help="Open it in the browser.")
+    ] = True,
+    record: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE.html",
+            help="Serve nothing; write one page that plays without a network.",
+        ),
+    ] = None,
+    overwrite: Overwrite = False,
+) -> None:
+    """Show a robot or a run in the browser. Needs the extra `view`.
+
+    A robot is simulated live. A scenario is run first and, as a run of a file, played; where a name
+    is both, the scenario is meant. Sliders of the cables, gravity and payload, and the mouse, which
+    pulls the backbone, go on from there live. Ctrl-C ends it, with exit code 0. On a recorded page
+    a robot goes round in a circle.
+    """
+    with _told_plainly():
+        found, page = view.view(
+            target,
+            live=live,
+            reference=reference,
+            speed=speed,
+            record=record,
+            overwrite=overwrite,
+            console=Console(stderr=True),
+        )
+        if page is not None:
+            typer.echo(f"wrote {page} ({page.stat().st_size / 1e6:.1f} MB)")
+            return
+        with found.serve(port, browser=browser):
+            typer.echo(f"{found.url} - Ctrl-C ends")
+            found.wait()
