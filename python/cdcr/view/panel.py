@@ -61,6 +61,9 @@ class Panel:
         words = f"{rate:.2f} × real time" if session.playing else "paused"
         if live is not None and live.message:
             words += f", {live.message}"
+        if live is not None and live.pull is not None:
+            force = float(np.linalg.norm(live.pull.force(live.model, live.q)))
+            words += f", pulled with {force:.3g} N"
         self._status.content = (
             '<div id="cdcr-status" style="padding:0.2em 0.9em;font-size:0.85em;'
             f'font-variant-numeric:tabular-nums"><b>t = {moment.time:.2f} s</b> {state}, {words}'
