@@ -1,4 +1,4 @@
-"""The commands: list, info, run, new, validate, schema, audit, figures, export-fmu, export-mjcf."""
+"""The commands but for those of `export` and `view`."""
 
 from __future__ import annotations
 
@@ -21,6 +21,7 @@ from cdcr.cli import (
     schema,
     tables,
     validate,
+    view,
     watch,
 )
 from cdcr.cli.plain import AsJson, Overwrite, Quiet, Robot, Size, print_json
@@ -34,6 +35,7 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 app.add_typer(export.commands)
+app.add_typer(view.commands)
 
 
 def _version(wanted: bool) -> None:
