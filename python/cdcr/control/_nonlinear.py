@@ -27,8 +27,8 @@ def nonlinear_system(
     """Equations of motion as a system of python-control. Needs the extra ``control``.
 
     Its signals have the names of `Model.to_statespace`, its values are whole, not differences:
-    the state is (q, qd), the inputs are commands. Python is called at every evaluation, so that a
-    simulation takes some hundred times as long as that of `simulate`.
+    the state is (q, qd), the inputs are commands. Python is called at every evaluation, which makes
+    simulations slow; those of `simulate` are not.
 
     Parameters
     ----------
