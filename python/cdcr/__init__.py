@@ -38,7 +38,7 @@ from cdcr.runs.simulate import simulate
 from cdcr.runs.trajectory import Trajectory
 
 if TYPE_CHECKING:
-    from cdcr import control, paper, scenarios
+    from cdcr import control, export, paper, scenarios
     from cdcr import gym as gym
     from cdcr import plotting as plotting
 
@@ -68,6 +68,7 @@ __all__ = [
     "__version__",
     "bending",
     "control",
+    "export",
     "inverse_run",
     "max_bending",
     "merge_state",
@@ -85,7 +86,7 @@ __all__ = [
 
 def __getattr__(name: str) -> Any:
     """Load what few programs need when it is asked for."""
-    if name in ("control", "gym", "paper", "plotting", "scenarios"):
+    if name in ("control", "export", "gym", "paper", "plotting", "scenarios"):
         return import_module(f"cdcr.{name}")
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 

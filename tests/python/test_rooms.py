@@ -9,7 +9,8 @@ from pathlib import Path
 ROOT = Path(__file__).parents[2]
 PACKAGE = ROOT / "python" / "cdcr"
 TOPS = {
-    *("bench", "bindings", "cmake", "cpp", "docs", "examples", "licenses", "python", "tests"),
+    *("bench", "bindings", "cmake", "cpp", "docs", "examples", "licenses", "packaging", "python"),
+    "tests",
     "tools",
 }
 MADE = {"build", "dist", "out"}  # by make, and in .gitignore

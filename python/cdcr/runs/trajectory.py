@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import base64
-import html
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,23 +13,20 @@ from cdcr.base.arrays import FloatArray, ReadOnlyArrays, finite, read_only
 from cdcr.base.check import count, require_kind
 from cdcr.model.model import Model
 from cdcr.runs.events import EventRecord, SlackEvent
+from cdcr.runs.pictures import Pictures
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
     from os import PathLike
     from pathlib import Path
-    from typing import Any
 
     import pandas  # type: ignore[import-untyped]
     import xarray
-    from matplotlib.figure import Figure
-    from numpy.typing import ArrayLike
 
     from cdcr._core import Stats, Status
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Trajectory(ReadOnlyArrays):
+class Trajectory(Pictures, ReadOnlyArrays):
     """A run, sampled: one row for each output time reached. All arrays are read-only.
 
     Parameters
@@ -104,15 +99,6 @@ class Trajectory(ReadOnlyArrays):
         parts += [self.method] if self.method else []
         end = f": {self.message}" if self.message else ""
         return f"<Trajectory: {', '.join(parts)}, status {self.status.name}{end}>"
-
-    def _repr_html_(self) -> str:
-        words = f"<div>{html.escape(repr(self))}</div>"
-        try:
-            png = cast("Any", self.plot())._repr_png_()
-        except ImportError:  # without the extra plot
-            return words
-        data = base64.b64encode(png).decode("ascii")
-        return f'<img src="data:image/png;base64,{data}" width="880" alt="the run"/>{words}'
 
     @property
     def success(self) -> bool:
@@ -273,74 +259,3 @@ class Trajectory(ReadOnlyArrays):
         fields = load(path, model)
         events = tuple(SlackEvent(*event) for event in fields.pop("slack_events"))
         return cls(**fields, slack_events=events)
-
-    def plot(self, *, size: str | tuple[float, float] | None = None) -> Figure:
-        """Draw angles [deg], tensions, tip and energy over time. Needs the extra ``plot``.
-
-        A free run (no damping, no tension) also shows ``energy_error``.
-
-        Parameters
-        ----------
-        size : optional
-            As in `Scenario.figure`.
-        """
-        from cdcr import plotting
-
-        return plotting.resize(plotting.plot_run(self), size)
-
-    def plot_robot(self, times: ArrayLike | None = None, *, num: int = 5, ax: Any = None) -> Any:
-        """Draw the robot in space at several times, earlier ones fainter. Needs the extra ``plot``.
-
-        Parameters
-        ----------
-        times : (M,) array_like, optional
-            Times within the run [s]; by default `num` of them, evenly spaced.
-        num : int
-            How many shapes when `times` is not given.
-        ax : Axes3D, optional
-            Axes to draw into; by default those of a new figure.
-
-        Returns
-        -------
-        Axes3D
-            The axes; their figure is ``ax.figure``.
-        """
-        from cdcr import plotting
-
-        return plotting.plot_run_robot(self, times, num=num, ax=ax)
-
-    def animate(
-        self,
-        path: str | PathLike[str],
-        *,
-        fps: float = 30.0,
-        speed: float = 1.0,
-        overwrite: bool = False,
-        progress: Callable[[int, int], None] | None = None,
-    ) -> Path:
-        """Write a film of the robot beside its bending angles. Needs the extra ``plot``.
-
-        Parameters
-        ----------
-        path : path-like
-            ``.mp4`` (needs ffmpeg), ``.gif`` or ``.html``, a page that any browser plays; without
-            a suffix, ``.mp4`` where ffmpeg is found and ``.gif`` elsewhere.
-        fps : float
-            Frames for each second of film.
-        speed : float
-            Seconds of the run for each second of film: 0.5 is slow motion.
-        overwrite : bool
-            Whether an existing file may be replaced.
-        progress : callable, optional
-            Told (frames done, frames in all) after each frame.
-
-        Returns
-        -------
-        Path
-            The file written.
-        """
-        from cdcr import plotting
-
-        return plotting.animate(
-            self, path, fps=fps, speed=speed, overwrite=overwrite, progress=progress
-        )
