@@ -12,7 +12,7 @@ from cdcr.base.arrays import FloatArray
 from cdcr.base.check import Check, require_kind
 from cdcr.base.extras import require
 from cdcr.model.model import Model
-from cdcr.model.statespace import find_outputs, input_names, state_names
+from cdcr.model.signals import find_outputs, input_names, state_names
 from cdcr.model.wrench import Wrench
 
 
