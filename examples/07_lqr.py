@@ -2,9 +2,9 @@
 LQR
 ===
 
-Nine cables hold three sections against gravity; a knock sets them swinging. ``Model.linearize``
-gives the exact A and B about the shape, and the Riccati equation of SciPy the gain that brings the
-robot back with little extra tension.
+Nine cables hold three sections against gravity; a knock sets them swinging. ``Model.to_statespace``
+gives the exact linear system about the shape to python-control, and ``cdcr.control.lqr`` the gain
+that brings the robot back with little extra tension.
 
 Look at the tip: without control it swings on for seconds; with it the knock is over in one swing.
 """
@@ -13,7 +13,6 @@ import sys
 
 import matplotlib.pyplot as plt
 import numpy as np
-from scipy.linalg import solve_continuous_are
 
 import cdcr
 
@@ -32,11 +31,11 @@ hold = model.allocate(model.potential_gradient(shape), min_tension=1.0)
 # --------
 # An angle of 0.1 rad costs as much as 1 N of extra tension.
 
-A, B = model.linearize(shape, np.zeros_like(shape), hold)
+system = model.to_statespace(shape, hold)
+A, B = system.A, system.B
 Q = np.diag([100.0] * 6 + [0.0] * 6)
-R = np.eye(9)
-K = np.linalg.solve(R, B.T @ solve_continuous_are(A, B, Q, R))
-before, after = np.linalg.eigvals(A), np.linalg.eigvals(A - B @ K)
+K = cdcr.control.lqr(model, shape, hold, Q, R=1.0)
+before, after = system.poles(), np.linalg.eigvals(A - B @ K)
 print(f"slowest decay: {-before.real.max():.2f} 1/s without, {-after.real.max():.2f} 1/s with LQR")
 
 # %%

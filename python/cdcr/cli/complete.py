@@ -20,6 +20,13 @@ def films(incomplete: str) -> list[str]:
     return _begun(FILMS, incomplete)
 
 
+def formats(incomplete: str) -> list[str]:
+    """Return the formats of files of a run that begin so."""
+    from cdcr.scenarios.scenario import FILES
+
+    return _begun(tuple(FILES), incomplete)
+
+
 def sizes(incomplete: str) -> list[str]:
     """Return the names of sizes that begin so."""
     return _begun(SIZES, incomplete)
