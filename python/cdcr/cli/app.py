@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Annotated, Any, NoReturn
 
@@ -285,6 +285,6 @@ def view_command(
         if page is not None:
             typer.echo(f"wrote {page} ({page.stat().st_size / 1e6:.1f} MB)")
             return
-        with found.serve(port, browser=browser):
+        with found.serve(port, browser=browser), suppress(KeyboardInterrupt):
             typer.echo(f"{found.url} - Ctrl-C ends")
             found.wait()
