@@ -19,7 +19,17 @@ import cdcr.plotting
 import cdcr.view
 from cdcr import _core
 
-MODULES = (cdcr, cdcr.paper, cdcr.plotting, cdcr.robots, cdcr.scenarios, cdcr.view, _core)
+MODULES = (
+    cdcr,
+    cdcr.control,
+    cdcr.gym,
+    cdcr.paper,
+    cdcr.plotting,
+    cdcr.robots,
+    cdcr.scenarios,
+    cdcr.view,
+    _core,
+)
 # What says what kind of number it is: a unit in brackets, or words in place of one.
 UNIT = re.compile(r"\[[^\]]+\]|unit of `q`|radians|rotation matri|indices|whether", re.I)
 ARRAY = re.compile(r"\b(array|ndarray|array_like)\b")

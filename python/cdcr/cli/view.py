@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
+import typer
 from rich.console import Console
 
 from cdcr import robots, scenarios
 from cdcr.base.check import nearest
 from cdcr.base.extras import require
+from cdcr.cli import complete
+from cdcr.cli.plain import Overwrite, told_plainly
 from cdcr.cli.run import DelayedBar, Mistake, find_robot, find_scenario, mistakes
 from cdcr.files.new_file import check_files
 from cdcr.files.toml import read_toml
@@ -24,6 +28,8 @@ from cdcr.scenarios.file.tracking import TrackedMotion
 if TYPE_CHECKING:
     from cdcr.plotting.geometry import Motion
     from cdcr.view import View
+
+commands = typer.Typer()
 
 REPLACE = "give --overwrite to replace it"
 
@@ -38,7 +44,7 @@ class Shown:
     reference: Motion | None = None
 
 
-def view(
+def prepare(
     target: str,
     *,
     live: bool,
@@ -122,3 +128,62 @@ def _to(bar: DelayedBar) -> Callable[[float], None]:
 def _load(path: str) -> Trajectory:
     with mistakes():
         return Trajectory.load(path)
+
+
+@commands.command("view", short_help="Show a robot or a run in the browser, live.")
+def view_command(
+    target: Annotated[
+        str,
+        typer.Argument(
+            metavar="ROBOT|SCENARIO|FILE",
+            help="A name from `cdcr list`, a file .toml of a robot or a scenario, or a run .nc.",
+            autocompletion=complete.shown,
+        ),
+    ],
+    live: Annotated[
+        bool, typer.Option("--live", help="Begin where the run does, but simulate at once.")
+    ] = False,
+    reference: Annotated[
+        str | None, typer.Option(metavar="FILE.nc", help="A run to show beside it, faintly.")
+    ] = None,
+    speed: Annotated[
+        float, typer.Option(metavar="NUMBER", help="Time simulated or played over real time.")
+    ] = 1.0,
+    port: Annotated[
+        int, typer.Option(min=0, max=65535, help="On this machine; 0 for any free one.")
+    ] = 8080,
+    browser: Annotated[
+        bool, typer.Option("--browser/--no-browser", help="Open it in the browser.")
+    ] = True,
+    record: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE.html",
+            help="Serve nothing; write one page that plays without a network.",
+        ),
+    ] = None,
+    overwrite: Overwrite = False,
+) -> None:
+    """Show a robot or a run in the browser. Needs the extra `view`.
+
+    A robot is simulated live. A scenario is run first and, as a run of a file, played; where a name
+    is both, the scenario is meant. Sliders of the cables, gravity and payload, and the mouse, which
+    pulls the backbone, go on from there live. Ctrl-C ends it, with exit code 0. On a recorded page
+    a robot goes round in a circle.
+    """
+    with told_plainly():
+        found, page = prepare(
+            target,
+            live=live,
+            reference=reference,
+            speed=speed,
+            record=record,
+            overwrite=overwrite,
+            console=Console(stderr=True),
+        )
+        if page is not None:
+            typer.echo(f"wrote {page} ({page.stat().st_size / 1e6:.1f} MB)")
+            return
+        with found.serve(port, browser=browser), suppress(KeyboardInterrupt):
+            typer.echo(f"{found.url} - Ctrl-C ends")
+            found.wait()

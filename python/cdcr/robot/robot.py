@@ -236,6 +236,18 @@ class Robot:
         ValueError
             Naming file, key and what is allowed, for broken TOML, unknown or missing keys, wrong
             types and values out of range.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> from pathlib import Path
+        >>> import cdcr
+        >>> robot = cdcr.robots.amouri2020()
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     robot.save(Path(folder) / "robot.toml")
+        ...     again = cdcr.Robot.load(Path(folder) / "robot.toml")
+        >>> again == robot
+        True
         """
         from cdcr.robot.file import load_robot
 
@@ -257,6 +269,18 @@ class Robot:
             Where there is such a file and `overwrite` is False.
         FileNotFoundError
             Where there is no such folder.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> from pathlib import Path
+        >>> import cdcr
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     file = Path(folder) / "robot.toml"
+        ...     cdcr.robots.amouri2020().save(file)
+        ...     lines = file.read_text().splitlines()
+        >>> lines[4]
+        'gravity = [0.0, 0.0, 0.0]  # in the base frame [m/s^2]'
         """
         from cdcr.robot.file import save_robot
 

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from cdcr.plotting.geometry import Motion
+    from cdcr.plotting.sizes import Size
     from cdcr.runs.trajectory import Trajectory
     from cdcr.view import View
 
@@ -36,7 +37,7 @@ class Pictures:
         data = base64.b64encode(png).decode("ascii")
         return f'<img src="data:image/png;base64,{data}" width="880" alt="the run"/>{words}'
 
-    def plot(self, *, size: str | tuple[float, float] | None = None) -> Figure:
+    def plot(self, *, size: Size = None) -> Figure:
         """Draw angles [deg], tensions, tip and energy over time. Needs the extra ``plot``.
 
         A free run (no damping, no tension) also shows ``energy_error``.
@@ -50,7 +51,9 @@ class Pictures:
 
         return plotting.resize(plotting.plot_run(self._run), size)
 
-    def plot_robot(self, times: ArrayLike | None = None, *, num: int = 5, ax: Any = None) -> Any:
+    def plot_robot(
+        self, times: ArrayLike | None = None, *, num: int = 5, ax: Any = None, size: Size = None
+    ) -> Any:
         """Draw the robot in space at several times, earlier ones fainter. Needs the extra ``plot``.
 
         Parameters
@@ -61,6 +64,8 @@ class Pictures:
             How many shapes when `times` is not given.
         ax : Axes3D, optional
             Axes to draw into; by default those of a new figure.
+        size : optional
+            Of the new figure, as in `Scenario.figure`.
 
         Returns
         -------
@@ -69,7 +74,7 @@ class Pictures:
         """
         from cdcr import plotting
 
-        return plotting.plot_run_robot(self._run, times, num=num, ax=ax)
+        return plotting.plot_run_robot(self._run, times, num=num, ax=ax, size=size)
 
     def animate(
         self,
@@ -77,6 +82,7 @@ class Pictures:
         *,
         fps: float = 30.0,
         speed: float = 1.0,
+        size: Size = None,
         overwrite: bool = False,
         progress: Callable[[int, int], None] | None = None,
     ) -> Path:
@@ -91,6 +97,8 @@ class Pictures:
             Frames for each second of film.
         speed : float
             Seconds of the run for each second of film: 0.5 is slow motion.
+        size : optional
+            As in `Scenario.figure`; a slide has 1920 x 1080 pixels.
         overwrite : bool
             Whether an existing file may be replaced.
         progress : callable, optional
@@ -104,7 +112,13 @@ class Pictures:
         from cdcr import plotting
 
         return plotting.animate(
-            self._run, path, fps=fps, speed=speed, overwrite=overwrite, progress=progress
+            self._run,
+            path,
+            fps=fps,
+            speed=speed,
+            size=size,
+            overwrite=overwrite,
+            progress=progress,
         )
 
     def view(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from cdcr import _core
 from cdcr.base.arrays import FloatArray, ReadOnlyArrays, finite, read_only
 from cdcr.base.check import count, require_kind
 from cdcr.model.model import Model
-from cdcr.runs.events import EventRecord
+from cdcr.runs.events import EventRecord, SlackEvent
 from cdcr.runs.pictures import Pictures
 
 if TYPE_CHECKING:
@@ -23,26 +23,6 @@ if TYPE_CHECKING:
     import xarray
 
     from cdcr._core import Stats, Status
-
-__all__ = ["SlackEvent", "Trajectory"]
-
-
-class SlackEvent(NamedTuple):
-    """A length-driven cable turned slack or taut.
-
-    Attributes
-    ----------
-    time : float
-        When [s].
-    cable : int
-        Index of the cable.
-    slack : bool
-        Slack from here on, or taut again.
-    """
-
-    time: float
-    cable: int
-    slack: bool
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -187,9 +167,20 @@ class Trajectory(Pictures, ReadOnlyArrays):
         return float(np.max(np.abs(self.energy_error)))
 
     def to_xarray(self) -> xarray.Dataset:
-        """Return the run as a Dataset with named dimensions, units and a description of the run.
+        """Return the run as a Dataset with named dimensions and units. Needs the extra ``data``.
 
-        Needs the extra ``data``.
+        Dimensions, each with its labels: ``time`` [s], ``section`` (1, 2, ... from the base),
+        ``component`` of a bending vector ("x", "y"), ``cable`` (1, 2, ... section by section) and
+        ``axis`` of the base frame ("x", "y", "z"). Variables: ``q`` [rad] and ``qd`` [rad/s]
+        (time, section, component), ``theta`` and ``phi`` (time, section) [rad], ``tension``
+        (time, cable) [N], ``tip`` (time, axis) [m], ``kinetic_energy``, ``potential_energy`` and
+        ``energy`` (time) [J]; where cables are driven by length also ``command`` (time, cable), [N]
+        or [m], and ``cable_energy`` (time) [J]. Each has attributes ``units`` and ``long_name``;
+        those of the Dataset tell robot, formulation, method, how the run ended and what it cost.
+
+        Returns
+        -------
+        xarray.Dataset
         """
         from cdcr.runs import export
 
@@ -206,14 +197,19 @@ class Trajectory(Pictures, ReadOnlyArrays):
         return export.to_dataframe(self)
 
     def save(self, path: str | PathLike[str], *, overwrite: bool = False) -> Path:
-        """Write the run to netCDF (``.nc``, extra ``data``) or CSV (``.csv``), in SI units.
+        """Write the run to netCDF (``.nc``), CSV (``.csv``) or an MCAP log (``.mcap``).
 
-        Both keep every bit of every number. The file appears only when it is complete.
+        In SI units, every bit of every number; netCDF needs the extra ``data``, MCAP the extra
+        ``mcap``. The file appears only when it is complete. An MCAP log, which Foxglove opens, has
+        JSON messages with schemas: numbers on ``/state``, ``/tension``, ``/energy``, named as the
+        columns of a CSV file, ``/tip_pose`` (foxglove.PoseInFrame), ``/tf``, the ends of all
+        sections (foxglove.FrameTransforms), and ``/backbone`` for a 3D panel
+        (foxglove.SceneUpdate). `load` reads the other two.
 
         Parameters
         ----------
         path : path-like
-            The file, ending in ``.nc`` or ``.csv``, in a folder that exists.
+            The file, ending in ``.nc``, ``.csv`` or ``.mcap``, in a folder that exists.
         overwrite : bool
             Whether an existing file may be replaced.
 
@@ -225,15 +221,15 @@ class Trajectory(Pictures, ReadOnlyArrays):
         Raises
         ------
         ValueError
-            For another suffix.
+            For another suffix, or times below 0 s in an MCAP log, which has none.
         FileExistsError
             If the file exists and ``overwrite`` is false.
         FileNotFoundError
             If the folder is missing.
         """
-        from cdcr.runs import export
+        from cdcr.runs import save
 
-        return export.save(self, path, overwrite=overwrite)
+        return save.save(self, path, overwrite=overwrite)
 
     @classmethod
     def load(cls, path: str | PathLike[str], *, model: Model | None = None) -> Trajectory:
