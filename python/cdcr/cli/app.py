@@ -1,4 +1,4 @@
-"""The commands: list, info, run, new, validate, schema, audit, figures."""
+"""The commands: list, info, run, new, validate, schema, doctor, audit, figures."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ import cdcr
 from cdcr.cli import (
     audit,
     complete,
+    doctor,
     figures,
     info,
     info_json,
@@ -263,6 +264,22 @@ def schema_command(
                 typer.echo(schema.text(known))
                 return
         raise run.Mistake(f"the schema must be one of {', '.join(schema.KINDS)}, got {kind!r}")
+
+
+@app.command("doctor", short_help="Tell what is installed, and test that it works.")
+def doctor_command(as_json: AsJson = False) -> None:
+    """Tell versions, processor and extras; compare a few seconds of computing with known numbers.
+
+    Exit code 1 where something is wrong; an extra that is not installed is not.
+    """
+    with _told_plainly():
+        told = doctor.examine(Console(stderr=True))
+    if as_json:
+        print_json(told)
+    else:
+        doctor.print_report(Console(), told)
+    if not told["ok"]:
+        raise typer.Exit(1)
 
 
 @app.command("audit", short_help="Hold the origin paper's claims against its own equations.")
