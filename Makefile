@@ -7,11 +7,13 @@ export PYTHON VENV CVODE
 # Tools come from the venv; make's own PATH stays, so that PYTHON means the same throughout.
 IN_VENV := PATH="$(CURDIR)/$(VENV)/bin:$$PATH"
 
+SPHINX := python -m sphinx -W --keep-going -q -d build/docs-doctrees
+
 .NOTPARALLEL:
-.PHONY: help demo test lint format bench bench-smoke wheel asan tsan fuzz builds lock audit clean setup setup-dev test-cpp types test-python
+.PHONY: help demo test lint format bench bench-smoke view-test wheel docs docs-links asan tsan fuzz builds lock audit clean setup setup-dev setup-docs test-cpp types test-python
 
 help: ## list the commands
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-8s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 demo: setup ## install cdcr, pull cable 1 of the paper's robot with 5 N, write picture and data to out/
 	@echo "[4/4] cdcr run step-tension"
@@ -20,7 +22,10 @@ demo: setup ## install cdcr, pull cable 1 of the paper's robot with 5 N, write p
 test: setup-dev test-cpp types test-python ## all tests, C++ and Python, and the type checks
 
 lint: setup-dev ## style and static analysis: clang-format, clang-tidy, ruff, mypy, gersemi, codespell
-	@$(IN_VENV) tools/lint.sh
+	@mkdir -p build
+	@$(IN_VENV) make --no-print-directory --keep-going --output-sync=target -j "$$(nproc)" \
+	  -f tools/lint.mk
+	@echo "lint: no complaints"
 
 format: setup-dev ## rewrite all sources in the project's style
 	@$(IN_VENV) tools/format.sh
@@ -36,8 +41,20 @@ bench-smoke: setup-dev
 	@set -e; for program in build/bench/bench/bench_*; do \
 	  if [ -f $$program ]; then $(IN_VENV) $$program --quick >/dev/null; fi; done
 
+view-test: setup-dev ## the live view in a real browser (Debian's chromium, by Playwright); its frame rate
+	@command -v chromium >/dev/null || { echo "make view-test: apt-get install chromium" >&2; exit 1; }
+	@$(IN_VENV) python -m pip install --quiet --group browser
+	@$(IN_VENV) pytest tests/python/test_view_browser.py
+
 wheel: setup-dev ## a wheel that needs nothing installed, in dist/
 	@$(IN_VENV) tools/wheel.sh
+
+docs: setup-docs ## the documentation site in build/docs; every page's code runs, warnings are errors
+	@$(IN_VENV) $(SPHINX) -b html docs build/docs
+	@$(IN_VENV) python docs/check_site.py build/docs
+
+docs-links: setup-docs ## look up the links of the site that lead elsewhere
+	@$(IN_VENV) $(SPHINX) -b linkcheck docs build/docs-links
 
 asan: setup-dev ## C++ tests under the address and undefined-behaviour sanitizers
 	@$(IN_VENV) cmake --preset asan
@@ -66,7 +83,7 @@ lock: setup-dev ## find the versions and hashes of tools/lock anew
 audit: setup-dev ## look up known vulnerabilities of what tools/lock installs
 	@$(IN_VENV) python -m pip install --quiet --group lock
 	@$(IN_VENV) pip-audit --strict --require-hashes --disable-pip \
-	  -r tools/lock/demo.txt -r tools/lock/dev.txt
+	  -r tools/lock/demo.txt -r tools/lock/dev.txt -r tools/lock/docs.txt
 
 clean: ## remove what make made, .venv included; out/ stays
 	rm -rf build dist $(VENV) .mypy_cache .pytest_cache .ruff_cache .hypothesis
@@ -76,6 +93,9 @@ setup:
 
 setup-dev:
 	@tools/setup.sh dev
+
+setup-docs:
+	@tools/setup.sh docs
 
 test-cpp: setup-dev
 	@$(IN_VENV) cmake --preset release

@@ -1,6 +1,7 @@
 #!/bin/sh
 # Writes tools/lock: what set-up installs from the package index, to the version and the hash, for
-# every Python that cdcr takes. demo.txt: what builds and runs cdcr; dev.txt: what comes on top.
+# every Python that cdcr takes. demo.txt: what builds and runs cdcr; dev.txt and docs.txt: what comes
+# on top for tests and linters, and for the site.
 # After a change of versions in pyproject.toml, or to take newer ones: make lock.
 set -eu
 cd "$(dirname "$0")/.."
@@ -11,9 +12,12 @@ compile() {
 }
 
 mkdir -p build/lock
-compile --group dev --upgrade -o build/lock/all.txt
+compile --group dev --group docs --upgrade -o build/lock/all.txt
 sed 's/ *\\$//; /^ /d' build/lock/all.txt >build/lock/versions.txt
 compile --group build -c build/lock/versions.txt -o tools/lock/demo.txt
-# A package begins a line, its hashes are indented.
-awk '/^[^ ]/ { is_new = FILENAME != ARGV[1] && !($0 in known); known[$0] } is_new' \
-  tools/lock/demo.txt build/lock/all.txt >tools/lock/dev.txt
+for group in dev docs; do
+  compile --group build --group $group -c build/lock/versions.txt -o build/lock/$group.txt
+  # A package begins a line, its hashes are indented.
+  awk '/^[^ ]/ { is_new = FILENAME != ARGV[1] && !($0 in known); known[$0] } is_new' \
+    tools/lock/demo.txt build/lock/$group.txt >tools/lock/$group.txt
+done

@@ -2,7 +2,8 @@
 # Brings a fresh machine to where cdcr runs: system packages, .venv, the package itself.
 # Looks first and does only what is missing, so a second run takes a second or two.
 #
-# Usage: tools/setup.sh demo|dev     dev adds what tests and linters need
+# Usage: tools/setup.sh demo|dev|docs     dev adds what tests and linters need, docs what the
+#                                         documentation site is built with
 # Environment: PYTHON (python3), VENV (.venv), CVODE (ON; OFF does without SUNDIALS, and so without
 # the methods bdf and adams: it saves some 300 Debian packages)
 set -eu
@@ -87,10 +88,12 @@ need() {
 }
 
 check_python() {
-  command -v "$python" >/dev/null || die "there is no $python here; cdcr needs Python 3.10 or \
+  oldest=10
+  [ "$goal" != docs ] || oldest=11 # of Sphinx
+  command -v "$python" >/dev/null || die "there is no $python here; cdcr needs Python 3.$oldest or \
 newer: apt-get install python3 python3-venv, or name one with PYTHON=/path/to/python3."
-  "$python" -c 'import sys; sys.exit(sys.version_info < (3, 10))' ||
-    die "cdcr needs Python 3.10 or newer, $python is $("$python" -V 2>&1); \
+  "$python" -c "import sys; sys.exit(sys.version_info < (3, $oldest))" ||
+    die "cdcr's \"$goal\" needs Python 3.$oldest or newer, $python is $("$python" -V 2>&1); \
 name another one with PYTHON=/path/to/python3."
 }
 
@@ -117,8 +120,10 @@ sys.exit(not os.path.exists(os.path.join(sysconfig.get_path("include"), "Python.
     package=$(python_package venv "modules venv and ensurepip")
     need "$package" "makes $venv"
   fi
-  [ "$goal" = demo ] || installed 'lib*/cmake/doctest/doctestConfig.cmake' ||
+  [ "$goal" != dev ] || installed 'lib*/cmake/doctest/doctestConfig.cmake' ||
     need doctest-dev "runs the C++ tests"
+  [ "$goal" != docs ] || command -v doxygen >/dev/null ||
+    need doxygen "reads the C++ headers for the reference"
 }
 
 install_packages() {
@@ -172,13 +177,14 @@ pip_online() {
     die "pip could not download the Python packages; is the network up? Its own words are in $log."
 }
 
-# Installs what tools/lock names, unless that has been done since its last change.
+# Installs what tools/lock names, unless that has been done since its last change. Python compiles
+# what it imports, which is a part of what they bring.
 install_locked() {
   lock=tools/lock/$1.txt
   stamp=$venv/.cdcr-$1
   if [ ! "$stamp" -nt "$lock" ]; then
     note "installing the packages of $lock"
-    pip_online install --require-hashes -r "$lock"
+    pip_online install --no-compile --require-hashes -r "$lock"
     touch "$stamp"
   fi
 }
@@ -189,7 +195,7 @@ if ! same_python; then
   quietly "$python" -m venv "$venv" || die "$python could not make $venv; see $log."
 fi
 install_locked demo
-[ "$goal" = demo ] || install_locked dev
+[ "$goal" = demo ] || install_locked "$goal"
 
 # 3. cdcr ----------------------------------------------------------------------------------------
 
@@ -201,13 +207,13 @@ up_to_date() {
 }
 
 # The tree of preset release, so that nothing is compiled twice: the tests link the same library.
-# It keeps the tests it has, and builds the extension alone; a wheel of a developer's needs no more.
+# It keeps the tests it has, and builds the extension and the FMU alone; a wheel of a developer's needs no more.
 # The tools are already in .venv, so this needs no network: a failure is the build's own.
 build_wheel() {
   tests=$(sed -n 's/^CDCR_BUILD_TESTS:BOOL=//p' "$tree/CMakeCache.txt" 2>/dev/null || true)
   failed_after=$(wc -l <"$log")
   followed building 0 pip wheel -v --no-deps --no-index --no-build-isolation -w build/wheel \
-    -C build-dir="$tree" -C build.targets=_core -C cmake.define.CDCR_BUILD_TESTS="${tests:-OFF}" \
+    -C build-dir="$tree" -C build.targets="_core;cdcr_fmu" -C cmake.define.CDCR_BUILD_TESTS="${tests:-OFF}" \
     -C cmake.define.CDCR_WITH_CVODE="$cvode" \
     -C cmake.define.CDCR_PRECOMPILE_HEADERS=ON -C cmake.define.CDCR_WARNINGS_AS_ERRORS="$1" .
 }
@@ -229,7 +235,7 @@ if up_to_date; then
 else
   rm -rf "$stamp" build/wheel
   : >build/started
-  case $goal in demo) build_demo ;; *) build_wheel ON ;; esac || build_failed
+  case $goal in dev) build_wheel ON ;; *) build_demo ;; esac || build_failed
   quietly pip uninstall -y cdcr
   quietly pip install --no-deps --no-index build/wheel/cdcr-*.whl ||
     die "pip could not install cdcr; see $log."

@@ -142,7 +142,14 @@ _ROBOTS: dict[str, Callable[[], Robot]] = {
 
 
 def names() -> tuple[str, ...]:
-    """Return the names of all robots known here."""
+    """Return the names of all robots known here.
+
+    Examples
+    --------
+    >>> import cdcr
+    >>> cdcr.robots.names()
+    ('amouri2020', 'rao2021', 'three_sections')
+    """
     return tuple(_ROBOTS)
 
 
@@ -162,5 +169,11 @@ def get(name: str) -> Robot:
     ------
     ValueError
         For an unknown name, with the known ones.
+
+    Examples
+    --------
+    >>> import cdcr
+    >>> cdcr.robots.get("three_sections").num_cables
+    9
     """
     return _ROBOTS[known_name("robot", name, names())]()

@@ -13,16 +13,20 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import typer
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
 import cdcr
 from cdcr import _core
+from cdcr.cli.plain import AsJson, print_json, told_plainly
 from cdcr.cli.processes import usable
 from cdcr.cli.run import DelayedBar
 from cdcr.cli.self_test import Outcome, self_test, step_time
 from cdcr.cli.tables import new_table
+
+commands = typer.Typer()
 
 # What the extras give; of those not here the packages are told alone.
 GIVES = {
@@ -30,6 +34,10 @@ GIVES = {
     "data": "xarray, netCDF files",
     "cli": "the command cdcr",
     "track": "motions from samples",
+    "control": "python-control",
+    "gym": "environments of Gymnasium",
+    "mcap": "logs for Foxglove",
+    "view": "the live view in the browser",
 }
 # Instructions on vectors, narrow to wide, as Linux names them.
 _VECTORS = ("sse4_2", "avx", "fma", "avx2", "avx512f", "asimd", "sve")
@@ -195,3 +203,19 @@ def _pairs(title: str, rows: Iterator[tuple[str, str]]) -> Table:
 
 def _mark(ok: bool) -> Text:
     return Text("ok") if ok else Text("wrong", style="bold red")
+
+
+@commands.command("doctor", short_help="Tell what is installed, and test that it works.")
+def doctor_command(as_json: AsJson = False) -> None:
+    """Tell versions, processor and extras; compare a few seconds of computing with known numbers.
+
+    Exit code 1 where something is wrong; an extra that is not installed is not.
+    """
+    with told_plainly():
+        told = examine(Console(stderr=True))
+    if as_json:
+        print_json(told)
+    else:
+        print_report(Console(), told)
+    if not told["ok"]:
+        raise typer.Exit(1)

@@ -24,6 +24,14 @@ Size = Annotated[
         autocompletion=complete.sizes,
     ),
 ]
+Robot = Annotated[
+    str,
+    typer.Argument(
+        metavar="ROBOT|FILE.toml",
+        help="A name from `cdcr list` or a file.",
+        autocompletion=complete.robots,
+    ),
+]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but errors.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object in place of tables.")]
 

@@ -18,7 +18,7 @@ from cdcr.base.extras import require
 from cdcr.cli.complete import FILMS
 from cdcr.files.new_file import check_files, new_files
 from cdcr.robot.robot import Robot
-from cdcr.runs.export import write_run
+from cdcr.runs.save import write_run
 from cdcr.runs.stats import STATS
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios import Scenario
@@ -30,6 +30,7 @@ from cdcr.scenarios.scenario import FILES
 NEEDED = {
     ".png": (("matplotlib", "plot"),),
     ".csv": (),
+    ".mcap": (("mcap", "mcap"),),
     ".nc": (("xarray", "data"), ("h5netcdf", "data"), ("h5py", "data")),
 }
 REPLACE = "give --overwrite to replace, or another folder with --out"

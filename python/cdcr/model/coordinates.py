@@ -34,6 +34,13 @@ def polar(
     ------
     ValueError
         If q has no even last dimension, or is not finite.
+
+    Examples
+    --------
+    >>> import cdcr
+    >>> theta, phi = cdcr.polar([0.3, 0.4])
+    >>> print(f"{theta:.4f} rad, {phi:.4f} rad")
+    0.5000 rad, 0.9273 rad
     """
     vectors = finite(q, "q")
     if vectors.ndim == 0 or vectors.shape[-1] % 2 or vectors.shape[-1] == 0:
@@ -70,6 +77,12 @@ def bending(theta: ArrayLike, phi: ArrayLike) -> FloatArray:
     ------
     ValueError
         If the shapes do not fit each other, or a value is not finite.
+
+    Examples
+    --------
+    >>> import cdcr
+    >>> cdcr.bending([0.5, 1.0], [0.0, 2.0]).round(3)
+    array([ 0.5  ,  0.   , -0.416,  0.909])
     """
     angles, directions = finite(theta, "theta"), finite(phi, "phi")
     try:

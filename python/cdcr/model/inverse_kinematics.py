@@ -33,6 +33,14 @@ class InverseKinematics:
         Steps tried, from all starts together.
     message : str
         Why not, in one sentence; empty when reachable.
+
+    Examples
+    --------
+    >>> import cdcr
+    >>> model = cdcr.Model(cdcr.robots.amouri2020())
+    >>> goal = model.inverse_kinematics([0.5, 0.0, 0.9])
+    >>> goal.reachable, round(goal.distance, 3)
+    (False, 0.259)
     """
 
     q: FloatArray
@@ -47,7 +55,6 @@ class InverseKinematics:
     message: str
 
     def __repr__(self) -> str:
-        return (
-            f"InverseKinematics(q={self.q}, position={self.position}, "
-            f"distance={self.distance}, angle={self.angle}, reachable={self.reachable})"
-        )
+        q = ", ".join(f"{value:.6g}" for value in self.q)
+        end = "reached" if self.reachable else f"not reached: {self.message}"
+        return f"<InverseKinematics: q = [{q}], {end}>"

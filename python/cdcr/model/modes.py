@@ -38,6 +38,14 @@ class Modes:
         Of the damped robot, couplings of the modes included, by magnitude [1/s].
     stable : bool or (...) array of bool
         Whether every small motion stays small.
+
+    Examples
+    --------
+    >>> import cdcr
+    >>> model = cdcr.Model(cdcr.robots.amouri2020(damping=0.01))
+    >>> modes = model.modes([0.0, 0.0], [0.0, 0.0, 0.0])
+    >>> modes.frequency_hz.round(3), modes.damping_ratio.round(3)
+    (array([1.448, 1.448]), array([0.125, 0.125]))
     """
 
     model: Model
@@ -77,6 +85,13 @@ class Modes:
         Returns
         -------
         Figure
+
+        Examples
+        --------
+        >>> import cdcr
+        >>> model = cdcr.Model(cdcr.robots.three_sections())
+        >>> len(model.modes([0.0] * 6, [0.0] * 9).plot(count=2).axes)
+        2
         """
         from cdcr.plotting import plot_modes
 

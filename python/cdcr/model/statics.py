@@ -12,7 +12,18 @@ from cdcr.base.arrays import FloatArray
 
 
 class ConvergenceError(RuntimeError):
-    """A search ended without an answer; the message says what to try next."""
+    """A search ended without an answer; the message says what to try next.
+
+    Examples
+    --------
+    >>> import cdcr
+    >>> model = cdcr.Model(cdcr.robots.amouri2020())
+    >>> try:
+    ...     model.equilibrium([2000.0, 0.0, 0.0])
+    ... except cdcr.ConvergenceError as error:
+    ...     print("not found")
+    not found
+    """
 
 
 class InfeasibleError(ValueError):
@@ -26,6 +37,16 @@ class InfeasibleError(ValueError):
         The generalised force they give [N m].
     limiting : tuple of int
         Indices of the cables whose limit is in the way.
+
+    Examples
+    --------
+    >>> import cdcr
+    >>> model = cdcr.Model(cdcr.robots.amouri2020())
+    >>> try:
+    ...     model.allocate([1.0, 0.0], max_tension=10.0)
+    ... except cdcr.InfeasibleError as error:
+    ...     print(error.tension.round(3), error.limiting)
+    [10.  0.  0.] (0, 1, 2)
     """
 
     def __init__(self, message: str, answer: _core.Allocation) -> None:

@@ -115,6 +115,13 @@ class Wrench:
         Returns
         -------
         Wrench
+
+        Examples
+        --------
+        >>> import cdcr
+        >>> push = cdcr.Wrench(section=0, force=(2.0, 0.0, 0.0), profile=([0.0, 1.0], [0.0, 1.0]))
+        >>> push.at(0.25).force
+        (0.5, 0.0, 0.0)
         """
         now = _loads((self,)).at(t)[0]
         return Wrench(

@@ -44,6 +44,16 @@ class InverseRun(ReadOnlyArrays):
         Limits of every tension [N].
     infeasible : {"raise", "nearest"}
         What `tension_at` does where the limits are too narrow.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import cdcr
+    >>> model = cdcr.Model(cdcr.robots.amouri2020())
+    >>> swing = cdcr.Reference.from_angles(np.linspace(0, 1, 11), lambda t: 0.2 + 0.1 * t, 0.0)
+    >>> run = cdcr.inverse_run(model, swing, min_tension=0.5)
+    >>> run.tension[0].round(3), bool(run.feasible.all())
+    (array([4.325, 0.5  , 0.5  ]), True)
     """
 
     model: Model
@@ -109,6 +119,16 @@ class InverseRun(ReadOnlyArrays):
         Returns
         -------
         TensionTable
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import cdcr
+        >>> model = cdcr.Model(cdcr.robots.amouri2020())
+        >>> swing = cdcr.Reference.from_angles(np.linspace(0, 1, 11), lambda t: 0.2 + 0.1 * t, 0.0)
+        >>> table = cdcr.inverse_run(model, swing).to_table()
+        >>> cdcr.simulate(model, swing.q[0], swing.qd[0], t=swing.t, tension=table).success
+        True
         """
         return TensionTable(self.t, self.tension, interpolation)
 
@@ -134,6 +154,15 @@ class InverseRun(ReadOnlyArrays):
             For a time outside the reference.
         InfeasibleError
             Where the limits are too narrow, unless the run was asked for the nearest tensions.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import cdcr
+        >>> model = cdcr.Model(cdcr.robots.amouri2020())
+        >>> swing = cdcr.Reference.from_angles(np.linspace(0, 1, 11), lambda t: 0.2 + 0.1 * t, 0.0)
+        >>> cdcr.inverse_run(model, swing).tension_at(0.55).round(3)
+        array([4.877, 0.   , 0.   ])
         """
         q, qd, qdd = self.reference.evaluate(t)
         force = self.model.inverse_dynamics(q, qd, qdd)

@@ -100,6 +100,15 @@ class Reference(ReadOnlyArrays):
         Returns
         -------
         Reference
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import cdcr
+        >>> t = np.linspace(0.0, 2.0, 41)
+        >>> q = np.column_stack([0.1 * t**2, 0.0 * t])
+        >>> cdcr.Reference.from_samples(t, q).qdd[20].round(3) + 0.0
+        array([0.2, 0. ])
         """
         times = splines.checked_times(t)
         values = splines.checked_samples("q", q, times.size, "2n")
@@ -137,6 +146,15 @@ class Reference(ReadOnlyArrays):
         Returns
         -------
         Reference
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import cdcr
+        >>> t = np.linspace(0.0, 2.0, 21)
+        >>> swing = cdcr.Reference.from_functions(t, lambda t: np.array([0.3 * np.sin(t), 0.0]))
+        >>> swing.qd[0].round(3)
+        array([0.3, 0. ])
         """
         times = splines.checked_times(t)
         named = (("q", q), ("qd", qd), ("qdd", qdd))
@@ -164,6 +182,13 @@ class Reference(ReadOnlyArrays):
         Returns
         -------
         Reference
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import cdcr
+        >>> cdcr.Reference.from_angles(np.linspace(0, 10, 51), np.pi / 12, lambda t: np.pi / 5 * t)
+        <Reference: 51 samples, t = 0 to 10 s, 1 section>
         """
         times = splines.checked_times(t)
         bending = splines.of_angle(times, "theta", theta)
@@ -206,6 +231,15 @@ class Reference(ReadOnlyArrays):
         Returns
         -------
         Reference
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import cdcr
+        >>> circle = cdcr.Reference.from_angles([0.0, 5.0, 10.0], 0.3, lambda t: np.pi / 5 * t)
+        >>> circle.at([2.5, 7.5]).q.round(3) + 0.0
+        array([[ 0. ,  0.3],
+               [ 0. , -0.3]])
         """
         times = splines.checked_times(t)
         q, qd, qdd = self.evaluate(times)
@@ -228,6 +262,15 @@ class Reference(ReadOnlyArrays):
         ------
         ValueError
             For a time outside the reference.
+
+        Examples
+        --------
+        >>> import cdcr
+        >>> ramp = cdcr.Reference.from_angles([0.0, 1.0, 2.0], lambda t: 0.1 * t, 0.0)
+        >>> ramp.evaluate(1.5).round(3) + 0.0
+        array([[0.15, 0.  ],
+               [0.1 , 0.  ],
+               [0.  , 0.  ]])
         """
         times = finite(t, "t")
         if times.ndim > 1:

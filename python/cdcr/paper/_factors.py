@@ -27,6 +27,13 @@ class Factors(NamedTuple):
     ----------
     H1, H2, H3, H4, H5, H6, H7, H8 : float or (...) array
         Each of the shape of the angles [1].
+
+    Examples
+    --------
+    >>> import cdcr.paper
+    >>> H = cdcr.paper.factors(0.5)
+    >>> print(f"{H.H1:.4f} {H.H3:.4f} {H.H5:.4f}")
+    0.1485 0.3333 0.6265
     """
 
     H1: Any
@@ -156,6 +163,14 @@ def inertia(theta: ArrayLike, robot: Robot, kind: str = "exact") -> tuple[Any, A
     ------
     ValueError
         For an argument out of its range, or a robot of several sections.
+
+    Examples
+    --------
+    >>> import cdcr
+    >>> import cdcr.paper
+    >>> M11, M22 = cdcr.paper.inertia(0.5, cdcr.robots.amouri2020())
+    >>> print(f"{M11:.6f} {M22:.6f} kg m^2")
+    0.004346 0.001064 kg m^2
     """
     check_kind(kind, "kind")
     return inertia_and_slopes(checked_angles(theta), robot, kind)[0]

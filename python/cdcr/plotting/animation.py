@@ -52,6 +52,18 @@ def animate(
     -------
     Path
         The file written.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> import numpy as np
+    >>> import cdcr.plotting
+    >>> model = cdcr.Model(cdcr.robots.amouri2020())
+    >>> run = cdcr.simulate(model, [0, 0], [0, 0], t=np.linspace(0, 1, 11), tension=[5, 0, 0])
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     print(cdcr.plotting.animate(run, Path(folder) / "pull.gif", fps=2).name)
+    pull.gif
     """
     path = film_path(Path(path))
     for name, value in {"fps": fps, "speed": speed}.items():

@@ -46,6 +46,14 @@ def plot_modes(
     -------
     Figure
         One panel for each mode, with its frequency [Hz] and damping ratio.
+
+    Examples
+    --------
+    >>> import cdcr.plotting
+    >>> model = cdcr.Model(cdcr.robots.three_sections())
+    >>> modes = model.modes([0.0] * 6, [0.0] * 9)
+    >>> len(cdcr.plotting.plot_modes(modes, count=2).axes)
+    2
     """
     if count != int(count) or count < 1:
         raise ValueError(f"count must be a whole number >= 1, got {count!r}")

@@ -52,6 +52,15 @@ def plot_run(run: Trajectory) -> StyledFigure:
     Returns
     -------
     Figure
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import cdcr.plotting
+    >>> model = cdcr.Model(cdcr.robots.amouri2020())
+    >>> run = cdcr.simulate(model, [0, 0], [0, 0], t=np.linspace(0, 1, 11), tension=[5, 0, 0])
+    >>> cdcr.plotting.plot_run(run).axes[0].get_ylabel()[:13]
+    'bending angle'
     """
     left = [plot_theta, plot_phi, plot_tension]
     right = [_plot_tip, _plot_energy] + ([_plot_energy_error] if _is_free(run) else [])

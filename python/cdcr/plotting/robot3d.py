@@ -129,6 +129,13 @@ def plot_robot(
     -------
     Axes3D
         The axes; their figure is ``ax.figure``.
+
+    Examples
+    --------
+    >>> import cdcr.plotting
+    >>> model = cdcr.Model(cdcr.robots.amouri2020())
+    >>> cdcr.plotting.plot_robot(model, [0.5, 0.0]).get_zlabel()
+    'z [m]'
     """
     state = _checked("q", q, model.num_coordinates)
     with style():
@@ -166,6 +173,15 @@ def plot_run_robot(
     Returns
     -------
     Axes3D
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import cdcr.plotting
+    >>> model = cdcr.Model(cdcr.robots.amouri2020())
+    >>> run = cdcr.simulate(model, [0, 0], [0, 0], t=np.linspace(0, 1, 11), tension=[5, 0, 0])
+    >>> cdcr.plotting.plot_run_robot(run, [0.0, 1.0]).get_zlabel()
+    'z [m]'
     """
     if times is None:
         check = Check()
@@ -213,6 +229,7 @@ def _axes(ax: Any, size: Size) -> Any:
     if getattr(ax, "name", "") != "3d":
         kind = type(ax).__name__
         raise ValueError(f"ax must be an Axes3D, as projection='3d' makes one, got {kind}")
+    space.label(ax)
     return ax
 
 

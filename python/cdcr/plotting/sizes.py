@@ -87,6 +87,15 @@ def resize(figure: Figure, size: Size) -> Figure:
     ------
     ValueError
         For another size.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import cdcr.plotting
+    >>> model = cdcr.Model(cdcr.robots.amouri2020())
+    >>> run = cdcr.simulate(model, [0, 0], [0, 0], t=np.linspace(0, 1, 11), tension=[5, 0, 0])
+    >>> cdcr.plotting.resize(run.plot(), (16, 9)).get_size_inches().round(2)
+    array([6.3 , 3.54])
     """
     sides = checked_size(size)
     if sides is None:

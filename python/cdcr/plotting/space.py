@@ -29,11 +29,18 @@ def add_axes(figure: Figure) -> Any:
     axes.view_init(**VIEW)
     axes.computed_zorder = False
     axes.patch.set_visible(False)  # it reaches over neighbours
-    axes.set(xlabel="x [m]", ylabel="y [m]", zlabel="z [m]")
+    label(axes)
     for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
         axis.pane.fill = False
         axis.pane.set_edgecolor("none")
     return axes
+
+
+def label(axes: Any) -> None:
+    """Label what has no label yet of Axes3D, in metres."""
+    for axis, name in zip((axes.xaxis, axes.yaxis, axes.zaxis), "xyz", strict=True):
+        if not axis.get_label_text():
+            axis.set_label_text(f"{name} [m]")
 
 
 def show_points(axes: Any, points: FloatArray) -> None:

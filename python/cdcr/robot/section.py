@@ -71,6 +71,14 @@ class Section:
     ------
     ValueError
         With one sentence for each field that is out of its range, one a line.
+
+    Examples
+    --------
+    >>> import cdcr
+    >>> backbone = {"length": 0.2, "backbone_mass": 0.003, "backbone_diameter": 0.0016}
+    >>> section = cdcr.Section(**backbone, youngs_modulus=60e9, num_disks=8, disk_mass=0.001)
+    >>> print(f"{section.stiffness:.4f} N m/rad, {1e3 * section.mass:.1f} g")
+    0.0965 N m/rad, 11.0 g
     """
 
     length: float = quantity("arc length of the backbone", "m", "> 0")

@@ -14,24 +14,6 @@ EventFunction: TypeAlias = Callable[..., Any]
 Watched: TypeAlias = tuple[EventFunction, int, int]
 
 
-class SlackEvent(NamedTuple):
-    """A length-driven cable turned slack or taut.
-
-    Attributes
-    ----------
-    time : float
-        When [s].
-    cable : int
-        Index of the cable.
-    slack : bool
-        Slack from here on, or taut again.
-    """
-
-    time: float
-    cable: int
-    slack: bool
-
-
 class EventRecord(NamedTuple):
     """An event of a run: one of its functions went through zero.
 
@@ -49,6 +31,24 @@ class EventRecord(NamedTuple):
     event: int
     q: FloatArray
     qd: FloatArray
+
+
+class SlackEvent(NamedTuple):
+    """A length-driven cable turned slack or taut.
+
+    Attributes
+    ----------
+    time : float
+        When [s].
+    cable : int
+        Index of the cable.
+    slack : bool
+        Slack from here on, or taut again.
+    """
+
+    time: float
+    cable: int
+    slack: bool
 
 
 def watched(events: EventFunction | Sequence[EventFunction]) -> list[Watched]:

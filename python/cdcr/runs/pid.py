@@ -50,6 +50,16 @@ class Pid(_core.Pid):
     ------
     ValueError
         For a gain, period, limit or reference out of its range.
+
+    Examples
+    --------
+    >>> import cdcr
+    >>> model = cdcr.Model(cdcr.robots.amouri2020(damping=0.01))
+    >>> pid = cdcr.Pid(model, kp=2.0, ki=4.0, kd=0.3, min_tension=0.5)
+    >>> pid.reference = [0.4, 0.2]
+    >>> run = cdcr.simulate(model, [0, 0], [0, 0], t=[0.0, 10.0], controller=pid)
+    >>> run.q[-1].round(4)
+    array([0.4, 0.2])
     """
 
     def __init__(

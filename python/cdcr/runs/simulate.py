@@ -16,8 +16,8 @@ from cdcr.model.model import Model
 from cdcr.model.wrench import Wrench, loads
 from cdcr.robot.units import ask_about_commands
 from cdcr.runs.command import Command, command_input
-from cdcr.runs.events import EventFunction, EventRecord, watched
-from cdcr.runs.trajectory import SlackEvent, Trajectory
+from cdcr.runs.events import EventFunction, EventRecord, SlackEvent, watched
+from cdcr.runs.trajectory import Trajectory
 
 MethodName = Literal["bdf", "adams", "dopri5", "rk4"]
 MAX_STEPS = 2**63 - 1  # that the core can count
@@ -160,6 +160,16 @@ def simulate(
         a robot of other sizes, or that drives another run at this moment.
     TypeError
         For a model, a controller or a progress that is none.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import cdcr
+    >>> model = cdcr.Model(cdcr.robots.amouri2020(damping=0.01))
+    >>> t = np.linspace(0, 10, 101)
+    >>> run = cdcr.simulate(model, [0, 0], [0, 0], t=t, tension=[5.0, 0.0, 0.0])
+    >>> print(f"{np.degrees(run.theta[-1, 0]):.3f} deg after {run.t[-1]:g} s")
+    14.978 deg after 10 s
     """
     require_kind("model", model, Model)
     chosen, options = integrator_options(

@@ -53,7 +53,14 @@ _SHARED = {
 
 
 def names() -> tuple[str, ...]:
-    """Return the names of all scenarios, in the order of the origin paper's figures."""
+    """Return the names of all scenarios, in the order of the origin paper's figures.
+
+    Examples
+    --------
+    >>> import cdcr.scenarios
+    >>> cdcr.scenarios.names()[6:9]
+    ('free-oscillation', 'step-tension', 'two-cables')
+    """
     found = {path.stem for path in _folder().glob("*.toml")}
     return (*(name for name in _FIGURES if name in found), *sorted(found - _FIGURES.keys()))
 
@@ -74,6 +81,12 @@ def get(name: str) -> Scenario:
     ------
     ValueError
         For an unknown name, with the known ones.
+
+    Examples
+    --------
+    >>> import cdcr.scenarios
+    >>> cdcr.scenarios.get("step-tension").title
+    '5 N on cable 1 of the straight robot at rest'
     """
     name = known_name("scenario", name, names())
     table = _table(name)
@@ -103,6 +116,12 @@ def source_file(name: str) -> Path:
     ------
     ValueError
         For an unknown name, or a scenario in which nothing runs, with those to choose from.
+
+    Examples
+    --------
+    >>> import cdcr.scenarios
+    >>> cdcr.scenarios.source_file("pid").name
+    'pid.toml'
     """
     files = [known for known in names() if "t_end" in _table(known)]
     pictures = {known for known in names() if known not in files}

@@ -25,7 +25,8 @@ if TYPE_CHECKING:
 
     from cdcr.plotting.sizes import Size
 
-FILES = {"picture": ".png", "csv": ".csv", "nc": ".nc"}
+FILES = {"picture": ".png", "csv": ".csv", "nc": ".nc", "mcap": ".mcap"}
+USUAL_FILES = (".png", ".csv", ".nc")
 
 
 def _figure(scenario: Scenario, run: Trajectory) -> Figure:
@@ -95,6 +96,13 @@ class Scenario:
         From scenario and run, None where nothing runs, to the findings of `summary`.
     plot : callable
         From scenario and run, None where nothing runs, to the picture of `figure`.
+
+    Examples
+    --------
+    >>> import cdcr.scenarios
+    >>> scenario = cdcr.scenarios.get("free-oscillation")
+    >>> scenario.t_end, scenario.robot.num_cables, scenario.has_run
+    (60.0, 3, True)
     """
 
     name: str
@@ -108,7 +116,7 @@ class Scenario:
     tension: tuple[float, ...] | TensionTable | Callable[[Model, float], TensionTable] = ()
     controller: Callable[[Model], Controller] | None = None
     input_source: InputSource | None = None
-    files: tuple[str, ...] = tuple(FILES.values())
+    files: tuple[str, ...] = USUAL_FILES
     wrenches: tuple[Wrench, ...] = ()
     t_end: float = 0.0
     num_samples: int = 1001

@@ -51,6 +51,14 @@ class Claim:
         Which of the known errors E1 to E8 the row is about.
     values : dict of str to float
         The numbers computed, in the units of the sentence.
+
+    Examples
+    --------
+    >>> import cdcr.paper
+    >>> told = {"name": "sum", "where": "p. 1", "claim": "1 + 1 = 2"}
+    >>> claim = cdcr.paper.Claim(**told, computed="2", verdict="holds", values={})
+    >>> claim.verdict
+    'holds'
     """
 
     name: str = ""
@@ -62,7 +70,16 @@ class Claim:
     sources: tuple[str, ...] = ()
 
     def as_dict(self) -> dict[str, Any]:
-        """Return the row as JSON has it."""
+        """Return the row as JSON has it.
+
+        Examples
+        --------
+        >>> import cdcr.paper
+        >>> told = {"name": "sum", "where": "p. 1", "claim": "1 + 1 = 2"}
+        >>> claim = cdcr.paper.Claim(**told, computed="2", verdict="holds", values={})
+        >>> claim.as_dict()["computed"]
+        '2'
+        """
         return asdict(self)
 
 

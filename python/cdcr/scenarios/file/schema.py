@@ -155,8 +155,8 @@ class OutputTable(BaseModel):
         ge=2,
         le=MAX_SAMPLES,
     )
-    files: list[Literal["picture", "csv", "nc"]] = optional(
-        'an array with one or more of "picture", "csv", "nc"',
+    files: list[Literal["picture", "csv", "nc", "mcap"]] = optional(
+        'an array with one or more of "picture", "csv", "nc", "mcap"',
         "kinds of files to write",
         min_length=1,
     )

@@ -1,0 +1,83 @@
+"""The keys of robot and scenario files, as tables, from the schemas that read them."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import MISSING
+from importlib import import_module
+from typing import Any
+
+from docutils import nodes
+from pydantic import BaseModel
+from sphinx.application import Sphinx
+from sphinx.util.docutils import SphinxDirective
+
+from cdcr.robot.cable import Cable
+from cdcr.robot.robot import Robot
+from cdcr.robot.schema import table_of
+from cdcr.robot.section import Section
+
+DESCRIBED = {"Robot": Robot, "Section": Section, "Cable": Cable}
+
+
+def schema(name: str) -> type[BaseModel]:
+    """Return a schema by name: Robot, Section, Cable, or module:NAME of a scenario file's table."""
+    if name in DESCRIBED:
+        return table_of(DESCRIBED[name])
+    module, _, attribute = name.partition(":")
+    found: type[BaseModel] = getattr(import_module(f"cdcr.scenarios.file.{module}"), attribute)
+    return found
+
+
+def rows(name: str) -> list[tuple[str, str, str]]:
+    """Return key, whether it is needed or its default, and what it is and must be."""
+    fields = getattr(DESCRIBED.get(name), "__dataclass_fields__", {})
+    told = []
+    for key, field in schema(name).model_fields.items():
+        described = fields.get(key.removesuffix("_deg"))
+        default = field.default
+        if described is not None and key in fields:
+            default = None if described.default is MISSING else described.default
+        value = str(field.description)
+        if described is not None and "about" in described.metadata:
+            value = f"{described.metadata['about']}: {value}"
+        need = (
+            "needed"
+            if field.is_required()
+            else ""
+            if default in (None, ())
+            else json.dumps(default)
+        )
+        told.append((key, need, value))
+    return told
+
+
+class FileKeys(SphinxDirective):
+    """A table of the keys of one table of a file."""
+
+    required_arguments = 1
+
+    def run(self) -> list[nodes.Node]:
+        """Return the table."""
+        group = nodes.tgroup("", cols=3)
+        group += [nodes.colspec(colwidth=width) for width in (22, 18, 60)]
+        head, body = nodes.thead(), nodes.tbody()
+        head += self._row(*(nodes.paragraph(text=text) for text in ("key", "default", "value")))
+        for key, need, value in rows(self.arguments[0]):
+            literal = nodes.paragraph("", "", nodes.literal(text=key))
+            body += self._row(literal, nodes.paragraph(text=need), nodes.paragraph(text=value))
+        group += [head, body]
+        table = nodes.table("", group, classes=["file-keys"])
+        return [table]
+
+    @staticmethod
+    def _row(*cells: nodes.Node) -> nodes.row:
+        row = nodes.row()
+        row += [nodes.entry("", cell) for cell in cells]
+        return row
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    """Add the directive ``file-keys``."""
+    app.add_directive("file-keys", FileKeys)
+    return {"parallel_read_safe": True}
