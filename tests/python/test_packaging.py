@@ -85,7 +85,7 @@ def test_installed_with_the_shared_object_of_fmus() -> None:
 
 def test_installs_the_package_and_nothing_else() -> None:
     belongs = re.compile(
-        r"cdcr/([\w/-]+\.(html|py|pyi|toml)|py\.typed|_core\.[\w.-]+\.so|_fmu\.so)"
+        r"cdcr/([\w/-]+\.(html|json|py|pyi|toml)|py\.typed|_core\.[\w.-]+\.so|_fmu\.so)"
         r"|cdcr-[\d.]+\.dist-info/.*"
         r"|(\.\./)+bin/cdcr"
     )
