@@ -35,7 +35,7 @@ extensions = [
     "file_keys",
     "command_line",
     "cpp_reference",
-    "docstring_examples",
+    "docstrings",
 ]
 exclude_patterns = ["_ext", "_static", "**/.ipynb_checkpoints"]
 root_doc = "index"
