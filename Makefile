@@ -7,7 +7,7 @@ export PYTHON VENV CVODE
 # Tools come from the venv; make's own PATH stays, so that PYTHON means the same throughout.
 IN_VENV := PATH="$(CURDIR)/$(VENV)/bin:$$PATH"
 
-SPHINX := python -m sphinx -W --keep-going -q -d build/docs-doctrees
+SPHINX := python -m sphinx -E -W --keep-going -q -d build/docs-doctrees
 
 .NOTPARALLEL:
 .PHONY: help demo test lint format bench bench-smoke wheel docs docs-links asan tsan fuzz builds lock audit clean setup setup-dev setup-docs test-cpp types test-python
@@ -42,6 +42,7 @@ wheel: setup-dev ## a wheel that needs nothing installed, in dist/
 	@$(IN_VENV) tools/wheel.sh
 
 docs: setup-docs ## the documentation site in build/docs; every page's code runs, warnings are errors
+	@rm -rf build/docs
 	@$(IN_VENV) $(SPHINX) -b html docs build/docs
 	@$(IN_VENV) python docs/check_site.py build/docs
 
