@@ -10,10 +10,10 @@ IN_VENV := PATH="$(CURDIR)/$(VENV)/bin:$$PATH"
 SPHINX := python -m sphinx -E -W --keep-going -q -d build/docs-doctrees
 
 .NOTPARALLEL:
-.PHONY: help demo test lint format bench bench-smoke wheel docs docs-links asan tsan fuzz builds lock audit clean setup setup-dev setup-docs test-cpp types test-python
+.PHONY: help demo test lint format bench bench-smoke view-test wheel docs docs-links asan tsan fuzz builds lock audit clean setup setup-dev setup-docs test-cpp types test-python
 
 help: ## list the commands
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-8s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 demo: setup ## install cdcr, pull cable 1 of the paper's robot with 5 N, write picture and data to out/
 	@echo "[4/4] cdcr run step-tension"
@@ -22,7 +22,10 @@ demo: setup ## install cdcr, pull cable 1 of the paper's robot with 5 N, write p
 test: setup-dev test-cpp types test-python ## all tests, C++ and Python, and the type checks
 
 lint: setup-dev ## style and static analysis: clang-format, clang-tidy, ruff, mypy, gersemi, codespell
-	@$(IN_VENV) tools/lint.sh
+	@mkdir -p build
+	@$(IN_VENV) make --no-print-directory --keep-going --output-sync=target -j "$$(nproc)" \
+	  -f tools/lint.mk
+	@echo "lint: no complaints"
 
 format: setup-dev ## rewrite all sources in the project's style
 	@$(IN_VENV) tools/format.sh
@@ -37,6 +40,11 @@ bench-smoke: setup-dev
 	@$(IN_VENV) cmake --build --preset bench
 	@set -e; for program in build/bench/bench/bench_*; do \
 	  if [ -f $$program ]; then $(IN_VENV) $$program --quick >/dev/null; fi; done
+
+view-test: setup-dev ## the live view in a real browser (Debian's chromium, by Playwright); its frame rate
+	@command -v chromium >/dev/null || { echo "make view-test: apt-get install chromium" >&2; exit 1; }
+	@$(IN_VENV) python -m pip install --quiet --group browser
+	@$(IN_VENV) pytest tests/python/test_view_browser.py
 
 wheel: setup-dev ## a wheel that needs nothing installed, in dist/
 	@$(IN_VENV) tools/wheel.sh

@@ -17,7 +17,7 @@ configure_and_test() {
 # The Python tests on a package of that build, which is installed in place of the usual one.
 test_python() {
   python -m pip wheel -q --no-deps --no-index --no-build-isolation -w "$tree/wheel" \
-    -C build-dir="$tree" -C build.targets=_core -C cmake.define.CDCR_BUILD_TESTS=ON .
+    -C build-dir="$tree" -C build.targets="_core;cdcr_fmu" -C cmake.define.CDCR_BUILD_TESTS=ON .
   rm -f .venv/.cdcr-installed # so that the next make installs the usual one again
   python -m pip install -q --no-deps --no-index --force-reinstall "$tree"/wheel/cdcr-*.whl
   pytest -n auto --maxprocesses 4 --dist loadfile --doctest-modules --pyargs cdcr tests/python

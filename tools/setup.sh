@@ -177,13 +177,14 @@ pip_online() {
     die "pip could not download the Python packages; is the network up? Its own words are in $log."
 }
 
-# Installs what tools/lock names, unless that has been done since its last change.
+# Installs what tools/lock names, unless that has been done since its last change. Python compiles
+# what it imports, which is a part of what they bring.
 install_locked() {
   lock=tools/lock/$1.txt
   stamp=$venv/.cdcr-$1
   if [ ! "$stamp" -nt "$lock" ]; then
     note "installing the packages of $lock"
-    pip_online install --require-hashes -r "$lock"
+    pip_online install --no-compile --require-hashes -r "$lock"
     touch "$stamp"
   fi
 }
@@ -206,13 +207,13 @@ up_to_date() {
 }
 
 # The tree of preset release, so that nothing is compiled twice: the tests link the same library.
-# It keeps the tests it has, and builds the extension alone; a wheel of a developer's needs no more.
+# It keeps the tests it has, and builds the extension and the FMU alone; a wheel of a developer's needs no more.
 # The tools are already in .venv, so this needs no network: a failure is the build's own.
 build_wheel() {
   tests=$(sed -n 's/^CDCR_BUILD_TESTS:BOOL=//p' "$tree/CMakeCache.txt" 2>/dev/null || true)
   failed_after=$(wc -l <"$log")
   followed building 0 pip wheel -v --no-deps --no-index --no-build-isolation -w build/wheel \
-    -C build-dir="$tree" -C build.targets=_core -C cmake.define.CDCR_BUILD_TESTS="${tests:-OFF}" \
+    -C build-dir="$tree" -C build.targets="_core;cdcr_fmu" -C cmake.define.CDCR_BUILD_TESTS="${tests:-OFF}" \
     -C cmake.define.CDCR_WITH_CVODE="$cvode" \
     -C cmake.define.CDCR_PRECOMPILE_HEADERS=ON -C cmake.define.CDCR_WARNINGS_AS_ERRORS="$1" .
 }

@@ -32,12 +32,15 @@ from cdcr.robot.robot import Robot
 from cdcr.robot.section import Section
 from cdcr.robot.states import merge_state, subdivide_state
 from cdcr.runs.command import TensionTable
+from cdcr.runs.events import SlackEvent
 from cdcr.runs.pid import Pid
 from cdcr.runs.simulate import simulate
-from cdcr.runs.trajectory import SlackEvent, Trajectory
+from cdcr.runs.trajectory import Trajectory
 
 if TYPE_CHECKING:
-    from cdcr import paper, scenarios
+    from cdcr import control, export, paper, scenarios
+    from cdcr import gym as gym
+    from cdcr import plotting as plotting
 
 __version__: str = _core.__version__
 
@@ -64,6 +67,8 @@ __all__ = [
     "Wrench",
     "__version__",
     "bending",
+    "control",
+    "export",
     "inverse_run",
     "max_bending",
     "merge_state",
@@ -81,10 +86,10 @@ __all__ = [
 
 def __getattr__(name: str) -> Any:
     """Load what few programs need when it is asked for."""
-    if name in ("paper", "scenarios"):
+    if name in ("control", "export", "gym", "paper", "plotting", "scenarios"):
         return import_module(f"cdcr.{name}")
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:
-    return __all__
+    return [*__all__, "gym", "plotting"]  # not in __all__, as each needs an extra

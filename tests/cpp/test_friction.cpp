@@ -18,7 +18,7 @@ namespace {
 /// Friction power is a difference of powers; this share of their size may be rounding.
 constexpr double power_rounding = 2e-15;
 /// The energy of a run whose friction has kinks, by Simpson's rule over 20001 samples.
-constexpr double balance_by_samples = 3e-7;
+constexpr double balance_by_samples = 1e-6;
 /// The same around a loop with a turning point, by the trapezoidal rule.
 constexpr double loop_by_samples = 1e-5;
 

@@ -15,7 +15,7 @@ namespace {
 
 // Relative to the natural size of each coordinate, each a few times the largest residual seen in
 // two hundred robots. The recursion adds a rounding or two for each section.
-constexpr double rounding = 1e-14;
+constexpr double rounding = 3e-14;
 // Bent by a full turn, a section loses most of the inertia that its M_ii is compared with.
 constexpr double inertia = 3e-14;
 // As far as differences of differences in extended precision can tell.

@@ -17,6 +17,7 @@ pytest.importorskip("h5netcdf")
 
 from matplotlib.figure import Figure
 
+from cdcr.cli.schema import comment
 from cdcr.scenarios.file import schema, shape_schema
 from cdcr.scenarios.file.template import template
 from command import cdcr_, everything_in, refused
@@ -50,7 +51,7 @@ def test_the_file_runs_as_it_is(tmp_path: Path) -> None:
     result = cdcr_("new", path)
     assert result.exit_code == 0, result.output
     assert result.stdout == f"wrote {path}; next: cdcr run {path}\n"
-    assert path.read_text(encoding="utf-8") == TEMPLATE
+    assert path.read_text(encoding="utf-8") == comment("scenario") + TEMPLATE
     result = cdcr_("run", path, "--out", out)
     assert result.exit_code == 0, result.output
     assert everything_in(out) == ["my.csv", "my.nc", "my.png"]
@@ -165,7 +166,7 @@ def test_a_file_is_replaced_only_when_told(tmp_path: Path) -> None:
     assert result.stderr == f"cdcr: {path} exists already; give --overwrite to replace it\n"
     assert path.read_text() == "mine"
     assert cdcr_("new", path, "--overwrite").exit_code == 0
-    assert path.read_text(encoding="utf-8") == TEMPLATE
+    assert path.read_text(encoding="utf-8") == comment("scenario") + TEMPLATE
     assert everything_in(tmp_path) == ["my.toml"]
 
 
@@ -195,7 +196,8 @@ def test_a_scenario_written_out_is_the_same_run(tmp_path: Path, name: str) -> No
     result = cdcr_("new", path, "--from", name)
     assert result.exit_code == 0, result.output
     assert result.stdout == f"wrote {path}; next: cdcr run {path}\n"
-    assert path.read_bytes() == cdcr.scenarios.source_file(name).read_bytes()
+    source = cdcr.scenarios.source_file(name).read_text(encoding="utf-8")
+    assert path.read_text(encoding="utf-8") == comment("scenario") + source
     runs = []
     for one in (path, name):
         result = cdcr_("run", one, "--out", out, "--json")
@@ -222,3 +224,47 @@ def test_only_scenarios_that_run_can_be_written_out(tmp_path: Path) -> None:
     assert path.read_text() == "mine"
     assert cdcr_("new", path, "--from", "pid", "--overwrite").exit_code == 0
     assert "[controller]" in path.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", cdcr.robots.names())
+def test_a_robot_written_out_is_that_robot(tmp_path: Path, name: str) -> None:
+    path = tmp_path / "robot.toml"
+    result = cdcr_("new", path, "--robot", name.replace("_", "-"))
+    assert (result.exit_code, result.stdout) == (0, f"wrote {path}; next: cdcr info {path}\n")
+    robot = cdcr.robots.get(name)
+    assert cdcr.Robot.load(path) == robot
+    text = path.read_text(encoding="utf-8")
+    assert text.startswith("#:schema ./cdcr-robot.schema.json\n")
+    for item in (*fields(cdcr.Robot), *fields(cdcr.Section), *fields(cdcr.Cable)):
+        if item.name not in ("sections", "cables"):
+            assert re.search(rf"^#?{item.name} = \S.*  # ", text, re.MULTILINE), item.name
+    assert cdcr_("info", path).exit_code == 0
+
+
+def test_what_else_a_robot_may_have_is_shown_with_its_default(tmp_path: Path) -> None:
+    path = tmp_path / "robot.toml"
+    assert cdcr_("new", path, "--robot", "amouri2020").exit_code == 0
+    whole = path.read_text(encoding="utf-8")
+    robot, section, cable = re.split(
+        r"# Of a section:\n|# Cables that", whole.partition("Of the ")[2]
+    )
+    sections = whole.index("[[sections]]")
+    text = _on(robot) + whole[:sections] + "[[sections]]\n" + _on(section) + whole[sections + 12 :]
+    path.write_text(text, encoding="utf-8")
+    assert cdcr.Robot.load(path) == cdcr.robots.amouri2020()
+    path.write_text(whole + _on(cable), encoding="utf-8")
+    assert cdcr.Robot.load(path).num_cables == 4
+
+
+def _on(block: str) -> str:
+    lines = re.findall(r"^#(\S.*)$", block, flags=re.MULTILINE)
+    return "\n".join(lines) + "\n"
+
+
+def test_robots_to_start_from_are_those_of_the_list(tmp_path: Path) -> None:
+    path = tmp_path / "robot.toml"
+    told = refused(cdcr_("new", path, "--robot", "amouri"))
+    assert told.startswith("there is no robot 'amouri'. Did you mean 'amouri2020'?")
+    told = refused(cdcr_("new", path, "--robot", "rao2021", "--from", "pid"))
+    assert told == "give either --from or --robot, not both"
+    assert everything_in(tmp_path) == []

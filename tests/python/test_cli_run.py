@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -265,6 +266,56 @@ def test_progress_is_shown_on_long_runs_at_a_terminal(
     assert ("step-tension" in screen.getvalue()) is shown
     assert ("50%" in screen.getvalue()) is shown
     assert bool(screen.getvalue()) is shown
+
+
+def test_progress_tells_time_simulated_and_how_fast(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = iter([0.0, 2.0, 2.0, 4.0, 4.0])
+    monkeypatch.setattr("cdcr.cli.run.time.monotonic", lambda: next(clock))
+    screen = io.StringIO()
+    console = Console(file=screen, force_terminal=True, width=120)
+    with cli_run.DelayedBar(console, "step-tension", 40.0, real=True) as bar:
+        bar(10.0)
+        bar(30.0)
+    shown = screen.getvalue()
+    assert "30 of 40 s, 7.5 times real time" in shown
+    assert " left" in shown
+
+
+@pytest.mark.usefixtures("quick")
+def test_quiet_prints_nothing_but_errors(tmp_path: Path) -> None:
+    args = ("run", "step-tension", "--out", tmp_path, "--t-end", 0.1, "--quiet")
+    result = cdcr_(*args)
+    assert (result.exit_code, result.output) == (0, "")
+    assert everything_in(tmp_path) == sorted(FILES)
+    assert refused(cdcr_(*args)).endswith(
+        "give --overwrite to replace, or another folder with --out"
+    )
+    loud = cdcr_(*args, "--overwrite", "--json")
+    assert json.loads(loud.stdout)["t_end"] == 0.1
+
+
+@pytest.mark.usefixtures("quick")
+@pytest.mark.parametrize("film", ["gif", "html", "mp4"])
+def test_a_film_is_written_too(tmp_path: Path, film: str) -> None:
+    if film == "mp4" and not shutil.which("ffmpeg"):
+        pytest.skip("needs ffmpeg")
+    args = ("run", "step-tension", "--out", tmp_path, "--t-end", 0.1, "--film")
+    assert cdcr_(*args, film).exit_code == 0
+    assert everything_in(tmp_path) == sorted([*FILES, f"step-tension.{film}"])
+    begin = {"gif": b"GIF89a", "html": b"<!doctype html>", "mp4": b"ftyp"}[film]
+    assert begin in (tmp_path / f"step-tension.{film}").read_bytes()[:20]
+
+
+def test_films_that_cannot_be_written_are_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    told = refused(cdcr_("run", "pid", "--out", tmp_path, "--film", "avi"))
+    assert told == "--film must be one of mp4, gif, html, got 'avi'"
+    monkeypatch.setattr(shutil, "which", lambda name: None)
+    told = refused(cdcr_("run", "pid", "--out", tmp_path, "--film", "mp4"))
+    assert told.startswith("--film mp4 needs the program ffmpeg, which is not on the PATH")
+    assert refused(cdcr_("run", "gravity-ratio", "--film", "gif")).endswith("takes no --film")
+    assert everything_in(tmp_path) == []
 
 
 def test_wrong_options_are_told_before_files_that_exist(tmp_path: Path) -> None:

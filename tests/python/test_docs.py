@@ -18,7 +18,16 @@ import cdcr
 import cdcr.plotting
 from cdcr import _core
 
-MODULES = (cdcr, cdcr.paper, cdcr.plotting, cdcr.robots, cdcr.scenarios, _core)
+MODULES = (
+    cdcr,
+    cdcr.control,
+    cdcr.gym,
+    cdcr.paper,
+    cdcr.plotting,
+    cdcr.robots,
+    cdcr.scenarios,
+    _core,
+)
 # What says what kind of number it is: a unit in brackets, or words in place of one.
 UNIT = re.compile(r"\[[^\]]+\]|unit of `q`|radians|rotation matri|indices|whether", re.I)
 ARRAY = re.compile(r"\b(array|ndarray|array_like)\b")

@@ -218,7 +218,7 @@ def test_failing_half_way_keeps_the_old_file(
 
 
 def test_refusals_name_the_item(run: cdcr.Trajectory, tmp_path: Path) -> None:
-    with pytest.raises(ValueError, match=r"must end in \.nc or \.csv, got 'run\.txt'"):
+    with pytest.raises(ValueError, match=r"must end in \.nc, \.csv or \.mcap, got 'run\.txt'"):
         run.save(tmp_path / "run.txt")
     with pytest.raises(FileNotFoundError, match=r"the folder .*missing does not exist"):
         run.save(tmp_path / "missing" / "run.csv")

@@ -15,7 +15,8 @@ from matplotlib.figure import Figure
 from rich.console import Console
 from typer.testing import Result
 
-from cdcr.cli import figures, page
+from cdcr.cli import figures, page, processes
+from cdcr.cli.run import Mistake
 from command import cdcr_
 
 NAMES = [n for n in cdcr.scenarios.names() if cdcr.scenarios.get(n).paper_figure]
@@ -60,7 +61,8 @@ def first(tmp_path_factory: Any) -> tuple[Path, Result]:
 
 @pytest.fixture
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Draw empty pictures, and leave out the audit, where they do not matter."""
+    """Draw empty pictures in this process, and leave out the audit, where they do not matter."""
+    monkeypatch.setattr(processes, "usable", lambda: 1)
     monkeypatch.setattr(cdcr.scenarios.Scenario, "figure", lambda self, run, **_: Figure())
     monkeypatch.setattr(page, "audit", list)
 
@@ -147,9 +149,18 @@ def test_the_same_picture_is_the_same_file(tmp_path: Path) -> None:
     assert [path.read_bytes() for path in figures.write_figures(tmp_path, overwrite=True)] == before
 
 
-@pytest.mark.parametrize("error", [KeyboardInterrupt, RuntimeError])
+@pytest.mark.parametrize(
+    ("error", "told"),
+    [
+        (KeyboardInterrupt(), pytest.raises(KeyboardInterrupt)),
+        (
+            RuntimeError("no ink"),
+            pytest.raises(Mistake, match=r"^the picture of 'gravity-ratio' failed: no ink$"),
+        ),
+    ],
+)
 def test_what_stops_it_leaves_nothing(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: type[BaseException]
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: BaseException, told: Any
 ) -> None:
     def fail(self: Any, run: Any, **_: Any) -> Figure:
         if self.name == "gravity-ratio":
@@ -157,7 +168,7 @@ def test_what_stops_it_leaves_nothing(
         return Figure()
 
     monkeypatch.setattr(cdcr.scenarios.Scenario, "figure", fail)
-    with pytest.raises(error):
+    with told:
         figures.write_figures(tmp_path / "a" / "b")
     assert names_in(tmp_path) == set()
 

@@ -31,6 +31,22 @@ CASES: dict[str, tuple[Callable[[], object], str]] = {
     "formulation": (lambda: cdcr.Model(MODEL.robot, cast("Any", [])), "formulation must be one of"),
     "stable_step": (lambda: cdcr.stable_step(NONE), "model must be a cdcr.Model, got NoneType"),
     "simulate": (lambda: run(model=None), "model must be a cdcr.Model, got NoneType"),
+    "gain": (
+        lambda: cdcr.Pid(MODEL, kp=cast("Any", "a"), kd=1.0),
+        "kp must be a number, got 'a' (str)",
+    ),
+    "no gain": (
+        lambda: cast("Any", cdcr.Pid)(MODEL),
+        "Pid.__init__() missing 1 required keyword-only argument: 'kp'",
+    ),
+    "switch": (
+        lambda: cdcr.Pid(MODEL, kp=1.0, anti_windup=cast("Any", 1)),
+        "anti_windup must be True or False, got 1 (int)",
+    ),
+    "cables": (
+        lambda: cdcr.Pid(MODEL, kp=1.0, cables=cast("Any", [0, "b"])),
+        "cables[1] must be the index of a cable, got 'b' (str)",
+    ),
     "inverse_run": (
         lambda: cdcr.inverse_run(NONE, NONE),
         "model must be a cdcr.Model, got NoneType",

@@ -158,8 +158,9 @@ def test_inverse_kinematics_round_trip_and_out_of_reach(model: cdcr.Model) -> No
     np.testing.assert_allclose(above.position, [0.0, 0.0, 0.802], atol=ROUNDING)
     assert above.distance == pytest.approx(0.198, abs=ROUNDING)
     assert not above.reachable
-    assert repr(above).startswith("InverseKinematics(q=[")
-    assert repr(above).endswith("reachable=False)")
+    assert repr(above).startswith("<InverseKinematics: q = [")
+    assert repr(above).endswith(f"not reached: {above.message}>")
+    assert repr(answer).endswith("reached>")
 
 
 def test_equilibrium_under_five_newtons() -> None:

@@ -18,7 +18,20 @@ ROOT = Path(__file__).parents[2]
 LICENSES = ROOT / "licenses"
 README = (ROOT / "README.md").read_text()
 # What a plain import must not load: extras, and pydantic, which only reading a file needs.
-HEAVY = ["h5netcdf", "matplotlib", "PIL", "pandas", "pydantic", "rich", "scipy", "typer", "xarray"]
+HEAVY = [
+    "control",
+    "gymnasium",
+    "h5netcdf",
+    "matplotlib",
+    "mcap",
+    "PIL",
+    "pandas",
+    "pydantic",
+    "rich",
+    "scipy",
+    "typer",
+    "xarray",
+]
 
 
 def installed_files() -> list[str]:
@@ -42,6 +55,18 @@ def test_version_comes_from_cmake() -> None:
     assert cdcr.__version__ == project.group(1)
 
 
+def test_the_conda_recipe_has_this_version_and_needs_what_the_package_needs() -> None:
+    recipe = (ROOT / "packaging" / "conda" / "recipe.yaml").read_text()
+    assert f'version: "{cdcr.__version__}"' in recipe
+    project = read_toml(ROOT / "pyproject.toml", "project file")["project"]
+    extras = project["optional-dependencies"]
+    needed = [*project["dependencies"], *extras["plot"], *extras["data"], *extras["cli"]]
+    renamed = {"matplotlib": "matplotlib-base"}
+    for name, version in re.findall(r"([\w-]+)(?:\[\w+\])?(>=[\d.]+)", "\n".join(needed)):
+        if name != "tomli":  # of Pythons that are older than conda-forge's
+            assert f"- {renamed.get(name, name)} {version}\n" in recipe, name
+
+
 def test_changelog_opens_with_this_version() -> None:
     versions = re.findall(r"^## \[(.+?)\]", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE)
     assert versions[0] in {cdcr.__version__, "Unreleased"}
@@ -53,9 +78,14 @@ def test_installed_with_its_types(file: str) -> None:
     assert file in installed_files()
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="FMUs are for Linux")
+def test_installed_with_the_shared_object_of_fmus() -> None:
+    assert "cdcr/_fmu.so" in installed_files()
+
+
 def test_installs_the_package_and_nothing_else() -> None:
     belongs = re.compile(
-        r"cdcr/([\w/-]+\.(html|py|pyi|toml)|py\.typed|_core\.[\w.-]+\.so)"
+        r"cdcr/([\w/-]+\.(html|py|pyi|toml)|py\.typed|_core\.[\w.-]+\.so|_fmu\.so)"
         r"|cdcr-[\d.]+\.dist-info/.*"
         r"|(\.\./)+bin/cdcr"
     )

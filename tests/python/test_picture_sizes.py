@@ -26,7 +26,9 @@ def picture(name: str, size: Any) -> Any:
     return scenario.figure(run, size=size)
 
 
-@pytest.mark.parametrize("name", ["step-tension", "pid", "factors-backbone", "length-drive"])
+@pytest.mark.parametrize(
+    "name", ["step-tension", "pid", "factors-backbone", "length-drive", "block-diagram"]
+)
 def test_a_journals_column_holds_all_words(name: str) -> None:
     figure = picture(name, "journal")
     assert figure.get_figwidth() == pytest.approx(8.5 * CM)
@@ -67,6 +69,76 @@ def test_other_sizes_are_refused(size: Any) -> None:
 def test_a_run_is_drawn_in_any_size() -> None:
     run = cdcr.scenarios.get("step-tension").simulate(t_end=0.1)
     assert run.plot(size="journal").get_figwidth() == pytest.approx(8.5 * CM)
+
+
+def words(figure: Any) -> list[tuple[str, Any]]:
+    """All words that are drawn in a picture, and the boxes they take."""
+    drawn: list[tuple[str, Any]] = []
+    draw = Text.draw
+
+    def remember(self: Text, renderer: Any) -> None:
+        if self.get_visible() and self.get_text():
+            drawn.append((self.get_text(), Text.get_window_extent(self, renderer)))
+        draw(self, renderer)
+
+    figure.canvas.draw()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Text, "draw", remember)
+        figure.canvas.draw()
+    return drawn
+
+
+@pytest.mark.parametrize("name", ["block-diagram", "payload-drop", "pull-release"])
+def test_no_words_of_a_column_cross(name: str) -> None:
+    """Of the names in a picture, its numbers and its labels."""
+    found = words(picture(name, "journal"))
+    assert len(found) > 10
+    crossing = [
+        (one, other)
+        for k, (one, box) in enumerate(found)
+        for other, another in found[:k]
+        if box.padded(-2.0).overlaps(another.padded(-2.0))
+    ]
+    assert crossing == []
+
+
+def test_the_robot_has_any_size() -> None:
+    run = cdcr.scenarios.get("step-tension").simulate(t_end=0.1)
+    for size, width in (("journal", 8.5), ("slide", 33.87), ((15, 10), 15.0)):
+        figure = run.plot_robot(size=size).figure
+        assert figure.get_figwidth() == pytest.approx(width * CM)
+        for word, box in words(figure):
+            assert box.x0 >= -1.0, word
+            assert box.x1 <= figure.bbox.width + 1.0, word
+    axes = run.plot_robot()
+    with pytest.raises(ValueError, match="either ax or size"):
+        run.plot_robot(ax=axes, size="slide")
+    with pytest.raises(ValueError, match="size must be"):
+        run.plot_robot(size="poster")
+
+
+def test_modes_have_any_size() -> None:
+    model = cdcr.Model(cdcr.robots.three_sections())
+    modes = model.modes(np.zeros(6), model.rest_command())
+    slide = modes.plot(size="slide")
+    assert tuple(slide.get_size_inches()) == pytest.approx((33.87 * CM, 19.05 * CM))
+    column = modes.plot(size="journal")
+    assert column.get_figwidth() == pytest.approx(8.5 * CM)
+    left = {round(axes.get_position().x0, 6) for axes in column.axes}
+    assert (len(column.axes), len(left)) == (4, 2)  # two beside each other
+    with pytest.raises(ValueError, match="size must be"):
+        modes.plot(size="poster")
+
+
+def test_films_have_any_size(tmp_path: Path) -> None:
+    run = cdcr.scenarios.get("step-tension").simulate(t_end=0.1)
+    for size, pixels in ((None, (1100, 560)), ("slide", (1920, 1080)), ((15, 9.9), (850, 560))):
+        path = run.animate(tmp_path / "film.gif", fps=10, size=size, overwrite=True)
+        with Image.open(path) as image:
+            assert image.size == pixels
+    with pytest.raises(ValueError, match="size must be"):
+        run.animate(tmp_path / "other.gif", size="poster")
+    assert not (tmp_path / "other.gif").exists()
 
 
 def test_the_command_line_takes_a_size(tmp_path: Path) -> None:

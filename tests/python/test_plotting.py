@@ -233,6 +233,23 @@ def test_space_is_to_scale(model: cdcr.Model) -> None:
     np.testing.assert_allclose(gram, gram[0, 0] * np.eye(2), rtol=0.0, atol=1e-12 * gram[0, 0])
 
 
+def test_axes_of_ones_own_keep_their_labels_and_get_those_they_lack(model: cdcr.Model) -> None:
+    axes: Any = Figure().add_subplot(projection="3d", xlabel="east [m]")
+    assert plot_robot(model, [0.7, -0.4], axes) is axes
+    labels = [axes.get_xlabel(), axes.get_ylabel(), axes.get_zlabel()]
+    assert labels == ["east [m]", "y [m]", "z [m]"]
+
+
+def test_pictures_of_ones_own_in_the_same_style(
+    monkeypatch: pytest.MonkeyPatch, run: cdcr.Trajectory
+) -> None:
+    monkeypatch.delattr(cdcr, "plotting")
+    with mpl.style.context(cdcr.plotting.STYLE):
+        axes = Figure().add_subplot()
+        (line,) = axes.plot([0, 1])
+    assert line.get_color() == run.plot().axes[0].lines[0].get_color()
+
+
 def test_robot_at_several_times(run: cdcr.Trajectory) -> None:
     axes = run.plot_robot(times=[0.0, 0.5, 2.0])
     backbones = {line.get_label(): line for line in axes.lines if line.get_label().endswith(" s")}

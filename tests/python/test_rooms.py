@@ -8,9 +8,13 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 PACKAGE = ROOT / "python" / "cdcr"
-TOPS = {"bench", "bindings", "cmake", "cpp", "docs", "licenses", "python", "tests", "tools"}
+TOPS = {
+    *("bench", "bindings", "cmake", "cpp", "docs", "examples", "licenses", "packaging", "python"),
+    "tests",
+    "tools",
+}
 MADE = {"build", "dist", "out"}  # by make, and in .gitignore
-MOST = 12  # modules at the top of the package
+MOST = 15  # modules at the top of the package
 SPINE = (
     *("description/*", "section/*", "chain/*", "dynamics/*", "loads/cable*"),
     *("integration/robot_ode.*", "integration/rk4.*", "integration/simulator.*"),

@@ -234,7 +234,7 @@ def test_methods_are_those_of_the_core() -> None:
         ),
         (
             FILE + "[output]\nfiles = ['png']\n",
-            'output.files must be an array with one or more of "picture", "csv", "nc", '
+            'output.files must be an array with one or more of "picture", "csv", "nc", "mcap", '
             "got 'png' (string) at output.files[0]",
         ),
         (

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import cdcr
 from cdcr.scenarios import Scenario
 from cdcr.scenarios.file.reader import load_scenario
 
@@ -43,6 +44,22 @@ def test_tensions_over_time_in_a_csv_file(tmp_path: Path) -> None:
     from_csv = load(tmp_path, CSV)
     in_place = load(tmp_path, ROWS)
     np.testing.assert_array_equal(from_csv.simulate().q, in_place.simulate().q)
+
+
+def test_a_csv_file_as_a_table(tmp_path: Path) -> None:
+    model = cdcr.Model(cdcr.robots.amouri2020())
+    file = tmp_path / "tension.csv"
+    file.write_text("cable 3,t,cable 1,cable 2\n3,0,1,2\n6,0.5,4,5\n")
+    table = cdcr.TensionTable.load(file, model, interpolation="previous")
+    assert repr(table) == "<TensionTable: 2 x 3 commands, previous>"
+    run = cdcr.simulate(model, [0, 0], [0, 0], t=[0.0, 0.4, 0.5, 1.0], tension=table)
+    np.testing.assert_array_equal(run.tension, [[1, 2, 3], [1, 2, 3], [4, 5, 6], [4, 5, 6]])
+    again = cdcr.TensionTable.load(run.save(tmp_path / "run.csv"), model)
+    np.testing.assert_array_equal(again.tension, run.tension)
+    with pytest.raises(TypeError, match=r"^model must be a "):
+        cdcr.TensionTable.load(file, model.robot)  # type: ignore[arg-type]
+    with pytest.raises(FileNotFoundError, match=r"^there is no tension file "):
+        cdcr.TensionTable.load(tmp_path / "other.csv", model)
 
 
 @pytest.mark.parametrize(

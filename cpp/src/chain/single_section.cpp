@@ -7,10 +7,13 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using Values = ShapeTable::Values;
 
-/// M^-1 X for M = a I + b q q^T.
-Matrix2d solve_mass(double a, double b, const Vector2d& q, const Matrix2d& X) noexcept {
-  const double factor = b / (a + b * q.squaredNorm());
-  return (X - factor * q * (q.transpose() * X)) / a;
+/// M^-1 for M = a I + b q q^T, with one division.
+Matrix2d inverse_mass(double a, double b, const Vector2d& q) noexcept {
+  const double along = a + b * q.squaredNorm();
+  const double inverse = 1.0 / (a * along);
+  Matrix2d result = (-b * inverse * q).lazyProduct(q.transpose());
+  result.diagonal().array() += along * inverse;
+  return result;
 }
 
 }  // namespace
@@ -28,18 +31,6 @@ void bias(const SingleSection& section, const ConstVectorRef& q, const ConstVect
   const double x = q[0], y = q[1];
   const Values v = ShapeTable::read(section.table.inertia, x * x + y * y);
   section_bias(section, v, x, y, qd[0], qd[1], h[0], h[1]);
-}
-
-void inverse_dynamics(const SingleSection& section, const ConstVectorRef& q,
-                      const ConstVectorRef& qd, const ConstVectorRef& qdd,
-                      VectorRef force) noexcept {
-  const double x = q[0], y = q[1];
-  const Values v = ShapeTable::read(section.table.inertia, x * x + y * y);
-  double h_x = 0.0, h_y = 0.0;
-  section_bias(section, v, x, y, qd[0], qd[1], h_x, h_y);
-  const double q_a = v[1] * (x * qdd[0] + y * qdd[1]);
-  force[0] = v[0] * qdd[0] + q_a * x + h_x;
-  force[1] = v[0] * qdd[1] + q_a * y + h_y;
 }
 
 double kinetic_energy(const SingleSection& section, const ConstVectorRef& q,
@@ -81,45 +72,34 @@ void potential_hessian(const SingleSection& section, const ConstVectorRef& q,
   H(0, 1) = H(1, 0) = on_q_q * x * y + cross * (g[0] * y + g[1] * x);
 }
 
-void acceleration_jacobians(const SingleSection& section, const ConstVectorRef& q_in,
-                            const ConstVectorRef& qd_in, const ConstVectorRef& force,
-                            MatrixRef on_q, MatrixRef on_qd) noexcept {
+Matrix2d acceleration_jacobians(const SingleSection& section, const ConstVectorRef& q_in,
+                                const ConstVectorRef& qd_in, const double* force, MatrixRef on_q,
+                                MatrixRef on_qd) noexcept {
   const Vector2d q = q_in, qd = qd_in;
-  Eigen::Vector2d qdd;
-  forward_dynamics(section, q_in.data(), qd_in.data(), force.data(), qdd.data());
+  Vector2d qdd;
+  forward_dynamics(section, q_in.data(), qd_in.data(), force, qdd.data());
 
   const double sigma = q.squaredNorm();
   const auto [a, b, da, db] = ShapeTable::read(section.table.inertia, sigma);
-  const auto second = ShapeTable::read(section.table.second, sigma);
-  const double dda = second[0], ddb = second[1];
+  const auto [dda, ddb, ddG_A, ddG_S] = ShapeTable::read(section.table.second, sigma);
   const double p = q.dot(qd), w = qd.squaredNorm(), q_qdd = q.dot(qdd);
-  const Matrix2d identity = Matrix2d::Identity();
 
   // With N(q, qd) = M(q) qdd + h(q, qd) at fixed qdd:  d qdd = -M^-1 dN.
-  Matrix2d stiffness;
-  potential_hessian(section, q_in, stiffness);
-  const Matrix2d dN_q = stiffness + 2.0 * da * qdd * q.transpose()  // a qdd
-                        + b * q_qdd * identity +
-                        q * (b * qdd + 2.0 * db * q_qdd * q).transpose()        // b q (q.qdd)
-                        + 2.0 * qd * (da * qd + 2.0 * dda * p * q).transpose()  // 2 a' p qd
-                        + (db * p * p + (b - da) * w) * identity +
-                        2.0 * q * (db * p * qd + (ddb * p * p + (db - dda) * w) * q).transpose();
-  const Matrix2d dN_qd = (2.0 * da * p + section.damping) * identity +
-                         2.0 * da * qd * q.transpose() +
-                         2.0 * q * (db * p * q + (b - da) * qd).transpose();
+  const double on_identity = b * q_qdd + db * p * p + (b - da) * w;
+  const double on_q_q = 2.0 * (db * q_qdd + ddb * p * p + (db - dda) * w);
+  Matrix2d dN_q;
+  potential_hessian(section, q_in, dN_q);
+  dN_q.diagonal().array() += on_identity;
+  dN_q += (2.0 * da * qdd + 4.0 * dda * p * qd + on_q_q * q) * q.transpose() +
+          q * (b * qdd + 2.0 * db * p * qd).transpose() + 2.0 * da * qd * qd.transpose();
+  Matrix2d dN_qd =
+      2.0 * da * qd * q.transpose() + 2.0 * q * (db * p * q + (b - da) * qd).transpose();
+  dN_qd.diagonal().array() += 2.0 * da * p + section.damping;
 
-  on_q = -solve_mass(a, b, q, dN_q);
-  on_qd = -solve_mass(a, b, q, dN_qd);
-}
-
-void solve_mass(const SingleSection& section, const ConstVectorRef& q, const MatrixXd& rows,
-                MatrixRef solution) noexcept {
-  const Vector2d bending = q;
-  const auto inertia = ShapeTable::read(section.table.inertia, bending.squaredNorm());
-  const Matrix2d inverse = solve_mass(inertia[0], inertia[1], bending, Matrix2d::Identity());
-  for (Index j = 0; j < rows.cols(); ++j) {
-    solution.col(j).noalias() = inverse * rows.col(j).head<2>();
-  }
+  const Matrix2d inverse = inverse_mass(a, b, q);
+  on_q = -inverse.lazyProduct(dN_q);
+  on_qd = -inverse.lazyProduct(dN_qd);
+  return inverse;
 }
 
 }  // namespace cdcr::detail::closed_form

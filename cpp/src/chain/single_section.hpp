@@ -60,12 +60,21 @@ inline void forward_dynamics(const SingleSection& section, const double* q, cons
   qdd[1] = (along * r_y - q_r * y) * inverse;
 }
 
+/// The generalised force (2) of an acceleration.
+inline void inverse_dynamics(const SingleSection& section, const double* q, const double* qd,
+                             const double* qdd, double* force) noexcept {
+  const double x = q[0], y = q[1];
+  const auto v = ShapeTable::read(section.table.inertia, x * x + y * y);
+  double h_x = 0.0, h_y = 0.0;
+  section_bias(section, v, x, y, qd[0], qd[1], h_x, h_y);
+  const double q_a = v[1] * (x * qdd[0] + y * qdd[1]);
+  force[0] = v[0] * qdd[0] + q_a * x + h_x;
+  force[1] = v[0] * qdd[1] + q_a * y + h_y;
+}
+
 void mass_matrix(const SingleSection& section, const ConstVectorRef& q, MatrixRef M) noexcept;
 void bias(const SingleSection& section, const ConstVectorRef& q, const ConstVectorRef& qd,
           VectorRef h) noexcept;
-void inverse_dynamics(const SingleSection& section, const ConstVectorRef& q,
-                      const ConstVectorRef& qd, const ConstVectorRef& qdd,
-                      VectorRef force) noexcept;
 [[nodiscard]] double kinetic_energy(const SingleSection& section, const ConstVectorRef& q,
                                     const ConstVectorRef& qd) noexcept;
 [[nodiscard]] double potential_energy(const SingleSection& section,
@@ -73,13 +82,10 @@ void inverse_dynamics(const SingleSection& section, const ConstVectorRef& q,
 void potential_gradient(const SingleSection& section, const ConstVectorRef& q,
                         VectorRef gradient) noexcept;
 void potential_hessian(const SingleSection& section, const ConstVectorRef& q, MatrixRef H) noexcept;
-/// d(qdd)/dq and d(qdd)/dqd (2, 2) at a constant force.
-void acceleration_jacobians(const SingleSection& section, const ConstVectorRef& q,
-                            const ConstVectorRef& qd, const ConstVectorRef& force, MatrixRef on_q,
-                            MatrixRef on_qd) noexcept;
-/// M^-1 applied to the columns of `rows` (2, any).
-void solve_mass(const SingleSection& section, const ConstVectorRef& q, const MatrixXd& rows,
-                MatrixRef solution) noexcept;
+/// d(qdd)/dq and d(qdd)/dqd (2, 2) at a constant force (2); gives M^-1.
+Eigen::Matrix2d acceleration_jacobians(const SingleSection& section, const ConstVectorRef& q,
+                                       const ConstVectorRef& qd, const double* force,
+                                       MatrixRef on_q, MatrixRef on_qd) noexcept;
 
 }  // namespace closed_form
 }  // namespace cdcr::detail

@@ -68,7 +68,8 @@ void inverse_dynamics(const Model& model, Data& data, const ConstVectorRef& q,
                       VectorRef force) noexcept {
   assert(data.belongs_to(model) && of_coordinates(model, q, qd, qdd, force));
   if (model.has_closed_form()) {
-    return closed_form::inverse_dynamics(single_of(model), q, qd, qdd, force);
+    closed_form::inverse_dynamics(single_of(model), q.data(), qd.data(), qdd.data(), force.data());
+    return;
   }
   const auto& state = data.kept()->at(model, q.data(), qd.data());
   detail::inverse_motion(chain_of(model), state, qdd.data(), force.data());

@@ -4,6 +4,7 @@
 #include "cdcr/dynamics.hpp"
 #include "chain/dual.hpp"
 #include "chain/forward.hpp"
+#include "loads/cable_force.hpp"
 #include "loads/total_force.hpp"
 
 namespace cdcr {
@@ -16,7 +17,7 @@ constexpr int max_commands = 16 * max_sections + 64;
 
 /// The rows of A that say d(q)/dt = qd.
 void set_upper_rows(Index m, MatrixRef A) noexcept {
-  A.topRows(m).setZero();
+  A.topLeftCorner(m, m).setZero();
   A.topRightCorner(m, m).setIdentity();
 }
 
@@ -61,19 +62,26 @@ void differentiate_motion(const Model& model, const ConstVectorRef& q, const Con
   if (B != nullptr) sweep(commands, cables, B->bottomRows(m));
 }
 
+/// The lower rows of A, and M^-1, of one section under a constant force.
+Eigen::Matrix2d differentiate_closed_form(const Model& model, const ConstVectorRef& q,
+                                          const ConstVectorRef& qd, const ConstVectorRef& command,
+                                          MatrixRef A) noexcept {
+  double force[2];
+  detail::single_actuation_force(model, command.data(), force);
+  return detail::closed_form::acceleration_jacobians(
+      detail::single_of(model), q, qd, force, A.bottomLeftCorner(2, 2), A.bottomRightCorner(2, 2));
+}
+
 }  // namespace
 
-void state_jacobian(const Model& model, Data& data, const ConstVectorRef& q,
+void state_jacobian(const Model& model, [[maybe_unused]] Data& data, const ConstVectorRef& q,
                     const ConstVectorRef& qd, const ConstVectorRef& command,
                     const Wrenches& wrenches, MatrixRef A) noexcept {
   const Index m = model.num_coordinates();
   assert(fit(model, data, q, qd, command, wrenches, A));
   set_upper_rows(m, A);
   if (model.has_closed_form() && force_is_constant(model, wrenches)) {
-    actuation_force(model, command, data.force);
-    detail::closed_form::acceleration_jacobians(detail::single_of(model), q, qd, data.force,
-                                                A.bottomLeftCorner(m, m),
-                                                A.bottomRightCorner(m, m));
+    differentiate_closed_form(model, q, qd, command, A);
     return;
   }
   differentiate_motion(model, q, qd, command, wrenches, A, nullptr);
@@ -87,13 +95,12 @@ void linearize(const Model& model, Data& data, const ConstVectorRef& q, const Co
   assert(detail::has_size(B, 2 * m, model.num_cables()));
   if (model.num_cables() == 0) return state_jacobian(model, data, q, qd, command, wrenches, A);
   B.topRows(m).setZero();
+  set_upper_rows(m, A);
   if (model.has_closed_form() && force_is_constant(model, wrenches)) {
-    state_jacobian(model, data, q, qd, command, wrenches, A);
-    detail::closed_form::solve_mass(detail::single_of(model), q, model.actuation_matrix(),
-                                    B.bottomRows(m));
+    const Eigen::Matrix2d inverse = differentiate_closed_form(model, q, qd, command, A);
+    B.bottomRows<2>() = inverse.lazyProduct(model.actuation_matrix().topRows<2>());
     return;
   }
-  set_upper_rows(m, A);
   differentiate_motion(model, q, qd, command, wrenches, A, &B);
 }
 

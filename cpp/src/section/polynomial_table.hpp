@@ -45,7 +45,7 @@ class PolynomialTable {
   /// is the derivative of f; that of a derivative stands after it.
   PolynomialTable(const std::vector<Series>& functions,
                   std::initializer_list<std::pair<int, int>> derivatives)
-      : coefficients_(num_pieces * block) {
+      : pieces_(num_pieces) {
     std::vector<Series> c(N);
     for (int piece = 0; piece < num_pieces; ++piece) {
       for (std::size_t f = 0; f < N; ++f) {
@@ -54,7 +54,7 @@ class PolynomialTable {
         c[f] = taylor_shift(functions[f], piece_centre(piece), half_width, num_powers + 2);
       }
       for (const auto& [d, f] : derivatives) c[d] = derivative(c[f], half_width);
-      double* to = coefficients_.data() + piece * block;
+      double* to = pieces_[static_cast<std::size_t>(piece)].coefficients;
       for (std::size_t k = 0; k < num_powers; ++k) {
         for (std::size_t f = 0; f < N; ++f) *to++ = static_cast<double>(c[f][k]);
       }
@@ -134,15 +134,18 @@ class PolynomialTable {
     values = sum;
   }
 
-  static constexpr std::ptrdiff_t block = std::ptrdiff_t{num_powers} * N;
-  static constexpr std::ptrdiff_t last_row = block - N;  // of the highest power
+  static constexpr std::ptrdiff_t last_row = std::ptrdiff_t{num_powers - 1} * N;  // highest power
+
+  struct alignas(64) Piece {                           // no cache line more than it fills
+    double coefficients[std::size_t{num_powers} * N];  // [power][function]
+  };
 
   /// Coefficients of the piece that sigma lies in; t is its place there.
   const double* find(double sigma, double& t) const noexcept {
-    return coefficients_.data() + find_piece(sigma, t) * block;
+    return pieces_[static_cast<std::size_t>(find_piece(sigma, t))].coefficients;
   }
 
-  Eigen::ArrayXd coefficients_;  // [piece][power][function]
+  std::vector<Piece> pieces_;
 };
 
 }  // namespace cdcr::detail

@@ -1,72 +1,41 @@
-"""The commands: list, info, run, new, audit, figures."""
+"""The commands but for those of `export` and `view`."""
 
 from __future__ import annotations
 
-import json
-import warnings
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, Any, NoReturn
+from typing import Annotated
 
 import typer
 from rich.console import Console
 
 import cdcr
-from cdcr.cli import audit, figures, info, info_json, new, run, tables
+from cdcr.cli import (
+    audit,
+    complete,
+    export,
+    figures,
+    info,
+    info_json,
+    new,
+    run,
+    schema,
+    tables,
+    validate,
+    view,
+    watch,
+)
+from cdcr.cli.plain import AsJson, Overwrite, Quiet, Robot, Size, print_json
+from cdcr.cli.plain import told_plainly as _told_plainly
 
 app = typer.Typer(
     help="Dynamics of cable-driven continuum robots.",
     no_args_is_help=True,
-    add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-
-
-Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace files that are there.")]
-
-Size = Annotated[
-    str | None,
-    typer.Option(
-        metavar="SIZE",
-        help="Of the pictures: journal (8.5 cm wide), slide (16:9), or WIDTHxHEIGHT in cm.",
-    ),
-]
-AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object in place of tables.")]
-
-
-def _print_json(table: dict[str, Any]) -> None:
-    typer.echo(json.dumps(table, indent=2, allow_nan=False))
-
-
-def _end(code: int, sentence: object) -> NoReturn:
-    """Say why on stderr, and end with an exit code."""
-    typer.echo(f"cdcr: {sentence}", err=True)
-    raise typer.Exit(code) from None
-
-
-def _warn_plainly(message: Warning | str, *_: object, **__: object) -> None:
-    """Show a warning as the sentence it is, without the place in the code it came from."""
-    typer.echo(f"cdcr: warning: {message}", err=True)
-
-
-@contextmanager
-def _told_plainly() -> Iterator[None]:
-    """Turn what users can mend into a sentence on stderr and an exit code, without a traceback."""
-    try:
-        with warnings.catch_warnings():
-            warnings.showwarning = _warn_plainly
-            yield
-    except KeyboardInterrupt:
-        _end(130, "interrupted, no file was written")
-    except run.RunFailed as failure:
-        _end(1, failure)
-    except (run.Mistake, ImportError) as error:
-        _end(2, error)
-    except OSError as error:  # the system's own have a file and a reason, ours are sentences
-        _end(2, f"{error.filename}: {error.strerror}" if error.strerror else error)
+app.add_typer(export.commands)
+app.add_typer(view.commands)
 
 
 def _version(wanted: bool) -> None:
@@ -90,16 +59,14 @@ def list_command(as_json: AsJson = False) -> None:
     """List the scenarios and robots that `run` and `info` know by name."""
     with _told_plainly():
         if as_json:
-            _print_json(tables.known())
+            print_json(tables.known())
         else:
             tables.print_list(Console())
 
 
 @app.command("info", short_help="Show what a robot is made of.")
 def info_command(
-    robot: Annotated[
-        str, typer.Argument(metavar="ROBOT|FILE.toml", help="A name from `cdcr list` or a file.")
-    ],
+    robot: Robot,
     as_json: AsJson = False,
 ) -> None:
     """Show what a robot is made of and how it is at rest.
@@ -109,7 +76,7 @@ def info_command(
     with _told_plainly():
         found = run.find_robot(robot)
         if as_json:
-            _print_json(info_json.as_dict(robot, found))
+            print_json(info_json.as_dict(robot, found))
         else:
             info.print_robot(Console(), robot, found)
 
@@ -119,7 +86,9 @@ def run_command(
     scenario: Annotated[
         str,
         typer.Argument(
-            metavar="NAME|FILE.toml", help="A scenario from `cdcr list` or a file of your own."
+            metavar="NAME|FILE.toml",
+            help="A scenario from `cdcr list` or a file of your own.",
+            autocompletion=complete.scenarios,
         ),
     ],
     out: Annotated[
@@ -127,7 +96,11 @@ def run_command(
     ] = Path("out"),
     method: Annotated[
         str | None,
-        typer.Option(metavar="METHOD", help="Integrator: bdf, adams, dopri5 or rk4."),
+        typer.Option(
+            metavar="METHOD",
+            help="Integrator: bdf, adams, dopri5 or rk4.",
+            autocompletion=complete.methods,
+        ),
     ] = None,
     t_end: Annotated[
         float | None,
@@ -147,6 +120,20 @@ def run_command(
     overwrite: Overwrite = False,
     as_json: AsJson = False,
     size: Size = None,
+    film: Annotated[
+        str | None,
+        typer.Option(
+            metavar="FORMAT",
+            help="Write a film too: mp4 (needs ffmpeg), gif or html, a page that any browser "
+            "plays. In Python, `run.animate` also takes speed, frames a second and size.",
+            autocompletion=complete.films,
+        ),
+    ] = None,
+    watching: Annotated[
+        bool,
+        typer.Option("--watch", help="Run again each time the file, or one it names, changes."),
+    ] = False,
+    quiet: Quiet = False,
 ) -> None:
     """Run a scenario; write a picture (.png) and the data (.csv, .nc); print a summary.
 
@@ -154,22 +141,25 @@ def run_command(
     has to be mended first, 130 interrupted. Files appear when all are complete; a run that failed
     leaves its numbers, in files whose names end in -incomplete.
     """
-    with _told_plainly():
+    options = {"t_end": t_end, "method": method, "rtol": rtol, "atol": atol}
+    console, own = Console(stderr=True, quiet=quiet), set[Path]()
+
+    def run_once() -> None:
         report = run.run(
             scenario,
             out,
             overwrite=overwrite,
-            console=Console(stderr=True),
+            console=console,
             size=size,
-            t_end=t_end,
-            method=method,
-            rtol=rtol,
-            atol=atol,
+            film=film,
+            own=own,
             max_steps=max_steps,
+            **options,
         )
+        own.update(report.files)
         if as_json:
-            _print_json(report.as_dict())
-        else:
+            print_json(report.as_dict())
+        elif not quiet:
             tables.print_report(Console(), report)
         if report.run is not None and not report.run.success:
             kept = ", ".join(map(str, report.files))
@@ -177,23 +167,99 @@ def run_command(
                 f"{run.as_options(report.run.message)} What was reached is in {kept}."
             )
 
+    if watching:
+        watch.run_and_watch(scenario, run_once, quiet=quiet)
+        return
+    with _told_plainly():
+        run_once()
 
-@app.command("new", short_help="Write a scenario file to start from.")
+
+@app.command("new", short_help="Write a scenario file or a robot file to start from.")
 def new_command(
     file: Annotated[Path, typer.Argument(metavar="FILE.toml", help="The file to write.")],
     name: Annotated[
         str | None,
-        typer.Option("--from", metavar="NAME", help="The scenario of `cdcr list` to start from."),
+        typer.Option(
+            "--from",
+            metavar="NAME",
+            help="The scenario of `cdcr list` to start from.",
+            autocompletion=complete.scenario_names,
+        ),
+    ] = None,
+    robot: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME",
+            help="Write a robot file: the robot of `cdcr list` to start from.",
+            autocompletion=complete.robot_names,
+        ),
     ] = None,
     overwrite: Overwrite = False,
 ) -> None:
     """Write a scenario file that `run` takes as it is, with every option in a comment.
 
-    With --from, the file of a scenario of `cdcr list`.
+    With --from, the file of a scenario of `cdcr list`; with --robot, a robot file, which a scenario
+    file names in `robot = "FILE.toml"`.
     """
     with _told_plainly(), run.mistakes():
-        new.write_scenario(file, name, overwrite=overwrite)
-        typer.echo(f"wrote {file}; next: cdcr run {file}")
+        if robot is None:
+            new.write_scenario(file, name, overwrite=overwrite)
+        elif name is not None:
+            raise run.Mistake("give either --from or --robot, not both")
+        else:
+            new.write_robot(file, robot, overwrite=overwrite)
+        typer.echo(f"wrote {file}; next: cdcr {'run' if robot is None else 'info'} {file}")
+
+
+@app.command("validate", short_help="Check robot and scenario files without running.")
+def validate_command(
+    files: Annotated[
+        list[str],
+        typer.Argument(
+            metavar="FILE.toml...",
+            help="Files of robots and scenarios.",
+            autocompletion=complete.toml_files,
+        ),
+    ],
+    as_json: AsJson = False,
+) -> None:
+    """Check robot and scenario files, and the files they name, without running.
+
+    One sentence for each fault, with its line where that is known. Exit code 2 where there is any.
+    """
+    with _told_plainly():
+        verdicts = [validate.validate(file) for file in files]
+    if as_json:
+        print_json({"files": [verdict.as_dict() for verdict in verdicts]})
+    for verdict in verdicts if not as_json else ():
+        if verdict.holds:
+            typer.echo(f"{verdict.file}: ok, {verdict.holds}")
+        for fault in verdict.faults:
+            typer.echo(f"cdcr: {fault}", err=True)
+    if any(verdict.faults for verdict in verdicts):
+        raise typer.Exit(2)
+
+
+@app.command("schema", short_help="Print the JSON schema of robot or scenario files.")
+def schema_command(
+    kind: Annotated[
+        str,
+        typer.Argument(
+            metavar="robot|scenario", help="The files.", autocompletion=complete.kinds_of_files
+        ),
+    ],
+) -> None:
+    """Print the JSON schema of robot or scenario files, by which editors complete and check keys.
+
+    Files written by `cdcr new` name it: taplo and Even Better TOML (VS Code) look for it beside the
+    file, under cdcr-robot.schema.json or cdcr-scenario.schema.json.
+    """
+    with _told_plainly():
+        for known in schema.KINDS:
+            if kind == known:
+                typer.echo(schema.text(known))
+                return
+        raise run.Mistake(f"the schema must be one of {', '.join(schema.KINDS)}, got {kind!r}")
 
 
 @app.command("audit", short_help="Hold the origin paper's claims against its own equations.")
@@ -222,11 +288,27 @@ def figures_command(
     ),
     overwrite: Overwrite = False,
     size: Size = None,
+    jobs: Annotated[
+        int | None,
+        typer.Option(
+            metavar="NUMBER",
+            min=1,
+            help="Processes that draw; by default as many as there are processors to use.",
+        ),
+    ] = None,
+    quiet: Quiet = False,
 ) -> None:
     """Redraw all figures of the origin paper (.png, .svg); write index.html, which shows them.
 
     Files appear only when all are complete.
     """
     with _told_plainly():
-        written = figures.figures(out, overwrite=overwrite, size=size, console=Console(stderr=True))
-    typer.echo(f"wrote {len(written) - 1} pictures and {written[-1]}")
+        written = figures.figures(
+            out,
+            overwrite=overwrite,
+            size=size,
+            jobs=jobs,
+            console=Console(stderr=True, quiet=quiet),
+        )
+    if not quiet:
+        typer.echo(f"wrote {len(written) - 1} pictures and {written[-1]}")

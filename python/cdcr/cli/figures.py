@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from io import BytesIO
 from pathlib import Path
 
 from rich.console import Console
 
 from cdcr import scenarios
 from cdcr.base.extras import require
+from cdcr.cli import processes
 from cdcr.cli.page import page
-from cdcr.cli.run import REPLACE, DelayedBar, check_size
+from cdcr.cli.run import REPLACE, DelayedBar, Mistake, check_size
 from cdcr.files.new_file import check_files, new_files
 from cdcr.scenarios import Scenario
 
@@ -35,45 +37,74 @@ def write_figures(
     *,
     overwrite: bool = False,
     size: str | None = None,
+    jobs: int = 1,
     progress: Callable[[int, str], object] | None = None,
 ) -> tuple[Path, ...]:
     """Draw every figure of the paper as PNG and SVG, and write the page that shows them.
 
-    The files appear together when all are complete. `progress` is told how many figures are done
-    and the name of the next. Needs the extra ``plot``.
+    The files appear together when all are complete. `jobs` processes draw, which changes no
+    picture. `progress` is told how many figures are done and the name of the next. Needs the extra
+    ``plot``.
     """
     drawn, files = paper_scenarios(), targets(out)
+    left = [one.name for one in drawn]
     tell = progress or (lambda done, name: None)
     with new_files(files, overwrite=overwrite, replace=REPLACE) as written:
         partial = {file.name: path for file, path in zip(files, written, strict=True)}
-        for done, scenario in enumerate(drawn):
-            tell(done, scenario.name)
-            _draw(scenario, partial, size)
-        tell(len(drawn), INDEX)
+        tell(0, left[0])
+        for job, pictures in _pictures([(name, size) for name in left], jobs):
+            name = drawn[job].name
+            for suffix, picture in zip(SUFFIXES, pictures, strict=True):
+                partial[f"{name}{suffix}"].write_bytes(picture)
+            left.remove(name)
+            tell(len(drawn) - len(left), left[0] if left else INDEX)
         partial[INDEX].write_text(page(drawn), encoding="utf-8")
     return files
 
 
-def _draw(scenario: Scenario, partial: dict[str, Path], size: str | None) -> None:
+def _pictures(wanted: list[tuple[str, str | None]], jobs: int) -> Iterator[tuple[int, list[bytes]]]:
+    """Yield the place of each wanted picture and its files, as they are ready."""
+    try:
+        yield from processes.results(draw, wanted, jobs)
+    except processes.JobFailed as failure:
+        told = f"the picture of {wanted[failure.job][0]!r} failed: {failure.reason}"
+        raise Mistake(told) from failure.__cause__
+
+
+def draw(wanted: tuple[str, str | None]) -> list[bytes]:
+    """Return the picture of a scenario, given by name and size, as files of `SUFFIXES`."""
+    name, size = wanted
+    scenario = scenarios.get(name)
     run = scenario.simulate() if scenario.has_run else None
     figure = scenario.figure(run, size=size)
+    files = []
     for suffix in SUFFIXES:  # the layout found for the first serves all
         # Without the date, the same picture is the same file.
         metadata = {"Date": None} if suffix == ".svg" else None
-        path = partial[f"{scenario.name}{suffix}"]
-        figure.savefig(path, format=suffix[1:], metadata=metadata)
+        file = BytesIO()
+        figure.savefig(file, format=suffix[1:], metadata=metadata)
         figure.set_layout_engine("none")
+        files.append(file.getvalue())
+    return files
 
 
 def figures(
-    out: Path, *, overwrite: bool, console: Console, size: str | None = None
+    out: Path,
+    *,
+    overwrite: bool,
+    console: Console,
+    size: str | None = None,
+    jobs: int | None = None,
 ) -> tuple[Path, ...]:
     """Write the paper's figures and their page; a bar on a terminal's stderr shows how far it is.
 
-    Returns the files written; the page is the last.
+    By default there are as many processes as processors. Returns the files written; the page is
+    the last.
     """
     check_size(size)
     check_files(targets(out), overwrite=overwrite, replace=REPLACE)
     require("matplotlib", "plot")
     with DelayedBar(console, "figures", len(paper_scenarios())) as bar:
-        return write_figures(out, overwrite=overwrite, size=size, progress=bar)
+        return write_figures(
+            out, overwrite=overwrite, size=size, jobs=jobs or processes.usable(), progress=bar
+        )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -15,19 +15,22 @@ from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, T
 
 from cdcr import robots, scenarios
 from cdcr.base.extras import require
+from cdcr.cli.complete import FILMS
 from cdcr.files.new_file import check_files, new_files
 from cdcr.robot.robot import Robot
-from cdcr.runs.export import write_run
+from cdcr.runs.save import write_run
 from cdcr.runs.stats import STATS
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios import Scenario
 from cdcr.scenarios.file.reader import load_scenario
 from cdcr.scenarios.metrics import Metric
+from cdcr.scenarios.scenario import FILES
 
 # Files of a run, the modules they are written with, and the extras that bring these.
 NEEDED = {
     ".png": (("matplotlib", "plot"),),
     ".csv": (),
+    ".mcap": (("mcap", "mcap"),),
     ".nc": (("xarray", "data"), ("h5netcdf", "data"), ("h5py", "data")),
 }
 REPLACE = "give --overwrite to replace, or another folder with --out"
@@ -101,35 +104,40 @@ def run(
     overwrite: bool,
     console: Console,
     size: str | None = None,
+    film: str | None = None,
+    own: Collection[Path] = (),
     **options: Any,
 ) -> Report:
     """Run a scenario by name or file and write its files; of a failed run its numbers.
 
-    `options` are those of `Scenario.simulate`, None where not given.
+    `film` is the format of a film to write too; files in `own` may be replaced. `options` are those
+    of `Scenario.simulate`, None where not given.
     """
     scenario = find_scenario(name)
     if not scenario.has_run:
-        _refuse_options(scenario, options)
+        _refuse_options(scenario, options | {"film": film})
         return _picture(scenario, out, overwrite=overwrite, size=size)
-    files = scenario.files
+    _check_film(film)
+    files = (*scenario.files, *([f".{film}"] if film else ()))
     targets = tuple(out / f"{scenario.name}{suffix}" for suffix in files)
+    overwrite = overwrite or all(path in own for path in targets if path.exists())
     of_integrator = {key: value for key, value in options.items() if key != "t_end"}
     with mistakes(as_options):
         scenario.times(options["t_end"])
         scenario.options(**of_integrator)
     for suffix in files:
-        for module, extra in NEEDED[suffix]:
+        for module, extra in NEEDED.get(suffix, ()):
             require(module, extra)
     check_size(size)
     check_files(targets, overwrite=overwrite, replace=REPLACE)
-    with DelayedBar(console, scenario.name, options["t_end"] or scenario.t_end) as bar:
+    with DelayedBar(console, scenario.name, options["t_end"] or scenario.t_end, real=True) as bar:
         start = time.perf_counter()
         with mistakes():
             trajectory = scenario.simulate(**options, progress=bar)
         wall_time = time.perf_counter() - start
     if not trajectory.success:
         targets, overwrite = _incomplete(targets), True
-    write(scenario, trajectory, targets, overwrite=overwrite, size=size)
+    write(scenario, trajectory, targets, overwrite=overwrite, size=size, console=console)
     return Report(
         scenario=scenario,
         method=options["method"] or scenario.method,
@@ -142,7 +150,7 @@ def run(
 
 def _incomplete(targets: tuple[Path, ...]) -> tuple[Path, ...]:
     """Return the files of numbers that a failed run leaves, under names that say so."""
-    numbers = [path for path in targets if path.suffix != ".png"]
+    numbers = [path for path in targets if path.suffix in FILES.values() and path.suffix != ".png"]
     numbers = numbers or [targets[0].with_suffix(".csv")]
     return tuple(path.with_stem(f"{path.stem}-incomplete") for path in numbers)
 
@@ -165,6 +173,20 @@ def check_size(size: str | None) -> None:
             checked_size(size)
 
 
+def _check_film(film: str | None) -> None:
+    """Refuse a kind of film that cannot be written."""
+    if film is not None:
+        require("matplotlib", "plot")
+        from cdcr.plotting.video import film_path
+
+        if film not in FILMS:
+            raise Mistake(f"--film must be one of {', '.join(FILMS)}, got {film!r}")
+        try:
+            film_path(Path(f"film.{film}"))
+        except RuntimeError as error:
+            raise Mistake(str(error).replace("writing film.", "--film ")) from error
+
+
 def _picture(scenario: Scenario, out: Path, *, overwrite: bool, size: str | None) -> Report:
     """Draw a scenario in which nothing runs."""
     targets = (out / f"{scenario.name}.png",)
@@ -178,8 +200,12 @@ def _picture(scenario: Scenario, out: Path, *, overwrite: bool, size: str | None
 def find_scenario(name: str) -> Scenario:
     """Return a scenario of the package by name, or a user's one by its file."""
     with mistakes():
-        is_file = _is_file(name, scenarios.names())
-        return load_scenario(name) if is_file else scenarios.get(name)
+        return load_scenario(name) if is_scenario_file(name) else scenarios.get(name)
+
+
+def is_scenario_file(name: str) -> bool:
+    """Return whether a user's file is meant, not a scenario of the package."""
+    return _is_file(name, scenarios.names())
 
 
 def find_robot(name: str) -> Robot:
@@ -200,30 +226,52 @@ def write(
     *,
     overwrite: bool,
     size: str | None = None,
+    console: Console | None = None,
 ) -> None:
     """Write pictures and data of a run; they appear together when all are complete."""
     with new_files(targets, overwrite=overwrite, replace=REPLACE) as parts:
         for part, target in zip(parts, targets, strict=True):
             if target.suffix == ".png":
                 scenario.figure(run, size=size).savefig(part, format="png")
+            elif run is not None and target.suffix[1:] in FILMS:
+                _write_film(run, part, target, size, console or Console(quiet=True))
             elif run is not None:
                 write_run(run, part, target.suffix)
 
 
-class DelayedBar:
-    """A progress bar on a terminal, for what lasts longer than BAR_DELAY."""
+def _write_film(
+    run: Trajectory, part: Path, target: Path, size: str | None, console: Console
+) -> None:
+    from cdcr.plotting.animation import write_frames
 
-    def __init__(self, console: Console, name: str, total: float) -> None:
+    with DelayedBar(console, target.name, 1.0) as bar:
+        write_frames(
+            run, part, target.suffix, size=size, progress=lambda done, total: bar(done / total)
+        )
+
+
+class DelayedBar:
+    """A progress bar on a terminal, for what lasts longer than BAR_DELAY.
+
+    What is left is estimated. Of a run in time, which is `real`, it also tells the time simulated
+    and how many times faster than real time it was.
+    """
+
+    def __init__(self, console: Console, name: str, total: float, *, real: bool = False) -> None:
         self._bar = Progress(
             TextColumn("{task.description}"),
             BarColumn(),
             TaskProgressColumn(),
+            *([TextColumn("{task.fields[told]}")] if real else []),
             TimeRemainingColumn(),
+            TextColumn("left"),
             console=console,
             transient=True,
         )
-        self._task = self._bar.add_task(name, total=total)
-        self._shown_from = time.monotonic() + BAR_DELAY
+        self._total = total
+        self._task = self._bar.add_task(name, total=total, told="")
+        self._start = time.monotonic()
+        self._shown_from = self._start + BAR_DELAY
         self._is_shown = False
 
     def __enter__(self) -> DelayedBar:
@@ -235,7 +283,9 @@ class DelayedBar:
         if is_late and not self._is_shown and self._bar.console.is_terminal:
             self._bar.start()
             self._is_shown = True
-        self._bar.update(self._task, completed=done, description=name)
+        speed = done / max(time.monotonic() - self._start, 1e-9)
+        told = f"{done:.4g} of {self._total:g} s, {speed:.3g} times real time"
+        self._bar.update(self._task, completed=done, description=name, told=told)
 
     def __exit__(self, *_: object) -> None:
         if self._is_shown:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 import re
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -99,6 +100,30 @@ def format_toml(value: object) -> str:
     kind = _KINDS.get(type(value), type(value).__name__)
     text = str(value).lower() if isinstance(value, bool) else repr(value)
     return f"{text if len(text) <= 60 else text[:57] + '...'} ({kind})"
+
+
+class Faults:
+    """Keeps what is wrong with the parts of a file, so that all of it is told at once."""
+
+    def __init__(self) -> None:
+        self._sentences: list[str] = []
+
+    @contextmanager
+    def kept(self) -> Iterator[None]:
+        """Keep the sentences of a ValueError for `done`."""
+        try:
+            yield
+        except ValueError as error:
+            self._sentences.append(str(error))
+
+    def __bool__(self) -> bool:
+        """Return whether there are any."""
+        return bool(self._sentences)
+
+    def done(self) -> None:
+        """Raise a ValueError with all sentences, one a line, where there are any."""
+        if self:
+            raise ValueError("\n".join(self._sentences))
 
 
 def refuse(where: str, sentences: Iterable[str]) -> None:

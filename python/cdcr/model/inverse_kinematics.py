@@ -55,7 +55,6 @@ class InverseKinematics:
     message: str
 
     def __repr__(self) -> str:
-        return (
-            f"InverseKinematics(q={self.q}, position={self.position}, "
-            f"distance={self.distance}, angle={self.angle}, reachable={self.reachable})"
-        )
+        q = ", ".join(f"{value:.6g}" for value in self.q)
+        end = "reached" if self.reachable else f"not reached: {self.message}"
+        return f"<InverseKinematics: q = [{q}], {end}>"

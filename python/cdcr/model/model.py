@@ -14,6 +14,7 @@ from cdcr.base.arrays import FloatArray, finite
 from cdcr.base.check import one_of, require_kind
 from cdcr.model.inverse_kinematics import InverseKinematics
 from cdcr.model.modes import Modes
+from cdcr.model.statespace import StateSpaceModel
 from cdcr.model.statics import checked_allocation, checked_equilibrium
 from cdcr.robot.robot import Robot
 from cdcr.robot.units import ask_about_commands
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 FORMULATIONS = tuple(f.name.replace("_", "-") for f in _core.Formulation)
 
 
-class Model(_core.Model):
+class Model(StateSpaceModel):
     """Equations of motion of a robot: M(q) qdd + h(q, qd) = B F.
 
     A model never changes, so threads may share one. q, qd, qdd are bending vectors and their rates,

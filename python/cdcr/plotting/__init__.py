@@ -13,5 +13,6 @@ from cdcr.plotting.modes import plot_modes
 from cdcr.plotting.panels import plot_run
 from cdcr.plotting.robot3d import plot_robot, plot_run_robot
 from cdcr.plotting.sizes import resize
+from cdcr.plotting.style import STYLE
 
-__all__ = ["animate", "plot_modes", "plot_robot", "plot_run", "plot_run_robot", "resize"]
+__all__ = ["STYLE", "animate", "plot_modes", "plot_robot", "plot_run", "plot_run_robot", "resize"]

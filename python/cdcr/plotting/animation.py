@@ -16,14 +16,15 @@ from cdcr.files.new_file import new_file
 from cdcr.plotting import panels, space
 from cdcr.plotting.geometry import states_at
 from cdcr.plotting.robot3d import RobotArtists, show_robot
-from cdcr.plotting.style import BLACK, StyledFigure, style
+from cdcr.plotting.sizes import Size, checked_size, is_narrow, resize
+from cdcr.plotting.style import BLACK, PRINTED, StyledFigure, style
 from cdcr.plotting.video import MAX_GIF_FPS, film_path, write_film
 
 if TYPE_CHECKING:
     from cdcr.runs.trajectory import Trajectory
 
 SIZE = (11.0, 5.6)  # of the picture [in]
-DPI = 100  # with SIZE, even numbers of pixels: films want that
+DPI, SHARP = 100, 144  # of that size, and of others that are wide: a slide has 1080 lines
 ROBOT_ROOM = np.array([5.6, 5.4])  # of the robot's part, left [in]
 NUM_FITTED = 50  # shapes that must fit into the picture, besides all tips
 
@@ -34,6 +35,7 @@ def animate(
     *,
     fps: float = 30.0,
     speed: float = 1.0,
+    size: Size = None,
     overwrite: bool = False,
     progress: Callable[[int, int], None] | None = None,
 ) -> Path:
@@ -43,7 +45,7 @@ def animate(
     ----------
     run : Trajectory
         The run.
-    path, fps, speed, overwrite, progress
+    path, fps, speed, size, overwrite, progress
         As in `Trajectory.animate`.
 
     Returns
@@ -69,17 +71,32 @@ def animate(
             raise ValueError(f"{name} must be > 0 and finite, got {value!r}")
     if path.suffix == ".gif" and fps > MAX_GIF_FPS:
         raise ValueError(f"fps must be at most {MAX_GIF_FPS:g} in a .gif, got {fps!r}")
+    checked_size(size)
+    with new_file(path, overwrite=overwrite) as partial:
+        write_frames(run, partial, path.suffix, fps=fps, speed=speed, size=size, progress=progress)
+    return path
+
+
+def write_frames(
+    run: Trajectory,
+    path: Path,
+    suffix: str,
+    *,
+    fps: float = 30.0,
+    speed: float = 1.0,
+    size: Size = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> None:
+    """Write a film to a file of any name, in the format of a suffix."""
     times = frame_times(run, speed / fps)
 
     def frames() -> Iterator[NDArray[np.uint8]]:
-        for done, frame in enumerate(draw_frames(run, times), start=1):
+        for done, frame in enumerate(draw_frames(run, times, size), start=1):
             yield frame
             if progress is not None:
                 progress(done, len(times))
 
-    with new_file(path, overwrite=overwrite) as partial:
-        write_film(partial, path.suffix, frames(), fps)
-    return path
+    write_film(path, suffix, frames(), fps)
 
 
 def frame_times(run: Trajectory, step: float) -> FloatArray:
@@ -90,13 +107,15 @@ def frame_times(run: Trajectory, step: float) -> FloatArray:
     return times
 
 
-def draw_frames(run: Trajectory, times: FloatArray) -> Iterator[NDArray[np.uint8]]:
-    """Yield a picture (height, width, 4) for each time.
+def draw_frames(
+    run: Trajectory, times: FloatArray, size: Size = None
+) -> Iterator[NDArray[np.uint8]]:
+    """Yield a picture (height, width, 4), of even numbers, for each time.
 
     What stands still is drawn once; each frame only draws what moves on a copy of it.
     """
     with style():
-        film = _Film(run, times)
+        film = _Film(run, times, size)
     states = states_at(run, times)
     samples = np.searchsorted(run.t, times, side="right") - 1  # tensions hold until the next one
     for time, q, sample in zip(times, states, samples, strict=True):
@@ -106,8 +125,10 @@ def draw_frames(run: Trajectory, times: FloatArray) -> Iterator[NDArray[np.uint8
 class _Film:
     """The picture with its moving parts."""
 
-    def __init__(self, run: Trajectory, times: FloatArray) -> None:
-        figure = StyledFigure(figsize=SIZE, dpi=DPI)
+    def __init__(self, run: Trajectory, times: FloatArray, size: Size) -> None:
+        sides = checked_size(size)
+        dpi = DPI if sides is None else PRINTED if is_narrow(sides) else SHARP
+        figure = StyledFigure(figsize=SIZE, dpi=dpi)
         self._canvas = cast(Any, figure.canvas)
         robot_axes = space.add_axes(figure)
         chosen = np.linspace(0, len(run) - 1, min(len(run), NUM_FITTED)).astype(int)
@@ -125,6 +146,9 @@ class _Film:
         figure.align_ylabels(charts)
         self._marks = [axes.axvline(run.t[0], color=BLACK, linewidth=1.0) for axes in charts]
         self._clock = figure.text(0.02, 0.95, "", fontsize=12)
+        resize(figure, size)
+        if isinstance(sides, tuple) and not is_narrow(sides):
+            space.fill(robot_axes, ROBOT_ROOM * np.array(sides) / SIZE)
         step = np.ptp(times) / max(1, len(times) - 1) or 1.0
         self._decimals = max(2, math.ceil(-math.log10(step)))  # slow motion needs more
 
@@ -147,4 +171,6 @@ class _Film:
         self._canvas.restore_region(self._still)
         for artist in sorted(self._moving, key=lambda artist: artist.get_zorder()):
             artist.draw(self._canvas.get_renderer())
-        return np.array(self._canvas.buffer_rgba())
+        picture: NDArray[np.uint8] = np.array(self._canvas.buffer_rgba())
+        height, width = (side // 2 * 2 for side in picture.shape[:2])  # films want even numbers
+        return picture[:height, :width]

@@ -3,19 +3,45 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
 from cdcr.base.arrays import FloatArray
 
 if TYPE_CHECKING:
-    from cdcr.model.model import Model
     from cdcr.robot.cable import Cable
-    from cdcr.runs.trajectory import Trajectory
+    from cdcr.robot.robot import Robot
 
 PIECES = 48  # straight pieces of a section's backbone
 CORNERS = 48  # of a disk
+
+
+class Posed(Protocol):
+    """A model, as far as it tells where things are."""
+
+    @property
+    def robot(self) -> Robot:
+        """The robot described."""
+
+    def pose(self, q: FloatArray, section: int, fraction: float) -> tuple[FloatArray, FloatArray]:
+        """Return R (3, 3) and p (3,) [m] at a fraction of a section's length."""
+
+
+class Motion(Protocol):
+    """A run or a reference, as far as it tells states over time."""
+
+    @property
+    def t(self) -> FloatArray:
+        """Times (N,) [s]."""
+
+    @property
+    def q(self) -> FloatArray:
+        """Bending vectors (N, 2n) [rad]."""
+
+    @property
+    def qd(self) -> FloatArray:
+        """Their rates (N, 2n) [rad/s]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,7 +75,7 @@ class RobotShape:
         return np.concatenate([self.backbone, *self.disks, *self.cables])
 
 
-def robot_shape(model: Model, q: FloatArray) -> RobotShape:
+def robot_shape(model: Posed, q: FloatArray) -> RobotShape:
     """Return the shape at q (2n,) [rad].
 
     A section without disks leads its cables parallel to the backbone, as the model takes them.
@@ -82,7 +108,7 @@ def _hole(cable: Cable) -> FloatArray:
     return cable.radius * np.array([np.cos(cable.angle), np.sin(cable.angle), 0.0])
 
 
-def base_plate(model: Model) -> FloatArray:
+def base_plate(model: Posed) -> FloatArray:
     """Return the rim (48, 3) of a plate that is wider than anything that stands on it [m]."""
     robot = model.robot
     widest = max(
@@ -100,14 +126,14 @@ def _circle(radius: float, R: FloatArray, p: FloatArray) -> FloatArray:
     return np.asarray(p + flat @ R.T)
 
 
-def states_at(run: Trajectory, times: FloatArray) -> FloatArray:
+def states_at(run: Motion, times: FloatArray) -> FloatArray:
     """Return q (M, 2n) at times (M,) [s]: between samples the cubic that has their q and qd."""
     start, end = run.t[0], run.t[-1]
     if not np.all((times >= start) & (times <= end)):
         raise ValueError(f"times must lie within the run, {start:g} to {end:g} s, got {times}")
-    if len(run) == 1:
+    if len(run.t) == 1:
         return np.repeat(run.q, len(times), axis=0)
-    right = np.clip(np.searchsorted(run.t, times, side="right"), 1, len(run) - 1)
+    right = np.clip(np.searchsorted(run.t, times, side="right"), 1, len(run.t) - 1)
     left = right - 1
     h = (run.t[right] - run.t[left])[:, None]
     s = (times - run.t[left])[:, None] / h

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from cdcr.base.arrays import FloatArray
 from cdcr.plotting import space
 from cdcr.plotting.geometry import PIECES
+from cdcr.plotting.sizes import COLUMN, TEXT, Size, checked_size, is_narrow, shrink_letters
 from cdcr.plotting.style import ALARM, BLACK, GREY, StyledFigure, line_colors, style
 
 if TYPE_CHECKING:
@@ -18,10 +19,15 @@ if TYPE_CHECKING:
 PANEL = np.array([2.9, 4.4])  # [in]
 SWING = (1.0, 0.5)  # of the phases drawn to each side of rest, the full one last
 VIEW = {"elev": 24.0, "azim": -52.0}  # [deg]: shows motion along x and along y
-TITLE = 0.5  # room above the panels [in]
+TITLE = 0.5  # room above each panel [in]
+FOOT = 0.15  # and below all [in]
+MAX_COLUMNS = 64  # two for each section: all beside each other
+LEAST_WIDTH = 1.6  # of a panel where there is room for another below [in]
 
 
-def plot_modes(modes: Modes, count: int = 4, *, deflection: float = 0.15) -> StyledFigure:
+def plot_modes(
+    modes: Modes, count: int = 4, *, deflection: float = 0.15, size: Size = None
+) -> StyledFigure:
     """Draw the first mode shapes: the backbone at rest and swung to both sides.
 
     Parameters
@@ -33,6 +39,8 @@ def plot_modes(modes: Modes, count: int = 4, *, deflection: float = 0.15) -> Sty
     deflection : float
         Farthest that a point of the backbone is moved, as a share of the robot's length; the true
         size of a free vibration is whatever started it.
+    size : optional
+        As in `Scenario.figure`.
 
     Returns
     -------
@@ -60,23 +68,32 @@ def plot_modes(modes: Modes, count: int = 4, *, deflection: float = 0.15) -> Sty
     rest = _backbone(modes.model, modes.q)
     swings = [_swings(modes, k, deflection * modes.model.robot.length) for k in range(shown)]
     points = np.concatenate([rest, *(line for pair in swings for line in pair)])
+    sides = checked_size(size)
     with style():
-        size = PANEL * [shown, 1] + [0.0, TITLE]
-        figure = StyledFigure(figsize=tuple(size))
+        columns = min(shown, _columns(sides))
+        rows = -(-shown // columns)
+        panel = _panel(sides, columns, rows)
+        figure = StyledFigure(figsize=tuple(panel * [columns, rows] + [0.0, TITLE * rows + FOOT]))
+        paper = figure.get_size_inches()
+        letters = TEXT if is_narrow(sides) else 1.0
         for k, (color, pair) in enumerate(zip(line_colors(shown), swings, strict=True)):
             axes = space.add_axes(figure)
             axes.view_init(**VIEW)
             space.show_points(axes, points)
-            space.fill(axes, PANEL)
+            space.fill(axes, panel, letters)
+            row, column = divmod(k, columns)
+            height = FOOT + (rows - 1 - row) * (panel[1] + TITLE)
+            corner = np.array([column * panel[0], height]) / paper
             box = axes.get_position()
-            axes.set_position((box.x0 + k / shown, box.y0, box.width, box.height))
+            axes.set_position((box.x0 + corner[0], box.y0 + corner[1], box.width, box.height))
             for j, line in enumerate(pair):
                 axes.plot(*line.T, color=color, alpha=1.0 if j % len(SWING) == 0 else 0.45)
             axes.plot(*rest.T, color=BLACK, linewidth=2.4)
             unstable = modes.squared_frequency[k] <= 0.0
+            middle = corner + np.array([panel[0], 2.0 * panel[1] + TITLE]) / 2.0 / paper
             figure.text(
-                (k + 0.5) / shown,
-                1.0 - 0.5 * TITLE / size[1],
+                middle[0],
+                middle[1],
                 _label(modes, k),
                 ha="center",
                 va="center",
@@ -85,7 +102,26 @@ def plot_modes(modes: Modes, count: int = 4, *, deflection: float = 0.15) -> Sty
         if not modes.stable:
             figure.text(0.01, 0.01, "not stable", color=ALARM)
         figure.text(0.99, 0.01, "black: at rest", color=GREY, ha="right")
+        if is_narrow(sides):
+            shrink_letters(figure)
     return figure
+
+
+def _columns(sides: Any) -> int:
+    """Return how many panels have room beside each other."""
+    if sides is None:
+        return MAX_COLUMNS
+    return 2 if isinstance(sides, str) else max(1, int(sides[0] / LEAST_WIDTH))
+
+
+def _panel(sides: Any, columns: int, rows: int) -> FloatArray:
+    """Return width and height of a panel, titles apart [in]."""
+    if sides is None:
+        return PANEL
+    if isinstance(sides, str):
+        width = COLUMN / columns
+        return np.array([width, width * PANEL[1] / PANEL[0]])
+    return np.array([sides[0] / columns, max((sides[1] - FOOT) / rows - TITLE, TITLE)])
 
 
 def _label(modes: Modes, k: int) -> str:

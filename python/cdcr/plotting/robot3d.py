@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.colors import to_rgba
-from matplotlib.figure import Figure
-from matplotlib.legend import Legend
-from matplotlib.legend_handler import HandlerTuple
-from matplotlib.lines import Line2D
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # type: ignore[import-untyped]
 from numpy.typing import ArrayLike
 
@@ -18,6 +14,8 @@ from cdcr.base.arrays import FloatArray, finite
 from cdcr.base.check import Check
 from cdcr.plotting import panels, space
 from cdcr.plotting.geometry import base_plate, robot_shape, states_at
+from cdcr.plotting.legend import ShapeSample, legend_of
+from cdcr.plotting.sizes import Size, checked_size, is_narrow, resize
 from cdcr.plotting.style import BLACK, DISK, GREY, StyledFigure, line_colors, style
 
 if TYPE_CHECKING:
@@ -108,6 +106,7 @@ def plot_robot(
     *,
     tension: ArrayLike | None = None,
     alpha: float = 1.0,
+    size: Size = None,
 ) -> Any:
     """Draw a robot in space, to scale.
 
@@ -123,6 +122,8 @@ def plot_robot(
         Tensions [N]: told in the legend, and taut cables are drawn thicker.
     alpha : float
         Opacity, 0 to 1.
+    size : optional
+        Of the new figure, as in `Scenario.figure`.
 
     Returns
     -------
@@ -138,7 +139,7 @@ def plot_robot(
     """
     state = _checked("q", q, model.num_coordinates)
     with style():
-        axes = space.add_axes(StyledFigure(figsize=PICTURE)) if ax is None else _in_space(ax)
+        axes = _axes(ax, size)
         show_robot(axes, model, [state])
         robot = RobotArtists(axes, model, state, alpha=alpha)
         if tension is None:
@@ -148,12 +149,17 @@ def plot_robot(
             robot.show_tension(values, np.max(values, initial=0.0))
             robot.name_cables([f": {value:.3g} N" for value in values])
         if ax is None:
-            _finish(axes)
+            _finish(axes, size)
     return axes
 
 
 def plot_run_robot(
-    run: Trajectory, times: ArrayLike | None = None, *, num: int = 5, ax: Any = None
+    run: Trajectory,
+    times: ArrayLike | None = None,
+    *,
+    num: int = 5,
+    ax: Any = None,
+    size: Size = None,
 ) -> Any:
     """Draw the robot at several times of a run, as `Trajectory.plot_robot` does.
 
@@ -161,7 +167,7 @@ def plot_run_robot(
     ----------
     run : Trajectory
         The run.
-    times, num, ax
+    times, num, ax, size
         As in `Trajectory.plot_robot`.
 
     Returns
@@ -188,7 +194,7 @@ def plot_run_robot(
     states = states_at(run, chosen)
     fading = np.linspace(FAINTEST, 1.0, len(chosen)) if len(chosen) > 1 else [1.0]
     with style():
-        axes = space.add_axes(StyledFigure(figsize=PICTURE)) if ax is None else _in_space(ax)
+        axes = _axes(ax, size)
         show_robot(axes, run.model, states, run.tip)
         axes.plot(*run.tip.T, color=GREY, linewidth=0.9, linestyle=":", label="path of the tip")
         for k, (time, q, alpha) in enumerate(zip(chosen, states, fading, strict=True)):
@@ -200,7 +206,7 @@ def plot_run_robot(
                 robot.backbones[0].set_label(name)
         robot.name_cables()
         if ax is None:
-            _finish(axes)
+            _finish(axes, size)
     return axes
 
 
@@ -213,48 +219,36 @@ def show_robot(axes: Any, model: Model, states: Iterable[FloatArray], *more: Flo
     axes.add_collection3d(base)
 
 
-class ShapeSample(Line2D):
-    """What a legend shows of a whole shape: a piece of each section, as faint as the shape."""
-
-    def __init__(self, colors: Sequence[Any], alpha: float, label: str) -> None:
-        super().__init__([], [], color=colors[0], linewidth=2.4, alpha=alpha, label=label)
-        self.pieces = tuple(
-            Line2D([], [], color=color, linewidth=2.4, alpha=alpha, solid_capstyle="butt")
-            for color in colors
-        )
-
-
-class _SampleHandler(HandlerTuple):
-    """Draws the pieces of a sample end to end."""
-
-    def create_artists(self, legend: Any, orig_handle: Any, *where: Any) -> Any:
-        return super().create_artists(legend, orig_handle.pieces, *where)
+def _axes(ax: Any, size: Size) -> Any:
+    """Return the axes to draw into, in a new figure where there are none."""
+    checked_size(size)
+    if ax is None:
+        return space.add_axes(StyledFigure(figsize=PICTURE))
+    if size is not None:
+        raise ValueError("size is that of a new figure; give either ax or size, not both")
+    if getattr(ax, "name", "") != "3d":
+        kind = type(ax).__name__
+        raise ValueError(f"ax must be an Axes3D, as projection='3d' makes one, got {kind}")
+    space.label(ax)
+    return ax
 
 
-def legend_of(figure: Figure, axes: Any, **look: Any) -> Legend:
-    """Add the legend of Axes3D to a figure; `look` goes to `Figure.legend`."""
-    handles, labels = axes.get_legend_handles_labels()
-    handlers = {ShapeSample: _SampleHandler(ndivide=None, pad=0.0)}
-    return figure.legend(handles, labels, handler_map=handlers, **look)
-
-
-def _finish(axes: Any) -> None:
-    """Give a new picture its size, and its legend at the right."""
-    figure = axes.figure
-    scale, size = space.fit(axes, PICTURE)
-    width = size[0]
+def _finish(axes: Any, size: Size) -> None:
+    """Give a new picture its size, and its legend at the right, or below in a narrow one."""
+    figure, legend_width = axes.figure, 0.0
     if axes.get_legend_handles_labels()[0]:
         legend = legend_of(figure, axes, loc="center right", borderaxespad=0.5, handlelength=1.4)
-        width += legend.get_window_extent().width / figure.dpi
-    figure.set_size_inches(width, size[1])
-    space.place(axes, scale, size)
-
-
-def _in_space(axes: Any) -> Any:
-    if getattr(axes, "name", "") != "3d":
-        kind = type(axes).__name__
-        raise ValueError(f"ax must be an Axes3D, as projection='3d' makes one, got {kind}")
-    return axes
+        legend_width = legend.get_window_extent().width / figure.dpi
+    sides = checked_size(size)
+    if is_narrow(sides):
+        resize(figure, size)
+    elif isinstance(sides, tuple):
+        figure.set_size_inches(*sides)
+        space.fill(axes, np.array([sides[0] - legend_width, sides[1]]))
+    else:
+        scale, room = space.fit(axes, PICTURE)
+        figure.set_size_inches(room[0] + legend_width, room[1])
+        space.place(axes, scale, room)
 
 
 def _checked(name: str, value: ArrayLike, size: int) -> FloatArray:

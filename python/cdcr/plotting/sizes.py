@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import textwrap
+from functools import partial
 from typing import Any, Literal
 
 import numpy as np
@@ -12,7 +13,7 @@ from matplotlib.legend import Legend
 from matplotlib.text import Text
 
 from cdcr.plotting import space
-from cdcr.plotting.robot3d import legend_of
+from cdcr.plotting.legend import legend_of
 from cdcr.plotting.style import NARROW, style
 
 Size = str | tuple[float, float] | None
@@ -55,6 +56,18 @@ def checked_size(size: Any) -> tuple[float, float] | Literal["journal"] | None:
     return (width * CM, height * CM)
 
 
+def is_narrow(sides: tuple[float, float] | Literal["journal"] | None) -> bool:
+    """Return whether a checked size is that of a column."""
+    return sides is not None and (isinstance(sides, str) or sides[0] < NARROW)
+
+
+def shrink_letters(figure: Figure) -> None:
+    """Make all letters of a figure those of a column."""
+    figure.canvas.draw()  # settles ticks and layout
+    for text in figure.findobj(Text):
+        text.set_fontsize(TEXT * float(text.get_fontsize()))
+
+
 def resize(figure: Figure, size: Size) -> Figure:
     """Give a figure a size, as `Scenario.figure` does; return it.
 
@@ -89,19 +102,19 @@ def resize(figure: Figure, size: Size) -> Figure:
         return figure
     with style():
         width = COLUMN if isinstance(sides, str) else sides[0]
-        if width < NARROW:
-            _stack(figure, width)
+        if is_narrow(sides):
+            (getattr(figure, "narrow", None) or partial(_stack, figure))(width)
         if not isinstance(sides, str):
             figure.set_size_inches(*sides)
+        for arrange in getattr(figure, "arrangements", ()):
+            arrange()
     return figure
 
 
 def _stack(figure: Figure, width: float) -> None:
     """Put robot and panels one above the other, and make the letters small."""
-    figure.canvas.draw()  # settles ticks and layout
+    shrink_letters(figure)
     figure.set_layout_engine("none")
-    for text in figure.findobj(Text):
-        text.set_fontsize(TEXT * float(text.get_fontsize()))
     letters = round((width - LEFT) / LETTER)  # of a line over a panel
     title: Text | None = getattr(figure, "_suptitle")  # noqa: B009 - unknown to its types
     lines = 0
@@ -123,7 +136,7 @@ def _stack(figure: Figure, width: float) -> None:
     for axes in spaces:
         top -= SPACE
         room = np.array([width, SPACE])
-        space.fill(axes, room)
+        space.fill(axes, room, TEXT)
         box = axes.get_position()
         axes.set_position((box.x0, box.y0 + top / height, box.width, box.height))
     top -= ROW * rows

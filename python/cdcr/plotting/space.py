@@ -19,6 +19,7 @@ FORESHORTENED = 0.6  # the y axis, in this view
 SLENDEREST = 0.3  # shortest side of the box over its longest: room for the numbers
 LABEL_OFFSET, TICK_OFFSET = 29.0, 11.5  # of a cube's labels and numbers [pt]
 ASIDE = 5.0  # farther off stands the label of y, whose numbers lie towards it [pt]
+NUMBER = (0.28, 0.17)  # room that one needs [in]
 LABELS = (0.55, 0.8, 0.9, 0.2)  # room left, below, right, above the box for its labels [in]
 
 
@@ -27,11 +28,19 @@ def add_axes(figure: Figure) -> Any:
     axes: Any = figure.add_axes((0.0, 0.0, 1.0, 1.0), projection="3d", proj_type="ortho")
     axes.view_init(**VIEW)
     axes.computed_zorder = False
-    axes.set(xlabel="x [m]", ylabel="y [m]", zlabel="z [m]")
+    axes.patch.set_visible(False)  # it reaches over neighbours
+    label(axes)
     for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
         axis.pane.fill = False
         axis.pane.set_edgecolor("none")
     return axes
+
+
+def label(axes: Any) -> None:
+    """Label what has no label yet of Axes3D, in metres."""
+    for axis, name in zip((axes.xaxis, axes.yaxis, axes.zaxis), "xyz", strict=True):
+        if not axis.get_label_text():
+            axis.set_label_text(f"{name} [m]")
 
 
 def show_points(axes: Any, points: FloatArray) -> None:
@@ -51,15 +60,22 @@ def _number_axes(axes: Any, low: FloatArray, high: FloatArray) -> None:
     """Give the box its proportions, and its axes as many numbers as have room."""
     size = high - low
     axes.set_box_aspect(tuple(size))  # it would write into an array
-    cube = size / np.sqrt(np.mean(size**2))  # 1 for a cube
     for k, axis in enumerate((axes.xaxis, axes.yaxis, axes.zaxis)):
         room = MAX_TICKS * size[k] / size.max() * (FORESHORTENED if k == 1 else 1.0)
         ticks = MaxNLocator(max(2, round(room)), steps=[1, 2, 5, 10]).tick_values(low[k], high[k])
         corner = low[k] + 0.15 * size[k] * (k == 1)  # where x and y meet, x is numbered
         axis.set_ticks(ticks[(ticks >= corner) & (ticks <= high[k])])
+    _keep_off(axes)
+
+
+def _keep_off(axes: Any, letters: float = 1.0) -> None:
+    """Set how far labels and numbers stand off, for letters that many times as large."""
+    size = np.ptp(_limits(axes), axis=1)
+    cube = size / np.sqrt(np.mean(size**2))  # 1 for a cube
+    for k, axis in enumerate((axes.xaxis, axes.yaxis, axes.zaxis)):
         # Matplotlib keeps labels off an axis by shares of the other two sides: even that out.
-        away = np.sqrt(np.mean(np.delete(cube, k) ** 2))
-        axis.labelpad = LABEL_OFFSET / away - 21.0 + ASIDE * (k == 1)
+        away = np.sqrt(np.mean(np.delete(cube, k) ** 2)) / letters
+        axis.labelpad = LABEL_OFFSET / away - 21.0 + ASIDE * letters * (k == 1)
         axis.set_tick_params(pad=TICK_OFFSET / away - 8.0)
 
 
@@ -76,34 +92,51 @@ def paper_directions(axes: Any) -> FloatArray:
     return np.stack([across, np.cross(towards_viewer(axes), across)])
 
 
-def fit(axes: Any, room: FloatArray) -> tuple[float, FloatArray]:
+def fit(axes: Any, room: FloatArray, letters: float = 1.0) -> tuple[float, FloatArray]:
     """Return the scale at which Axes3D fills a room (width, height) and the size it takes [in].
 
-    Matplotlib draws Axes3D into a square; the scale is the side of that square.
+    Matplotlib draws Axes3D into a square; the scale is the side of that square. `letters` is how
+    many times as large as usual the letters are.
     """
     corners = np.array(list(product(*_limits(axes))))
     x, y, _ = proj3d.proj_transform(*corners.T, axes.get_proj())
     box = np.array([np.ptp(x), np.ptp(y)]) / axes.viewLim.width
-    left, below, right, above = LABELS
+    left, below, right, above = letters * np.array(LABELS)
     labels = np.array([left + right, below + above])
     scale = float(np.min((room - labels) / box))
     return scale, scale * box + labels
 
 
-def place(axes: Any, scale: float, room: FloatArray) -> None:
+def place(axes: Any, scale: float, room: FloatArray, letters: float = 1.0) -> None:
     """Put Axes3D into the middle of a room (width, height) [in] at the left of its figure."""
     paper = axes.figure.get_size_inches()
-    left, below, right, above = LABELS
+    left, below, right, above = letters * np.array(LABELS)
     center = np.array([room[0] + left - right, room[1] + below - above]) / 2
     # The middle of the box has the coordinates (0, 0) of the square.
     corner = center + scale * axes.viewLim.min / axes.viewLim.size
     axes.set_position((*(corner / paper), *(scale / paper)))
+    _thin_numbers(axes, scale, letters)
 
 
-def fill(axes: Any, room: FloatArray) -> None:
+def _thin_numbers(axes: Any, scale: float, letters: float) -> None:
+    """Leave out every other number of an axis on which they are too close."""
+    for k, axis in enumerate((axes.xaxis, axes.yaxis, axes.zaxis)):
+        ticks = np.asarray(axis.get_ticklocs())
+        if len(ticks) < 3:
+            continue
+        points = np.zeros((2, 3))
+        points[:, k] = ticks[:2]
+        x, y, _ = proj3d.proj_transform(*points.T, axes.get_proj())
+        apart = np.abs([x[1] - x[0], y[1] - y[0]]) * scale / axes.viewLim.width
+        if np.all(apart < letters * np.array(NUMBER)):
+            axis.set_ticks(ticks[::2])
+
+
+def fill(axes: Any, room: FloatArray, letters: float = 1.0) -> None:
     """Let Axes3D fill a room (width, height) [in] at the left of its figure."""
-    scale, _ = fit(axes, room)
-    place(axes, scale, room)
+    _keep_off(axes, letters)
+    scale, _ = fit(axes, room, letters)
+    place(axes, scale, room, letters)
 
 
 def _limits(axes: Any) -> FloatArray:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Callable
 from contextlib import AbstractContextManager
 from typing import Any
 
@@ -67,6 +68,10 @@ class StyledFigure(Figure):
         """Take the arguments of Figure."""
         super().__init__(*args, **kwargs)
         FigureCanvasAgg(self)
+        # What draws anew for a column of a width [in], where moving panels is not enough.
+        self.narrow: Callable[[float], None] | None = None
+        # What finds places for names, after panels have moved.
+        self.arrangements: list[Callable[[], None]] = []
 
     def savefig(self, *args: Any, **kwargs: Any) -> None:
         """Save the picture; the arguments are those of Figure.savefig."""

@@ -117,6 +117,30 @@ def robot_text(robot: Robot) -> str:
     return _HEAD + "\n" + "\n".join(robot_lines(robot)) + "\n"
 
 
+def switched_off(robot: Robot) -> str:
+    """Return the fields that `robot_text` leaves out, in comments, with their defaults."""
+    section, cable = robot.sections[0], Cable(radius=0.02, angle=0.0, end_section=0, friction=0.0)
+    return "\n".join([
+        "",
+        "# What else there may be, with its default. To switch a line on, put it into its table",
+        "# and take away the # before it. Of the robot, above its sections:",
+        *_advanced(robot),
+        "# Of a section:",
+        *_advanced(section),
+        "# Cables that no section lists; all values an example:",
+        "#[[cables]]",
+        *(f"#{line}" for line in _lines(cable, all_fields=True)),
+        "",
+    ])  # fmt: skip
+
+
+def _advanced(thing: Robot | Section) -> Iterator[str]:
+    off = [item.name for item in fields(thing) if not _is_written(thing, item, all_fields=False)]
+    for line in _lines(thing, all_fields=True):
+        if line.split(" ")[0] in off:
+            yield f"#{line}"
+
+
 def robot_lines(robot: Robot, *, all_fields: bool = False) -> list[str]:
     """Return the tables of a robot by lines, also with the advanced fields that say nothing."""
     lines = list(_lines(robot, all_fields))

@@ -19,6 +19,9 @@ from cdcr.robot.parts import Parts, part_counts, parts_of
 from cdcr.robot.section import Section
 from cdcr.robot.units import ask_about_robot
 
+if TYPE_CHECKING:
+    from cdcr.view import View
+
 Vector = tuple[float, float, float]
 Matrix = tuple[Vector, Vector, Vector]  # three rows
 
@@ -282,6 +285,36 @@ class Robot:
         from cdcr.robot.file import save_robot
 
         save_robot(self, path, overwrite=overwrite)
+
+    def view(self, *, port: int = 8080, browser: bool = True) -> View:
+        """Simulate the robot in the browser, live. Needs the extra ``view``.
+
+        It begins at rest. Sliders change cables, gravity and payload; the mouse pulls the backbone.
+        A robot without damping gets a tenth of the critical one, which a slider changes too. A
+        notebook shows the recorded page, on which the robot goes round in a circle.
+
+        Parameters
+        ----------
+        port : int, default 8080
+            Where it is served, to this machine alone; 0 for any free one.
+        browser : bool, default True
+            Whether to open it in the browser.
+
+        Returns
+        -------
+        View
+            Served until its ``close()``, at its ``url``; ``wait()`` waits for Ctrl-C.
+
+        Raises
+        ------
+        ImportError
+            Without the extra ``view``.
+        OSError
+            Where the port is in use.
+        """
+        from cdcr import view
+
+        return view.show(view.Session(self), "robot", port=port, browser=browser)
 
     def _to_core(self) -> _core.Robot:
         plain = {item.name: getattr(self, item.name) for item in fields(self)}

@@ -47,11 +47,16 @@ def _keys(item: Field[Any], partial: bool) -> Iterator[tuple[str, Any]]:
         if partial:
             return
         table = f"one [[{item.name}]] table for each {item.name.removesuffix('s')}"
-        yield item.name, (list[Any], pydantic.Field(given, description=table))
+        about = pydantic.Field(given, description=table, title=_about(item))
+        yield item.name, (list[Any], about)
         return
     for suffix, name in (("", unit), ("_deg", "deg")) if unit == "rad" else (("", unit),):
-        about = pydantic.Field(given, description=_requirement(item, name))
+        about = pydantic.Field(given, description=_requirement(item, name), title=_about(item))
         yield f"{item.name}{suffix}", (_TYPES[kind], about)
+
+
+def _about(item: Field[Any]) -> str:
+    return f"{item.name.replace('_', ' ')}, {item.metadata['about']}"
 
 
 def _requirement(item: Field[Any], unit: str) -> str:

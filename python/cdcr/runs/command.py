@@ -5,6 +5,8 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
 from typing import Any, Literal, TypeAlias, cast
 
 import numpy as np
@@ -12,7 +14,8 @@ from numpy.typing import ArrayLike
 
 from cdcr import _core
 from cdcr.base.arrays import finite
-from cdcr.base.check import format_value, one_of
+from cdcr.base.check import format_value, one_of, require_kind
+from cdcr.files.number_csv import RUN_TIME, Layout, read_numbers
 from cdcr.model.model import Model
 
 Interpolation = Literal["linear", "previous"]
@@ -57,6 +60,45 @@ class TensionTable:
     def __repr__(self) -> str:
         rows = " x ".join(str(size) for size in np.shape(self.tension))
         return f"<TensionTable: {rows} commands, {self.interpolation}>"
+
+    @classmethod
+    def load(
+        cls, path: str | PathLike[str], model: Model, *, interpolation: Interpolation = "linear"
+    ) -> TensionTable:
+        """Read commands from a CSV file, as the files of scenarios do.
+
+        Its columns are t, cable 1, cable 2 and so on, times in s and commands in N, in m of cables
+        driven by length. The file of a run of that robot can be read too, for its commands.
+
+        Parameters
+        ----------
+        path : path-like
+            The file.
+        model : Model
+            The robot whose cables they are.
+        interpolation : {"linear", "previous"}, optional
+            Connect the rows by lines, or hold each until the next time.
+
+        Returns
+        -------
+        TensionTable
+
+        Raises
+        ------
+        FileNotFoundError
+            If there is no such file.
+        ValueError
+            For other columns, and for what is no number >= 0, with file, line and column.
+        """
+        from cdcr.runs.export import by_length, columns_of
+
+        require_kind("model", model, Model)
+        columns = tuple(f"cable {j + 1}" for j in range(model.num_cables))
+        plain = Layout(columns, "a number >= 0 [N]", 0.0)
+        asked = columns_of(model, "command" if by_length(model) else "tension")
+        of_a_run = Layout(tuple(asked), plain.requirement, 0.0, RUN_TIME)
+        _, t, rows = read_numbers(Path(path), "tension file", [plain, of_a_run])
+        return cls(t, rows, interpolation)
 
 
 CommandFunction: TypeAlias = Callable[..., ArrayLike]

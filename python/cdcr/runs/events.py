@@ -33,6 +33,24 @@ class EventRecord(NamedTuple):
     qd: FloatArray
 
 
+class SlackEvent(NamedTuple):
+    """A length-driven cable turned slack or taut.
+
+    Attributes
+    ----------
+    time : float
+        When [s].
+    cable : int
+        Index of the cable.
+    slack : bool
+        Slack from here on, or taut again.
+    """
+
+    time: float
+    cable: int
+    slack: bool
+
+
 def watched(events: EventFunction | Sequence[EventFunction]) -> list[Watched]:
     """Return what the core looks for, of functions with attributes as SciPy's solve_ivp has them.
 

@@ -1,11 +1,10 @@
-"""Runs as labelled data and as files. One table of quantities serves every format."""
+"""Runs as labelled data, netCDF and CSV. One table of quantities serves every format."""
 
 from __future__ import annotations
 
 import csv
 import io
 import json
-import os
 from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
@@ -16,7 +15,6 @@ import numpy as np
 from cdcr import _core
 from cdcr.base.arrays import FloatArray
 from cdcr.base.extras import require
-from cdcr.files.new_file import new_file
 from cdcr.files.number_csv import RUN_TIME
 from cdcr.runs.stats import STATS
 
@@ -117,11 +115,11 @@ def to_xarray(run: Trajectory) -> xarray.Dataset:
         name: (name, labels, {"units": units, "long_name": long_name})
         for name, (labels, units, long_name) in coordinates(run).items()
     }
-    dataset: xarray.Dataset = xr.Dataset(data, coords, _attributes(run))
+    dataset: xarray.Dataset = xr.Dataset(data, coords, attributes(run))
     return dataset
 
 
-def _attributes(run: Trajectory) -> dict[str, str | int]:
+def attributes(run: Trajectory) -> dict[str, str | int]:
     """Where the numbers come from."""
     return {
         "title": "Run of a cable-driven continuum robot",
@@ -138,22 +136,8 @@ def _attributes(run: Trajectory) -> dict[str, str | int]:
     }
 
 
-def save(run: Trajectory, path: str | os.PathLike[str], *, overwrite: bool = False) -> Path:
-    """Write the run to a file; see Trajectory.save."""
-    path = Path(path)
-    if path.suffix not in (".nc", ".csv"):
-        raise ValueError(f"the file name must end in .nc or .csv, got {path.name!r}")
-    with new_file(path, overwrite=overwrite) as part:
-        write_run(run, part, path.suffix)
-    return path
-
-
-def write_run(run: Trajectory, path: Path, suffix: str) -> None:
-    """Write the run as .nc or .csv to a file of any name."""
-    (_write_netcdf if suffix == ".nc" else _write_csv)(run, path)
-
-
-def _write_netcdf(run: Trajectory, path: Path) -> None:
+def write_netcdf(run: Trajectory, path: Path) -> None:
+    """Write the run as netCDF to a file of any name."""
     h5netcdf: Any = require("h5netcdf", "data")
     xr: Any = require("xarray", "data")
     # In memory: the library crashes where a disk is full, and cannot write to a nameless file.
@@ -182,7 +166,8 @@ def _table(run: Trajectory) -> tuple[list[str], list[FloatArray]]:
     return header, columns
 
 
-def _write_csv(run: Trajectory, path: Path) -> None:
+def write_csv(run: Trajectory, path: Path) -> None:
+    """Write the run as CSV to a file of any name."""
     header, columns = _table(run)
     with path.open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
@@ -198,10 +183,15 @@ def columns_of(model: Model, name: str) -> list[str]:
 
 
 def _columns(model: Model, name: str, dims: Sequence[str], units: str) -> list[str]:
+    return [f"{one} [{units}]" for one in column_names(model, name, dims)]
+
+
+def column_names(model: Model, name: str, dims: Sequence[str]) -> list[str]:
+    """Return the names of the numbers of a quantity, such as q1_x, q1_y."""
     names = [name]
     for dim in dims:
         names = [_column(one, label) for one in names for label in _labels(model)[dim]]
-    return [f"{one} [{units}]" for one in names]
+    return names
 
 
 def _column(name: str, label: int | str) -> str:

@@ -2,7 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
 from cdcr import _core
+from cdcr.base.check import Check
+from cdcr.model.model import Model
+
+_NUMBERS = ("kp", "ki", "kd", "period", "min_tension", "max_tension")
+_SWITCHES = ("feed_forward", "anti_windup")
 
 
 class Pid(_core.Pid):
@@ -51,3 +61,36 @@ class Pid(_core.Pid):
     >>> run.q[-1].round(4)
     array([0.4, 0.2])
     """
+
+    def __init__(
+        self,
+        model: Model,
+        *,
+        kp: float,
+        ki: float = 0.0,
+        kd: float = 0.0,
+        period: float = 1e-3,
+        feed_forward: bool = True,
+        anti_windup: bool = True,
+        min_tension: float = 0.0,
+        max_tension: float = float("inf"),
+        cables: Sequence[int] | None = None,
+    ) -> None:
+        given: dict[str, Any] = {"kp": kp, "ki": ki, "kd": kd, "period": period}
+        given |= {"feed_forward": feed_forward, "anti_windup": anti_windup}
+        given |= {"min_tension": min_tension, "max_tension": max_tension}
+        check = Check()
+        for name in _NUMBERS:
+            given[name] = check.number(name, given[name], "a number")
+        for name in _SWITCHES:
+            if not isinstance(given[name], (bool, np.bool_)):
+                check.refuse(name, "True or False", given[name])
+        if cables is not None:
+            must = "a sequence of indices of cables"
+            chosen = check.items("cables", cables, must)
+            given["cables"] = [
+                check.whole(f"cables[{i}]", cable, "the index of a cable")
+                for i, cable in enumerate(chosen)
+            ]
+        check.done()
+        super().__init__(model, **given)

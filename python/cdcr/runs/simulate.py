@@ -16,8 +16,8 @@ from cdcr.model.model import Model
 from cdcr.model.wrench import Wrench, loads
 from cdcr.robot.units import ask_about_commands
 from cdcr.runs.command import Command, command_input
-from cdcr.runs.events import EventFunction, EventRecord, watched
-from cdcr.runs.trajectory import SlackEvent, Trajectory
+from cdcr.runs.events import EventFunction, EventRecord, SlackEvent, watched
+from cdcr.runs.trajectory import Trajectory
 
 MethodName = Literal["bdf", "adams", "dopri5", "rk4"]
 MAX_STEPS = 2**63 - 1  # that the core can count

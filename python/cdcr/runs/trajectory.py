@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import base64
-import html
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,44 +12,21 @@ from cdcr import _core
 from cdcr.base.arrays import FloatArray, ReadOnlyArrays, finite, read_only
 from cdcr.base.check import count, require_kind
 from cdcr.model.model import Model
-from cdcr.runs.events import EventRecord
+from cdcr.runs.events import EventRecord, SlackEvent
+from cdcr.runs.pictures import Pictures
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
     from os import PathLike
     from pathlib import Path
-    from typing import Any
 
     import pandas  # type: ignore[import-untyped]
     import xarray
-    from matplotlib.figure import Figure
-    from numpy.typing import ArrayLike
 
     from cdcr._core import Stats, Status
 
-__all__ = ["SlackEvent", "Trajectory"]
-
-
-class SlackEvent(NamedTuple):
-    """A length-driven cable turned slack or taut.
-
-    Attributes
-    ----------
-    time : float
-        When [s].
-    cable : int
-        Index of the cable.
-    slack : bool
-        Slack from here on, or taut again.
-    """
-
-    time: float
-    cable: int
-    slack: bool
-
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Trajectory(ReadOnlyArrays):
+class Trajectory(Pictures, ReadOnlyArrays):
     """A run, sampled: one row for each output time reached. All arrays are read-only.
 
     Parameters
@@ -125,15 +100,6 @@ class Trajectory(ReadOnlyArrays):
         end = f": {self.message}" if self.message else ""
         return f"<Trajectory: {', '.join(parts)}, status {self.status.name}{end}>"
 
-    def _repr_html_(self) -> str:
-        words = f"<div>{html.escape(repr(self))}</div>"
-        try:
-            png = cast("Any", self.plot())._repr_png_()
-        except ImportError:  # without the extra plot
-            return words
-        data = base64.b64encode(png).decode("ascii")
-        return f'<img src="data:image/png;base64,{data}" width="880" alt="the run"/>{words}'
-
     @property
     def success(self) -> bool:
         """Whether it reached its last output time, or an event that ends it."""
@@ -201,9 +167,20 @@ class Trajectory(ReadOnlyArrays):
         return float(np.max(np.abs(self.energy_error)))
 
     def to_xarray(self) -> xarray.Dataset:
-        """Return the run as a Dataset with named dimensions, units and a description of the run.
+        """Return the run as a Dataset with named dimensions and units. Needs the extra ``data``.
 
-        Needs the extra ``data``.
+        Dimensions, each with its labels: ``time`` [s], ``section`` (1, 2, ... from the base),
+        ``component`` of a bending vector ("x", "y"), ``cable`` (1, 2, ... section by section) and
+        ``axis`` of the base frame ("x", "y", "z"). Variables: ``q`` [rad] and ``qd`` [rad/s]
+        (time, section, component), ``theta`` and ``phi`` (time, section) [rad], ``tension``
+        (time, cable) [N], ``tip`` (time, axis) [m], ``kinetic_energy``, ``potential_energy`` and
+        ``energy`` (time) [J]; where cables are driven by length also ``command`` (time, cable), [N]
+        or [m], and ``cable_energy`` (time) [J]. Each has attributes ``units`` and ``long_name``;
+        those of the Dataset tell robot, formulation, method, how the run ended and what it cost.
+
+        Returns
+        -------
+        xarray.Dataset
         """
         from cdcr.runs import export
 
@@ -220,14 +197,19 @@ class Trajectory(ReadOnlyArrays):
         return export.to_dataframe(self)
 
     def save(self, path: str | PathLike[str], *, overwrite: bool = False) -> Path:
-        """Write the run to netCDF (``.nc``, extra ``data``) or CSV (``.csv``), in SI units.
+        """Write the run to netCDF (``.nc``), CSV (``.csv``) or an MCAP log (``.mcap``).
 
-        Both keep every bit of every number. The file appears only when it is complete.
+        In SI units, every bit of every number; netCDF needs the extra ``data``, MCAP the extra
+        ``mcap``. The file appears only when it is complete. An MCAP log, which Foxglove opens, has
+        JSON messages with schemas: numbers on ``/state``, ``/tension``, ``/energy``, named as the
+        columns of a CSV file, ``/tip_pose`` (foxglove.PoseInFrame), ``/tf``, the ends of all
+        sections (foxglove.FrameTransforms), and ``/backbone`` for a 3D panel
+        (foxglove.SceneUpdate). `load` reads the other two.
 
         Parameters
         ----------
         path : path-like
-            The file, ending in ``.nc`` or ``.csv``, in a folder that exists.
+            The file, ending in ``.nc``, ``.csv`` or ``.mcap``, in a folder that exists.
         overwrite : bool
             Whether an existing file may be replaced.
 
@@ -239,15 +221,15 @@ class Trajectory(ReadOnlyArrays):
         Raises
         ------
         ValueError
-            For another suffix.
+            For another suffix, or times below 0 s in an MCAP log, which has none.
         FileExistsError
             If the file exists and ``overwrite`` is false.
         FileNotFoundError
             If the folder is missing.
         """
-        from cdcr.runs import export
+        from cdcr.runs import save
 
-        return export.save(self, path, overwrite=overwrite)
+        return save.save(self, path, overwrite=overwrite)
 
     @classmethod
     def load(cls, path: str | PathLike[str], *, model: Model | None = None) -> Trajectory:
@@ -277,74 +259,3 @@ class Trajectory(ReadOnlyArrays):
         fields = load(path, model)
         events = tuple(SlackEvent(*event) for event in fields.pop("slack_events"))
         return cls(**fields, slack_events=events)
-
-    def plot(self, *, size: str | tuple[float, float] | None = None) -> Figure:
-        """Draw angles [deg], tensions, tip and energy over time. Needs the extra ``plot``.
-
-        A free run (no damping, no tension) also shows ``energy_error``.
-
-        Parameters
-        ----------
-        size : optional
-            As in `Scenario.figure`.
-        """
-        from cdcr import plotting
-
-        return plotting.resize(plotting.plot_run(self), size)
-
-    def plot_robot(self, times: ArrayLike | None = None, *, num: int = 5, ax: Any = None) -> Any:
-        """Draw the robot in space at several times, earlier ones fainter. Needs the extra ``plot``.
-
-        Parameters
-        ----------
-        times : (M,) array_like, optional
-            Times within the run [s]; by default `num` of them, evenly spaced.
-        num : int
-            How many shapes when `times` is not given.
-        ax : Axes3D, optional
-            Axes to draw into; by default those of a new figure.
-
-        Returns
-        -------
-        Axes3D
-            The axes; their figure is ``ax.figure``.
-        """
-        from cdcr import plotting
-
-        return plotting.plot_run_robot(self, times, num=num, ax=ax)
-
-    def animate(
-        self,
-        path: str | PathLike[str],
-        *,
-        fps: float = 30.0,
-        speed: float = 1.0,
-        overwrite: bool = False,
-        progress: Callable[[int, int], None] | None = None,
-    ) -> Path:
-        """Write a film of the robot beside its bending angles. Needs the extra ``plot``.
-
-        Parameters
-        ----------
-        path : path-like
-            ``.mp4`` (needs ffmpeg), ``.gif`` or ``.html``, a page that any browser plays; without
-            a suffix, ``.mp4`` where ffmpeg is found and ``.gif`` elsewhere.
-        fps : float
-            Frames for each second of film.
-        speed : float
-            Seconds of the run for each second of film: 0.5 is slow motion.
-        overwrite : bool
-            Whether an existing file may be replaced.
-        progress : callable, optional
-            Told (frames done, frames in all) after each frame.
-
-        Returns
-        -------
-        Path
-            The file written.
-        """
-        from cdcr import plotting
-
-        return plotting.animate(
-            self, path, fps=fps, speed=speed, overwrite=overwrite, progress=progress
-        )

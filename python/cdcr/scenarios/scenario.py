@@ -25,7 +25,8 @@ if TYPE_CHECKING:
 
     from cdcr.plotting.sizes import Size
 
-FILES = {"picture": ".png", "csv": ".csv", "nc": ".nc"}
+FILES = {"picture": ".png", "csv": ".csv", "nc": ".nc", "mcap": ".mcap"}
+USUAL_FILES = (".png", ".csv", ".nc")
 
 
 def _figure(scenario: Scenario, run: Trajectory) -> Figure:
@@ -115,7 +116,7 @@ class Scenario:
     tension: tuple[float, ...] | TensionTable | Callable[[Model, float], TensionTable] = ()
     controller: Callable[[Model], Controller] | None = None
     input_source: InputSource | None = None
-    files: tuple[str, ...] = tuple(FILES.values())
+    files: tuple[str, ...] = USUAL_FILES
     wrenches: tuple[Wrench, ...] = ()
     t_end: float = 0.0
     num_samples: int = 1001

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from cdcr._core import taylor_range
 from cdcr.base.arrays import FloatArray
 from cdcr.plotting import panels
-from cdcr.plotting.robot3d import legend_of
+from cdcr.plotting.legend import legend_of
 from cdcr.plotting.style import StyledFigure
 
 if TYPE_CHECKING:

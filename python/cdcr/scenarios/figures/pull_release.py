@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 
 from cdcr.plotting import panels
 from cdcr.plotting.style import BLACK, COLORS, GREY, StyledFigure, style
-from cdcr.scenarios.figures.drawing import name_point, new_figure, note
+from cdcr.scenarios.figures.drawing import new_figure, note
 from cdcr.scenarios.studies import pull_release as study
 from cdcr.scenarios.studies.energy import integral
 
@@ -38,17 +38,15 @@ def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
 
 
 def _draw_loop(axes: Axes, run: Trajectory, smooth: Trajectory) -> None:
-    axes.plot(1e3 * smooth.tip[:, 0], smooth.tension[:, 0], color=SMOOTH, linewidth=1.2)
-    axes.plot(1e3 * run.tip[:, 0], run.tension[:, 0], color=RUB)
+    friction = study.coefficients(run)[0]
+    axes.plot(1e3 * run.tip[:, 0], run.tension[:, 0], color=RUB, label=rf"$\mu$ = {friction:g}")
+    way = 1e3 * smooth.tip[:, 0]
+    axes.plot(way, smooth.tension[:, 0], color=SMOOTH, linewidth=1.2, label=r"$\mu$ = 0")
     axes.set_xlabel("tip displacement x [mm]")
     axes.set_ylabel("tension at the base [N]")
     axes.set_ylim(-0.4, 1.12 * study.FULL)
-    note(axes, "both cycles lie on one loop")
-    _name(
-        axes, run, 0.42, rf"pulled, $\mu$ = {study.coefficients(run)[0]:g}", RUB, (-10, 8), "right"
-    )
-    _name(axes, run, 1.5, "released", RUB, (14, -10), "left")
-    _name(axes, smooth, 0.3, r"$\mu$ = 0", SMOOTH, (16, -10), "left")
+    note(axes, "pulled above, released below, both times")
+    panels.legend_above(axes)
     band = study.dead_band(run)
     if band is not None:
         right = 1e3 * float(np.max(smooth.tip[:, 0])) * 1.035
@@ -61,22 +59,6 @@ def _draw_loop(axes: Axes, run: Trajectory, smooth: Trajectory) -> None:
         middle = study.FULL - band[0] / 2.0
         axes.text(1.02 * right, middle, f"dead band\n{band[0]:.2f} N", va="center", color=BLACK)
         axes.set_xlim(None, 1.27 * right)
-
-
-def _name(
-    axes: Axes,
-    run: Trajectory,
-    ramps: float,
-    text: str,
-    color: str,
-    offset: tuple[float, float],
-    side: str,
-) -> None:
-    """Write a name beside the line of a run, where it is after some ramps."""
-    k = int(np.searchsorted(run.t, ramps * study.RAMP))
-    if k < len(run):
-        point = (1e3 * run.tip[k, 0], run.tension[k, 0])
-        name_point(axes, text, point, offset, color=color, ha=side)
 
 
 def _draw_work(axes: Axes, run: Trajectory, smooth: Trajectory) -> None:
@@ -112,21 +94,13 @@ def _draw_tension(axes: Axes, run: Trajectory) -> None:
         alpha=0.15,
         linewidth=0,
     )
-    axes.plot(run.t, base, color=BLACK, linewidth=1.2)
-    axes.plot(run.t, far, color=FAR)
+    axes.plot(run.t, base, color=BLACK, linewidth=1.2, label="at the base")
+    axes.plot(run.t, far, color=FAR, label="beyond the section")
     axes.set_ylabel("tension of cable 1 [N]")
     axes.set_ylim(-0.4, 1.34 * study.FULL)
     axes.margins(x=0.0)
-    note(axes, r"shaded: what the capstan equation allows, $F\,e^{\pm\mu\theta}$")
-    top = min(study.RAMP, float(run.t[-1]))
-    k = int(np.searchsorted(run.t, top))
-    for name, values, away, side, color in (
-        ("at the base", base, 34, "baseline", BLACK),
-        ("beyond\nthe section", far, -44, "top", FAR),
-    ):
-        line = {"arrowstyle": "-", "color": color, "linewidth": 0.7}
-        look = {"ha": "center", "va": side, "color": color, "arrowprops": line}
-        name_point(axes, name, (run.t[k], values[k]), (0, away), **look)
+    note(axes, r"shaded: allowed by friction, $F\,e^{\pm\mu\theta}$")
+    panels.legend_above(axes)
     panels.show_time(axes, run, named=False)
 
 

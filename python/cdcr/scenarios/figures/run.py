@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 
 from cdcr.base.arrays import FloatArray
 from cdcr.plotting import panels, plot_run_robot, space
-from cdcr.plotting.robot3d import legend_of
+from cdcr.plotting.legend import legend_of
 from cdcr.plotting.style import BLACK, StyledFigure, line_colors, style
 from cdcr.scenarios.figures.drawing import note, share_time
 from cdcr.scenarios.figures.workspace import add_panels, new_figure

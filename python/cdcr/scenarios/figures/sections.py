@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.text import Text
 from mpl_toolkits.mplot3d import proj3d  # type: ignore[import-untyped]
 
 from cdcr.base.arrays import FloatArray
@@ -25,6 +26,8 @@ ROOM = np.array([5.9, 7.0])  # of the robot in space, left [in]
 PLACE = {"left": 0.545, "bottom": 0.075, "top": 0.91, "hspace": 0.42}  # of the panels
 DISTANCES = (12.0, 18.0, 26.0, 36.0, 48.0)  # from a tip to the middle of its name, tried [pt]
 ENOUGH = 7.0  # room that a name needs [pt]
+# Points of a box, in its half sizes from the middle.
+GRID = np.stack(np.meshgrid([-1, -0.5, 0, 0.5, 1], [-1, 0, 1]), axis=-1).reshape(-1, 2)
 
 
 def draw_robot(
@@ -56,47 +59,72 @@ def name_shapes(
 ) -> None:
     """Write names near the tips of shapes, each where it has most room, with a line to its tip.
 
-    Kept clear of are the shapes, the paths (M, 3) and the names written before. Axes3D must have
-    its place in the figure.
+    Kept clear of are the shapes, the paths (M, 3), the axes with their numbers, and the other
+    names. Axes3D must have its place in the figure; where that changes, places are found anew.
     """
-    figure = axes.figure
-    renderer = figure.canvas.get_renderer()
-
-    def on_paper(points: FloatArray) -> FloatArray:
-        """Return where points (P, 3) are on the paper (P, 2) [pt]."""
-        x, y, _ = proj3d.proj_transform(*points.T, axes.get_proj())
-        pixels = axes.transData.transform(np.stack([x, y], axis=1))
-        return np.asarray(pixels * 72.0 / figure.dpi)
-
-    axes.apply_aspect()
     drawn = [robot_shape(model, q).points for q in states] + [_dense(path) for path in paths]
-    taken = on_paper(np.concatenate([*drawn, _box(axes)]))
-    for q, name in zip(states, names, strict=True):
-        if not name:
-            continue
-        tip = on_paper(model.tip(q)[1][None])[0]
-        text = axes.annotate(
-            name,
-            proj_xy(axes, model.tip(q)[1]),
-            fontsize=9.5,
-            color=BLACK,
-            zorder=30,
-            ha="center",
-            va="center",
-            xytext=(0, 0),
-            textcoords="offset points",
-            arrowprops={"arrowstyle": "-", "color": GREY, "linewidth": 0.7, "shrinkA": 1},
-        )
-        extent = text.get_window_extent(renderer)
-        half = np.array([extent.width, extent.height]) * 36.0 / figure.dpi
-        offset = max(
-            (distance * np.array([np.cos(turn), np.sin(turn)]) * (1.0 + half / half.sum())
-             for distance in DISTANCES for turn in np.linspace(0.0, 2.0 * np.pi, 24, False)),
-            key=lambda offset: _room(tip + offset, half, taken) - 0.15 * np.hypot(*offset),
-        )  # fmt: skip
-        text.set_position(tuple(offset))
-        grid = np.stack(np.meshgrid([-1, -0.5, 0, 0.5, 1], [-1, 0, 1]), axis=-1).reshape(-1, 2)
-        taken = np.concatenate([taken, tip + offset + half * grid])
+    drawn.append(_box(axes))
+    tips = [model.tip(q)[1] for q, name in zip(states, names, strict=True) if name]
+    texts = [_text_at(axes, tip, name) for tip, name in zip(tips, filter(None, names), strict=True)]
+
+    def arrange() -> None:
+        axes.figure.draw_without_rendering()  # settles numbers
+        taken = np.concatenate([_on_paper(axes, np.concatenate(drawn)), _numbers(axes)])
+        for text, point in zip(texts, tips, strict=True):
+            tip = _on_paper(axes, point[None])[0]
+            half = _half_size(text)
+            offset = max(
+                (distance * np.array([np.cos(turn), np.sin(turn)]) * (1.0 + half / half.sum())
+                 for distance in DISTANCES for turn in np.linspace(0.0, 2.0 * np.pi, 24, False)),
+                key=lambda offset: _room(tip + offset, half, taken) - 0.15 * np.hypot(*offset),
+            )  # fmt: skip
+            text.set_position(tuple(offset))
+            taken = np.concatenate([taken, tip + offset + half * GRID])
+
+    arrange()
+    axes.figure.arrangements.append(arrange)
+
+
+def _text_at(axes: Any, tip: FloatArray, name: str) -> Any:
+    return axes.annotate(
+        name,
+        proj_xy(axes, tip),
+        fontsize=9.5,
+        color=BLACK,
+        zorder=30,
+        ha="center",
+        va="center",
+        xytext=(0, 0),
+        textcoords="offset points",
+        arrowprops={"arrowstyle": "-", "color": GREY, "linewidth": 0.7, "shrinkA": 1},
+    )
+
+
+def _on_paper(axes: Any, points: FloatArray) -> FloatArray:
+    """Return where points (P, 3) are on the paper (P, 2) [pt]."""
+    x, y, _ = proj3d.proj_transform(*points.T, axes.get_proj())
+    pixels = axes.transData.transform(np.stack([x, y], axis=1))
+    return np.asarray(pixels * 72.0 / axes.figure.dpi)
+
+
+def _half_size(text: Any) -> FloatArray:
+    """Return half the width and height of a text on the paper [pt]."""
+    extent = Text.get_window_extent(text)  # without the line to its tip
+    return np.array([extent.width, extent.height]) * 36.0 / float(text.figure.dpi)
+
+
+def _numbers(axes: Any) -> FloatArray:
+    """Return points (P, 2) in the numbers along the axes, on the paper [pt]."""
+    texts = [
+        text for axis in (axes.xaxis, axes.yaxis, axes.zaxis) for text in axis.get_ticklabels()
+    ]
+    boxes = [(text.get_window_extent(), _half_size(text)) for text in texts if text.get_text()]
+    centers = [
+        np.array([box.x0 + box.x1, box.y0 + box.y1]) * 36.0 / axes.figure.dpi for box, _ in boxes
+    ]
+    return np.concatenate(
+        [center + half * GRID for center, (_, half) in zip(centers, boxes, strict=True)]
+    )
 
 
 def _room(center: FloatArray, half: FloatArray, taken: FloatArray) -> float:

@@ -26,7 +26,7 @@ from typing import Any
 import numpy as np
 
 from cdcr.base.arrays import FloatArray
-from cdcr.files.toml import read_toml, refuse, schema_errors
+from cdcr.files.toml import Faults, read_toml, refuse, schema_errors
 from cdcr.model.model import Model
 from cdcr.runs.command import TensionTable
 from cdcr.runs.simulate import integrator_options
@@ -59,7 +59,7 @@ def load_scenario(path: str | PathLike[str]) -> Scenario:
     ValueError
         Naming file, key and what is allowed, for everything else that is wrong with it.
     """
-    from cdcr.scenarios.file.schema import IntegratorTable, ScenarioTable
+    from cdcr.scenarios.file.schema import ScenarioTable
 
     file = Path(path)
     table = read_toml(file, "scenario file")
@@ -67,31 +67,68 @@ def load_scenario(path: str | PathLike[str]) -> Scenario:
         str(file),
         [f"{key} must stand in [{home}]" for key, home in _MOVED.items() if key in table],
     )
-    refuse(str(file), schema_errors(ScenarioTable, table))
-    integrator = table.get("integrator", {})
-    refuse(str(file), schema_errors(IntegratorTable, integrator, "integrator"))
-    with error_prefix(f"{file}, [integrator]"):
-        integrator_options(**{"method": "bdf"} | integrator)
-    motion = table.get("trajectory", {})
-    if "feed_back" in motion and "simulate" not in motion:
-        motion["simulate"] = motion.pop("feed_back")  # its old name
-    refuse(str(file), _input_errors(table))
-    robot = read_robot(table["robot"], file)
-    with error_prefix(str(file)):
-        model = Model(robot, formulation=table.get("formulation", "exact"))
+    faults = Faults()
+    with faults.kept():
+        refuse(str(file), schema_errors(ScenarioTable, table))
+    if not faults:
+        motion = table.get("trajectory", {})
+        if "feed_back" in motion and "simulate" not in motion:
+            motion["simulate"] = motion.pop("feed_back")  # its old name
+        with faults.kept():
+            refuse(str(file), _input_errors(table))
+    can_go_on = not faults
     given: dict[str, Any] = {"title": file.stem, "description": "", "source": str(file)}
     given |= {name: table[name] for name in _COMMON if name in table}
-    given |= integrator | _output(table.get("output", {}), file) | _input(table, model, file)
-    given["wrenches"] = read_wrenches(table.get("wrenches", ()), model, file)
+    with faults.kept():
+        given |= _integrator(_table(table, "integrator"), file)
+    with faults.kept():
+        given |= _output(_table(table, "output"), file)
+    if can_go_on:
+        with faults.kept():
+            given["robot"] = robot = read_robot(table["robot"], file)
+            with error_prefix(str(file)):
+                model = Model(robot, formulation=table.get("formulation", "exact"))
+            given |= _of_model(table, model, file, given["t_end"])
+    faults.done()
+    return Scenario(name=file.stem, **given)
+
+
+def _table(table: Mapping[str, Any], key: str) -> dict[str, Any]:
+    """Return a table in a table, empty where there is none, or something else, told already."""
+    found = table.get(key, {})
+    return found if isinstance(found, dict) else {}
+
+
+def _of_model(table: Mapping[str, Any], model: Model, file: Path, t_end: float) -> dict[str, Any]:
+    """Return the fields of a scenario that depend on its model."""
+    faults = Faults()
+    given: dict[str, Any] = {"t_end": t_end}
+    with faults.kept():
+        given |= _input(table, model, file)
+    with faults.kept():
+        given["wrenches"] = read_wrenches(table.get("wrenches", ()), model, file)
     if "initial" in table or "q0" not in given:
-        command = _first_command(given)
-        q0, qd0 = read_start(table.get("initial", {}), model.num_sections, command, file)
-        given |= {"q0": q0, "qd0": qd0}
-    return Scenario(name=file.stem, robot=robot, **given)
+        with faults.kept():
+            command = _first_command(given)
+            q0, qd0 = read_start(table.get("initial", {}), model.num_sections, command, file)
+            given |= {"q0": q0, "qd0": qd0}
+    faults.done()
+    return given
+
+
+def _integrator(table: Mapping[str, Any], file: Path) -> dict[str, Any]:
+    from cdcr.scenarios.file.schema import IntegratorTable
+
+    refuse(str(file), schema_errors(IntegratorTable, table, "integrator"))
+    with error_prefix(f"{file}, [integrator]"):
+        integrator_options(**{"method": "bdf"} | dict(table))
+    return dict(table)
 
 
 def _first_command(given: Mapping[str, Any]) -> Callable[[Model], FloatArray] | None:
     """Return what gives the commands (num_cables,) at t = 0, None where a controller does."""
+    if "controller" in given:
+        return None
     source, tension = given.get("input_source"), given.get("tension")
     if isinstance(source, TrackedMotion):
         return source.first_command
@@ -101,7 +138,7 @@ def _first_command(given: Mapping[str, Any]) -> Callable[[Model], FloatArray] | 
         return lambda model: _first_row(tension(model, given["t_end"]))
     if isinstance(tension, TensionTable):
         return lambda model: _first_row(tension)
-    return None if tension is None else lambda model: np.array(tension)
+    return lambda model: np.array(tension)
 
 
 def _first_row(table: TensionTable) -> FloatArray:

@@ -16,14 +16,19 @@ _Tension = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
 STRICT = ConfigDict(extra="forbid", strict=True)
 
 
-def optional(requirement: str, **limits: Any) -> Any:
+def needed(requirement: str, about: str, **limits: Any) -> Any:
+    """Return a key that must be there: what its value must be, and what it is."""
+    return Field(description=requirement, title=about, **limits)
+
+
+def optional(requirement: str, about: str, **limits: Any) -> Any:
     """Return a key that may be left out."""
-    return Field(default=None, description=requirement, **limits)
+    return Field(default=None, description=requirement, title=about, **limits)
 
 
-def _positive(requirement: str) -> Any:
+def _positive(requirement: str, about: str) -> Any:
     """Return a key that may be left out, for a number > 0."""
-    return optional(requirement, gt=0.0, allow_inf_nan=False)
+    return optional(requirement, about, gt=0.0, allow_inf_nan=False)
 
 
 class ScenarioTable(BaseModel):
@@ -31,33 +36,51 @@ class ScenarioTable(BaseModel):
 
     model_config = STRICT
 
-    title: str = optional("a string")
-    description: str = optional("a string")
-    source: str = optional("a string")
-    robot: str | dict[str, Any] = Field(
-        description="the name of a robot, the name of a robot file (.toml), a table with sections "
-        "or a table with the name of a robot and what is different"
+    title: str = optional("a string", "what the run is called")
+    description: str = optional("a string", "what happens in it")
+    source: str = optional("a string", "where its numbers come from")
+    robot: str | dict[str, Any] = needed(
+        "the name of a robot, the name of a robot file (.toml), a table with sections "
+        "or a table with the name of a robot and what is different",
+        "the robot",
     )
-    formulation: str = optional("a string")
-    initial: dict[str, Any] = optional("a table with q or theta and phi, qd, equilibrium")
+    formulation: str = optional("a string", "the equations: exact, or the origin paper's")
+    initial: dict[str, Any] = optional(
+        "a table with q or theta and phi, qd, equilibrium",
+        "where the robot starts; straight and at rest without it",
+    )
     tension: list[_Tension] | list[dict[str, Any]] | dict[str, Any] = optional(
         "an array with a number >= 0 [N] for each cable, or tables [[tension]] with cable and "
-        "shape, or a table with t and rows, hold, shapes or file"
+        "shape, or a table with t and rows, hold, shapes or file",
+        "what pulls the cables, in place of trajectory and controller",
     )
-    wrenches: list[dict[str, Any]] = optional("tables [[wrenches]] with section, force, moment")
-    trajectory: dict[str, Any] = optional("a table with shape, or with t or file")
-    controller: dict[str, Any] = optional("a table with type")
-    integrator: dict[str, Any] = optional("a table with method, rtol, atol, step, max_step")
-    output: dict[str, Any] = optional("a table with num_samples or files")
-    t_end: float = Field(gt=0.0, allow_inf_nan=False, description="a number > 0 [s]")
+    wrenches: list[dict[str, Any]] = optional(
+        "tables [[wrenches]] with section, force, moment", "forces and moments on the backbone"
+    )
+    trajectory: dict[str, Any] = optional(
+        "a table with shape, or with t or file",
+        "a motion to follow, in place of tension and controller",
+    )
+    controller: dict[str, Any] = optional(
+        "a table with type",
+        "a controller that pulls the cables, in place of tension and trajectory",
+    )
+    integrator: dict[str, Any] = optional(
+        "a table with method, rtol, atol, step, max_step", "how the run is integrated"
+    )
+    output: dict[str, Any] = optional("a table with num_samples or files", "what is written")
+    t_end: float = needed("a number > 0 [s]", "end of the run", gt=0.0, allow_inf_nan=False)
 
 
 # A known robot, and what is different about it: [robot] with a name, and [robot.each_section].
 RobotChanges: type[BaseModel] = create_model(
     "RobotChanges",
     __base__=table_of(Robot, partial=True),
-    name=(str, Field(description="the name of a robot")),
-    each_section=(dict[str, Any], optional("a table with fields of a section")),
+    name=(str, needed("the name of a robot", "the known robot that is changed")),
+    each_section=(
+        dict[str, Any],
+        optional("a table with fields of a section", "what is different about all sections"),
+    ),
 )
 SECTION_CHANGES = table_of(Section, partial=True)
 
@@ -67,12 +90,17 @@ class IntegratorTable(BaseModel):
 
     model_config = STRICT
 
-    method: Literal["bdf", "adams", "dopri5", "rk4"] = optional('"bdf", "adams", "dopri5" or "rk4"')
-    rtol: float = _positive("a number > 0 [1]")
-    atol: float = _positive("a number > 0 [rad], [rad/s]")
-    step: float = _positive("a number > 0 [s]")
-    max_step: float = _positive("a number > 0 [s]")
-    max_steps: int = optional("a whole number > 0", gt=0, lt=2**63)
+    method: Literal["bdf", "adams", "dopri5", "rk4"] = optional(
+        '"bdf", "adams", "dopri5" or "rk4"',
+        "bdf, adams and dopri5 choose their steps, rk4 does not",
+    )
+    rtol: float = _positive("a number > 0 [1]", "relative tolerance of a step")
+    atol: float = _positive("a number > 0 [rad], [rad/s]", "absolute tolerance of a step")
+    step: float = _positive("a number > 0 [s]", "step of rk4")
+    max_step: float = _positive("a number > 0 [s]", "largest step")
+    max_steps: int = optional(
+        "a whole number > 0", "number of steps after which the run is given up", gt=0, lt=2**63
+    )
 
 
 class ReferenceTable(BaseModel):
@@ -80,19 +108,40 @@ class ReferenceTable(BaseModel):
 
     model_config = STRICT
 
-    q: list[Finite] = optional("an array with two numbers [rad] for each section")
-    theta: list[Finite] = optional("an array with a number [rad] for each section")
-    theta_deg: list[Finite] = optional("an array with a number [deg] for each section")
-    phi: list[Finite] = optional("an array with a number [rad] for each section")
-    phi_deg: list[Finite] = optional("an array with a number [deg] for each section")
+    q: list[Finite] = optional(
+        "an array with two numbers [rad] for each section",
+        "bending vectors theta (cos phi, sin phi)",
+    )
+    theta: list[Finite] = optional(
+        "an array with a number [rad] for each section", "bending angles"
+    )
+    theta_deg: list[Finite] = optional(
+        "an array with a number [deg] for each section", "bending angles"
+    )
+    phi: list[Finite] = optional(
+        "an array with a number [rad] for each section", "orientation angles, 0 towards X"
+    )
+    phi_deg: list[Finite] = optional(
+        "an array with a number [deg] for each section", "orientation angles, 0 towards X"
+    )
 
 
 class InitialTable(ReferenceTable):
     """The [initial] table: where the robot starts, straight and at rest unless told otherwise."""
 
-    qd: list[Finite] = optional("an array with two numbers [rad/s] for each section")
-    equilibrium: bool = optional("true or false")
-    payload: float = optional("a number >= 0 [kg]", ge=0.0, allow_inf_nan=False)
+    qd: list[Finite] = optional(
+        "an array with two numbers [rad/s] for each section", "rates of the bending vectors"
+    )
+    equilibrium: bool = optional(
+        "true or false",
+        "whether it starts at rest under what pulls then; angles or q say where to search",
+    )
+    payload: float = optional(
+        "a number >= 0 [kg]",
+        "mass at the tip until the start, when it falls off, beside that of the robot",
+        ge=0.0,
+        allow_inf_nan=False,
+    )
 
 
 class OutputTable(BaseModel):
@@ -100,9 +149,16 @@ class OutputTable(BaseModel):
 
     model_config = STRICT
 
-    num_samples: int = optional(f"a whole number 2 to {MAX_SAMPLES}", ge=2, le=MAX_SAMPLES)
-    files: list[Literal["picture", "csv", "nc"]] = optional(
-        'an array with one or more of "picture", "csv", "nc"', min_length=1
+    num_samples: int = optional(
+        f"a whole number 2 to {MAX_SAMPLES}",
+        "samples of the run, evenly spaced, both ends included",
+        ge=2,
+        le=MAX_SAMPLES,
+    )
+    files: list[Literal["picture", "csv", "nc", "mcap"]] = optional(
+        'an array with one or more of "picture", "csv", "nc", "mcap"',
+        "kinds of files to write",
+        min_length=1,
     )
 
 
@@ -111,40 +167,68 @@ class ControllerTable(BaseModel):
 
     model_config = STRICT
 
-    type: Literal["pid"] = Field(description='"pid"')
-    kp: float = Field(ge=0.0, allow_inf_nan=False, description="a number >= 0 [N m/rad]")
-    ki: float = optional("a number >= 0 [N m/(rad s)]", ge=0.0, allow_inf_nan=False)
-    kd: float = optional("a number >= 0 [N m s/rad]", ge=0.0, allow_inf_nan=False)
-    period: float = _positive("a number > 0 [s]")
-    feed_forward: bool = optional("true or false")
-    anti_windup: bool = optional("true or false")
-    min_tension: float = optional("a number [N], or -inf for no limit")
-    max_tension: float = optional("a number [N], or inf for no limit")
-    cables: list[int] = optional("an array with numbers of cables, from 1", min_length=1)
-    reference: dict[str, Any] = optional("a table with q, or theta and phi")
+    type: Literal["pid"] = needed('"pid"', "kind of controller")
+    kp: float = needed("a number >= 0 [N m/rad]", "proportional gain", ge=0.0, allow_inf_nan=False)
+    ki: float = optional(
+        "a number >= 0 [N m/(rad s)]", "integral gain", ge=0.0, allow_inf_nan=False
+    )
+    kd: float = optional(
+        "a number >= 0 [N m s/rad]", "gain of the rate", ge=0.0, allow_inf_nan=False
+    )
+    period: float = _positive("a number > 0 [s]", "between updates; tensions are held")
+    feed_forward: bool = optional(
+        "true or false", "whether the force that holds the reference still is added"
+    )
+    anti_windup: bool = optional(
+        "true or false", "whether integration stops where the limits cannot give more"
+    )
+    min_tension: float = optional(
+        "a number [N], or -inf for no limit", "least tension of every cable"
+    )
+    max_tension: float = optional(
+        "a number [N], or inf for no limit", "largest tension of every cable"
+    )
+    cables: list[int] = optional(
+        "an array with numbers of cables, from 1",
+        "cables that may be used; all by default",
+        min_length=1,
+    )
+    reference: dict[str, Any] = optional(
+        "a table with q, or theta and phi", "what to reach and hold; straight by default"
+    )
 
 
 class _TensionOverTime(BaseModel):
     model_config = STRICT
 
-    interpolation: Literal["linear", "previous"] = optional('"linear" or "previous"')
+    interpolation: Literal["linear", "previous"] = optional(
+        '"linear" or "previous"', "between the times: lines, or each value held until the next"
+    )
 
 
 class TensionRows(_TensionOverTime):
     """The [tension] table with its numbers in the file."""
 
-    t: list[Finite] = Field(min_length=1, description="an array of increasing times [s]")
-    rows: list[list[_Tension]] = Field(
+    t: list[Finite] = needed("an array of increasing times [s]", "times of the rows", min_length=1)
+    rows: list[list[_Tension]] = needed(
+        "an array with one row for each time: a number >= 0 [N] for each cable",
+        "tensions at these times",
         min_length=1,
-        description="an array with one row for each time: a number >= 0 [N] for each cable",
     )
 
 
 class TensionHold(_TensionOverTime):
     """The [tension] table with shapes of the robot that the tensions hold."""
 
-    t: list[Finite] = optional("an array of increasing times [s]", min_length=1)
-    hold: dict[str, Any] = Field(description="a table with q, or theta and phi")
+    t: list[Finite] = optional(
+        "an array of increasing times [s]",
+        "times of the shapes; without them one shape is held for ever",
+        min_length=1,
+    )
+    hold: dict[str, Any] = needed(
+        "a table with q, or theta and phi",
+        "shapes of the robot, held by the least tensions that do",
+    )
 
 
 class TensionSampled(BaseModel):
@@ -152,26 +236,31 @@ class TensionSampled(BaseModel):
 
     model_config = STRICT
 
-    step: float = Field(gt=0.0, allow_inf_nan=False, description="a number > 0 [s]")
-    shapes: list[dict[str, Any]] = Field(
-        min_length=1, description="tables [[tension.shapes]] with cable and shape"
+    step: float = needed(
+        "a number > 0 [s]", "time between the samples of the shapes", gt=0.0, allow_inf_nan=False
+    )
+    shapes: list[dict[str, Any]] = needed(
+        "tables [[tension.shapes]] with cable and shape",
+        "changes of tension over time, which add up",
+        min_length=1,
     )
 
 
 class TensionFile(_TensionOverTime):
     """The [tension] table that names a CSV file."""
 
-    file: str = Field(
-        description="the name of a CSV file with the columns t, cable 1, cable 2, ..."
+    file: str = needed(
+        "the name of a CSV file with the columns t, cable 1, cable 2, ...",
+        "file of tensions over time, found from the folder of this one",
     )
 
 
 _Row = list[Finite] | list[list[Finite]]
 
 
-def _held(unit: str, each: str = "a number") -> Any:
+def _held(unit: str, about: str, each: str = "a number") -> Any:
     where = "for each section; where there are times, a row of them for each"
-    return optional(f"an array with {each} [{unit}] {where}")
+    return optional(f"an array with {each} [{unit}] {where}", about)
 
 
 class HoldTable(BaseModel):
@@ -179,12 +268,17 @@ class HoldTable(BaseModel):
 
     model_config = STRICT
 
-    q: _Row = _held("rad", "two numbers")
-    theta: _Row = _held("rad")
-    theta_deg: _Row = _held("deg")
-    phi: _Row = _held("rad")
-    phi_deg: _Row = _held("deg")
-    payload: float = optional("a number >= 0 [kg]", ge=0.0, allow_inf_nan=False)
+    q: _Row = _held("rad", "bending vectors theta (cos phi, sin phi)", "two numbers")
+    theta: _Row = _held("rad", "bending angles")
+    theta_deg: _Row = _held("deg", "bending angles")
+    phi: _Row = _held("rad", "orientation angles, 0 towards X")
+    phi_deg: _Row = _held("deg", "orientation angles, 0 towards X")
+    payload: float = optional(
+        "a number >= 0 [kg]",
+        "mass at the tip while held, beside that of the robot",
+        ge=0.0,
+        allow_inf_nan=False,
+    )
 
 
 class WrenchTable(BaseModel):
@@ -192,13 +286,34 @@ class WrenchTable(BaseModel):
 
     model_config = STRICT
 
-    section: int = Field(gt=0, description="the number of a section, from 1")
-    fraction: float = optional(
-        "a fraction of the section's length, 0 to 1", ge=0.0, le=1.0, allow_inf_nan=False
+    section: int = needed(
+        "the number of a section, from 1", "section that it acts on, base to tip", gt=0
     )
-    force: list[Finite] = optional("three numbers [N]", min_length=3, max_length=3)
-    moment: list[Finite] = optional("three numbers [N m]", min_length=3, max_length=3)
-    frame: Literal["base", "local"] = optional('"base" or "local"')
-    times: list[Finite] = optional("an array of increasing times [s]", min_length=1)
-    factors: list[Finite] = optional("an array with a number for each time", min_length=1)
-    interpolation: Literal["linear", "previous"] = optional('"linear" or "previous"')
+    fraction: float = optional(
+        "a fraction of the section's length, 0 to 1",
+        "where along the section",
+        ge=0.0,
+        le=1.0,
+        allow_inf_nan=False,
+    )
+    force: list[Finite] = optional("three numbers [N]", "force", min_length=3, max_length=3)
+    moment: list[Finite] = optional(
+        "three numbers [N m]",
+        "moment about the point where the force acts",
+        min_length=3,
+        max_length=3,
+    )
+    frame: Literal["base", "local"] = optional(
+        '"base" or "local"', "frame of force and moment; local turns with the backbone"
+    )
+    times: list[Finite] = optional(
+        "an array of increasing times [s]", "times at which their size changes", min_length=1
+    )
+    factors: list[Finite] = optional(
+        "an array with a number for each time",
+        "their size at these times, over the one given",
+        min_length=1,
+    )
+    interpolation: Literal["linear", "previous"] = optional(
+        '"linear" or "previous"', "between the times: lines, or each factor held until the next"
+    )

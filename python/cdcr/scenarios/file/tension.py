@@ -16,12 +16,10 @@ import numpy as np
 
 from cdcr.base.arrays import FloatArray, even_times
 from cdcr.base.check import count
-from cdcr.files.number_csv import RUN_TIME, Layout, read_numbers
 from cdcr.files.toml import format_toml, refuse, schema_errors
 from cdcr.model.model import Model
 from cdcr.robot.file import doubled
 from cdcr.runs.command import Interpolation, TensionTable, command_input
-from cdcr.runs.export import by_length, columns_of
 from cdcr.scenarios.file import values
 from cdcr.scenarios.file.shapes import Shape, TensionShapes, constant, pulse, ramp, sine, step
 from cdcr.scenarios.file.start import carrying
@@ -104,18 +102,15 @@ def _over_time(table: dict[str, Any], model: Model, file: Path) -> TensionTable:
     refuse(
         str(file), schema_errors(TensionFile if "file" in table else TensionRows, table, "tension")
     )
+    interpolation = table.get("interpolation", "linear")
     if "file" in table:
         where = str(file.parent / table["file"])
-        columns = tuple(f"cable {j + 1}" for j in range(model.num_cables))
-        plain = Layout(columns, "a number >= 0 [N]", 0.0)
-        asked = columns_of(model, "command" if by_length(model) else "tension")
-        of_a_run = Layout(tuple(asked), plain.requirement, 0.0, RUN_TIME)
-        _, t, rows = read_numbers(Path(where), "tension file", [plain, of_a_run])
+        tension = TensionTable.load(where, model, interpolation=interpolation)
     else:
         where = f"{file}, [tension]"
         t, rows = table["t"], table["rows"]
         refuse(where, _row_errors(t, rows, model.num_cables))
-    tension = TensionTable(t, rows, table.get("interpolation", "linear"))
+        tension = TensionTable(t, rows, interpolation)
     with values.error_prefix(where):
         command_input(model, tension)
     return tension

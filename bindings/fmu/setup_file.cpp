@@ -1,0 +1,162 @@
+#include "setup_file.hpp"
+
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <variant>
+#include <vector>
+
+namespace cdcr::fmu {
+namespace {
+
+using Values = std::vector<double>;
+
+void need(const Values& values, std::size_t count) {
+  if (values.size() != count) {
+    throw std::invalid_argument(std::to_string(count) + " number(s) are needed there");
+  }
+}
+void put(const Values& values, double& item) {
+  need(values, 1);
+  item = values[0];
+}
+void put(const Values& values, int& item) {
+  need(values, 1);
+  item = static_cast<int>(values[0]);
+}
+void put(const Values& values, std::optional<double>& item) {
+  if (values.empty()) return;
+  need(values, 1);
+  item = values[0];
+}
+void put(const Values& values, std::vector<double>& item) {
+  item = values;
+}
+void put(const Values& values, Vector3d& item) {
+  need(values, 3);
+  item = Eigen::Map<const Vector3d>(values.data());
+}
+void put(const Values& values, Matrix3d& item) {  // by rows
+  need(values, 9);
+  item = Eigen::Map<const Matrix3d>(values.data()).transpose();
+}
+
+template <typename T>
+using Member = std::variant<double T::*, int T::*, std::optional<double> T::*,
+                            std::vector<double> T::*, Vector3d T::*, Matrix3d T::*>;
+template <typename T>
+using Fields = std::map<std::string, Member<T>>;
+
+const Fields<Section>& section_fields() {
+  static const Fields<Section> fields = {
+      {"length", &Section::length},
+      {"backbone_mass", &Section::backbone_mass},
+      {"backbone_diameter", &Section::backbone_diameter},
+      {"youngs_modulus", &Section::youngs_modulus},
+      {"disk_mass", &Section::disk_mass},
+      {"disk_diameter", &Section::disk_diameter},
+      {"num_disks", &Section::num_disks},
+      {"disk_positions", &Section::disk_positions},
+      {"disk_masses", &Section::disk_masses},
+      {"disk_diameters", &Section::disk_diameters},
+      {"cable_radius", &Section::cable_radius},
+      {"cable_angles", &Section::cable_angles},
+      {"cable_stiffness", &Section::cable_stiffness},
+      {"cable_damping", &Section::cable_damping},
+      {"cable_friction", &Section::cable_friction},
+      {"damping", &Section::damping},
+  };
+  return fields;
+}
+
+const Fields<Cable>& cable_fields() {
+  static const Fields<Cable> fields = {
+      {"radius", &Cable::radius},           {"angle", &Cable::angle},
+      {"end_section", &Cable::end_section}, {"stiffness", &Cable::stiffness},
+      {"damping", &Cable::damping},         {"friction", &Cable::friction},
+  };
+  return fields;
+}
+
+const Fields<Robot>& robot_fields() {
+  static const Fields<Robot> fields = {
+      {"gravity", &Robot::gravity},
+      {"payload", &Robot::payload},
+      {"base_orientation", &Robot::base_orientation},
+      {"payload_position", &Robot::payload_position},
+      {"payload_inertia", &Robot::payload_inertia},
+      {"sliding_speed", &Robot::sliding_speed},
+  };
+  return fields;
+}
+
+template <typename T>
+bool read_field(const Fields<T>& fields, const std::string& key, const Values& values, T& thing) {
+  const auto found = fields.find(key);
+  if (found == fields.end()) return false;
+  std::visit([&](auto member) { put(values, thing.*member); }, found->second);
+  return true;
+}
+
+/// Numbers are written as 0x1ap-4: exact, and without a point, which not every locale has.
+Values numbers(std::istream& words) {
+  Values values;
+  for (std::string word; words >> word;) {
+    char* end = nullptr;
+    values.push_back(std::strtod(word.c_str(), &end));
+    if (*end != '\0') throw std::invalid_argument("'" + word + "' is no number");
+  }
+  return values;
+}
+
+void read_line(const std::string& line, std::string& block, Setup& setup) {
+  std::istringstream words(line);
+  std::string key;
+  words >> key;
+  Robot& robot = setup.robot;
+  if (key == "token") {
+    words >> setup.token;
+    return;
+  }
+  if (key == "section" || key == "cable") {
+    block = key;
+    if (key == "section") robot.sections.emplace_back();
+    if (key == "cable") robot.cables.emplace_back();
+    return;
+  }
+  const Values values = numbers(words);
+  if (block.empty() && key == "rk4_step") {
+    setup.method = Method::rk4;
+    put(values, setup.options.step);
+    return;
+  }
+  const bool known =
+      block == "section" ? read_field(section_fields(), key, values, robot.sections.back())
+      : block == "cable" ? read_field(cable_fields(), key, values, robot.cables.back())
+                         : read_field(robot_fields(), key, values, robot);
+  if (!known) throw std::invalid_argument("this version of cdcr knows no such key");
+}
+
+}  // namespace
+
+Setup read_setup(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw std::invalid_argument(path + ": there is no such file, or it cannot be read");
+  Setup setup;
+  std::string line, block;
+  for (int number = 1; std::getline(file, line); ++number) {
+    try {
+      read_line(line, block, setup);
+    } catch (const std::invalid_argument& error) {
+      std::ostringstream sentence;
+      sentence << path << ", line " << number << ": '" << line << "': " << error.what();
+      throw std::invalid_argument(sentence.str());
+    }
+  }
+  return setup;
+}
+
+}  // namespace cdcr::fmu

@@ -1,0 +1,74 @@
+"""What a shell offers for an argument that has been begun."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+FILMS = ("mp4", "gif", "html")
+SIZES = ("journal", "slide")
+
+
+def methods(incomplete: str) -> list[str]:
+    """Return the integrators that begin so."""
+    from cdcr import _core
+
+    return _begun(tuple(_core.Method.__members__), incomplete)
+
+
+def films(incomplete: str) -> list[str]:
+    """Return the formats of films that begin so."""
+    return _begun(FILMS, incomplete)
+
+
+def sizes(incomplete: str) -> list[str]:
+    """Return the names of sizes that begin so."""
+    return _begun(SIZES, incomplete)
+
+
+def kinds_of_files(incomplete: str) -> list[str]:
+    """Return the kinds of files that begin so."""
+    return _begun(("robot", "scenario"), incomplete)
+
+
+def scenario_names(incomplete: str) -> list[str]:
+    """Return the scenarios of the package that begin so."""
+    from cdcr import scenarios
+
+    return _begun(scenarios.names(), incomplete)
+
+
+def robot_names(incomplete: str) -> list[str]:
+    """Return the robots of the package that begin so."""
+    from cdcr import robots
+
+    return _begun(robots.names(), incomplete)
+
+
+def scenarios(incomplete: str) -> list[str]:
+    """Return scenarios and files that begin so."""
+    return [*scenario_names(incomplete), *toml_files(incomplete)]
+
+
+def robots(incomplete: str) -> list[str]:
+    """Return robots and files that begin so."""
+    return [*robot_names(incomplete), *toml_files(incomplete)]
+
+
+def toml_files(incomplete: str) -> list[str]:
+    """Return the TOML files that begin so, and the folders, from which one goes on."""
+    folder, slash, begun = incomplete.rpartition("/")
+    try:
+        found = sorted(Path(f"{folder}{slash}" or ".").iterdir())
+    except OSError:
+        return []
+    shown = [one for one in found if one.name.startswith(begun) and not one.name.startswith(".")]
+    names = [
+        f"{one.name}/" if one.is_dir() else one.name
+        for one in shown
+        if one.is_dir() or one.suffix == ".toml"
+    ]
+    return [f"{folder}{slash}{name}" for name in names]
+
+
+def _begun(names: tuple[str, ...], incomplete: str) -> list[str]:
+    return [name for name in names if name.startswith(incomplete)]

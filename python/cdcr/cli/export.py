@@ -1,0 +1,68 @@
+"""The commands ``cdcr export-fmu`` and ``cdcr export-mjcf``: a robot for other software."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from cdcr.cli.plain import Overwrite, Robot, told_plainly
+from cdcr.cli.run import find_robot, mistakes
+from cdcr.export.fmu import fmu_bytes
+from cdcr.export.mjcf import mjcf_text
+from cdcr.files.new_file import new_file
+
+commands = typer.Typer()
+
+_REPLACE = "give --overwrite to replace it"
+
+
+@commands.command("export-fmu", short_help="Write a robot as an FMU, for co-simulation.")
+def export_fmu_command(
+    robot: Robot,
+    out: Annotated[Path, typer.Option(metavar="FILE.fmu", help="The file to write.")],
+    fmi: Annotated[int, typer.Option(metavar="3|2", help="Version of the standard.")] = 3,
+    step: Annotated[
+        float | None,
+        typer.Option(
+            metavar="SECONDS",
+            help="Fixed step of Runge-Kutta 4 inside; without it, dopri5 with its tolerances.",
+        ),
+    ] = None,
+    overwrite: Overwrite = False,
+) -> None:
+    """Write a robot as a functional mock-up unit (FMI 3 or 2) for co-simulation on Linux.
+
+    Inputs are tensions, or lengths where a cable is driven by length; parameters gravity and the
+    state at the start; outputs the state, the tip, lengths and tensions of the cables.
+    """
+    with told_plainly():
+        described = find_robot(robot)
+        with mistakes():
+            content = fmu_bytes(described, out, fmi=fmi, step=step)
+        with new_file(out, overwrite=overwrite, replace=_REPLACE) as part:
+            part.write_bytes(content)
+        typer.echo(f"wrote {out}, for FMI {fmi}")
+
+
+@commands.command("export-mjcf", short_help="Write a robot as a model of MuJoCo.")
+def export_mjcf_command(
+    robot: Robot,
+    out: Annotated[Path, typer.Option(metavar="FILE.xml", help="The file to write.")],
+    links: Annotated[
+        int, typer.Option(metavar="NUMBER", help="Rigid links of each section, 1 to 100.")
+    ] = 10,
+    overwrite: Overwrite = False,
+) -> None:
+    """Write a robot as a chain of rigid links for MuJoCo, with its cables, gravity and payload.
+
+    Friction of cables is left out.
+    """
+    with told_plainly():
+        described = find_robot(robot)
+        with mistakes():
+            text = mjcf_text(described, out, links=links)
+        with new_file(out, overwrite=overwrite, replace=_REPLACE) as part:
+            part.write_text(text, encoding="utf-8", newline="\n")
+        typer.echo(f"wrote {out}")

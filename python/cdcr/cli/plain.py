@@ -1,0 +1,69 @@
+"""What the commands share: options, and errors told in a sentence."""
+
+from __future__ import annotations
+
+import json
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Annotated, Any, NoReturn
+
+import typer
+
+from cdcr.cli import complete, run
+
+INTERRUPTED = 130  # exit code of what Ctrl-C ended
+
+Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace files that are there.")]
+
+Size = Annotated[
+    str | None,
+    typer.Option(
+        metavar="SIZE",
+        help="Of pictures and films: journal (8.5 cm wide), slide (16:9), or WIDTHxHEIGHT in cm.",
+        autocompletion=complete.sizes,
+    ),
+]
+Robot = Annotated[
+    str,
+    typer.Argument(
+        metavar="ROBOT|FILE.toml",
+        help="A name from `cdcr list` or a file.",
+        autocompletion=complete.robots,
+    ),
+]
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but errors.")]
+AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object in place of tables.")]
+
+
+def print_json(table: dict[str, Any]) -> None:
+    """Print one JSON object."""
+    typer.echo(json.dumps(table, indent=2, allow_nan=False))
+
+
+def end(code: int, sentence: object) -> NoReturn:
+    """Say why on stderr, and end with an exit code."""
+    typer.echo(f"cdcr: {sentence}", err=True)
+    raise typer.Exit(code) from None
+
+
+def _warn_plainly(message: Warning | str, *_: object, **__: object) -> None:
+    """Show a warning as the sentence it is, without the place in the code it came from."""
+    typer.echo(f"cdcr: warning: {message}", err=True)
+
+
+@contextmanager
+def told_plainly() -> Iterator[None]:
+    """Turn what users can mend into a sentence on stderr and an exit code, without a traceback."""
+    try:
+        with warnings.catch_warnings():
+            warnings.showwarning = _warn_plainly
+            yield
+    except KeyboardInterrupt:
+        end(INTERRUPTED, "interrupted, no file was written")
+    except run.RunFailed as failure:
+        end(1, failure)
+    except (run.Mistake, ImportError) as error:
+        end(2, error)
+    except OSError as error:  # the system's own have a file and a reason, ours are sentences
+        end(2, f"{error.filename}: {error.strerror}" if error.strerror else error)

@@ -1,0 +1,164 @@
+"""The linear quadratic regulator about a state of rest."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from cdcr.base.arrays import FloatArray, finite
+from cdcr.base.check import Check, require_kind
+from cdcr.base.extras import require
+from cdcr.model.model import Model
+
+SYMMETRY = 1e-9  # largest difference across the diagonal, over the largest entry
+DEFINITE = 1e-12  # smallest eigenvalue of a definite matrix, over the largest
+DECAY = 1e-9  # smallest damping ratio that is none of rounding
+NO_GAIN = (
+    "no gain makes all motions decay: a motion without damping is reached by no cable, or Q does "
+    "not see it; add damping, cables or weight"
+)
+
+
+def lqr(
+    model: Model,
+    q: ArrayLike,
+    tension: ArrayLike,
+    Q: ArrayLike,
+    R: ArrayLike,
+    period: float | None = None,
+) -> FloatArray:
+    """Gain of the linear quadratic regulator about a state of rest. Needs SciPy, extra ``control``.
+
+    The command ``tension - K @ (x - x0)``, x = (q, qd), x0 = (q, 0), makes the integral of
+    x' Q x + u' R u least, of the linear system of `Model.to_statespace` where x and u are
+    differences. With a period the command is held in between, and the same integral is least.
+
+    The gain knows no limits, and cables only pull: keep what it asks for at 0 N and above. About
+    tensions of 0 N half of it is lost, so choose `tension` with a pull that all cables of a section
+    share; that changes no shape where they are evenly spaced. A cable driven by length that hangs
+    slack there has no effect, and a row of zeros. Where the robot does not rest at `q` under
+    `tension`, it comes to rest beside it.
+
+    Parameters
+    ----------
+    model : Model
+        The robot.
+    q : (2n,) array_like
+        The shape to hold [rad].
+    tension : (num_cables,) array_like
+        Cable tensions there [N]; lengths [m] of cables driven by length.
+    Q : float, (4n,) or (4n, 4n) array_like
+        Weight of the state (q, qd), in units of the cost over [rad^2] and [rad^2/s^2]: one number,
+        a diagonal, or a symmetric matrix; no eigenvalue may be negative.
+    R : float, (num_cables,) or (num_cables, num_cables) array_like
+        Weight of the commands, over [N^2] or [m^2], likewise; every eigenvalue must be > 0.
+    period : float, optional
+        Sampling period [s], > 0; None for continuous time.
+
+    Returns
+    -------
+    (num_cables, 4n) array
+        The gain K [N/rad], [N s/rad]; [m/rad], [m s/rad] for cables driven by length.
+
+    Raises
+    ------
+    ValueError
+        For weights of a wrong shape, unsymmetric or not definite, a period that is none, a robot
+        without cables or inertia, and where no gain makes all motions decay: a motion without
+        damping that no cable reaches or no weight sees.
+    ImportError
+        Where SciPy is missing.
+
+    Examples
+    --------
+    >>> import cdcr
+    >>> import numpy as np
+    >>> model = cdcr.Model(cdcr.robots.amouri2020())
+    >>> tension = [3.0, 1.0, 1.0]
+    >>> q = model.equilibrium(tension)
+    >>> K = cdcr.control.lqr(model, q, tension, Q=1.0, R=0.01)
+    >>> A, B = model.linearize(q, [0.0, 0.0], tension)
+    >>> bool(np.all(np.linalg.eigvals(A - B @ K).real < 0.0))
+    True
+    """
+    require_kind("model", model, Model)
+    if model.num_cables == 0:
+        raise ValueError("a regulator needs cables, and this robot has none")
+    states, inputs = 2 * model.num_coordinates, model.num_cables
+    weight = np.zeros((states + inputs, states + inputs))  # of state and command together
+    weight[:states, :states] = _weight("Q", Q, states, definite=False)
+    weight[states:, states:] = _weight("R", R, inputs, definite=True)
+    shape = finite(q, "q")
+    if shape.shape != (model.num_coordinates,):
+        raise ValueError(f"q must have shape ({model.num_coordinates},), got {shape.shape}")
+    A, B = model.linearize(shape, np.zeros(model.num_coordinates), tension)
+    linalg: Any = require("scipy.linalg", "control")
+    solve = linalg.solve_continuous_are
+    if period is not None:
+        A, B, weight = _sampled(linalg, A, B, weight, _checked_period(period))
+        solve = linalg.solve_discrete_are
+    Q_, S, R_ = weight[:states, :states], weight[:states, states:], weight[states:, states:]
+    try:
+        P = solve(A, B, Q_, R_, s=S)
+    except np.linalg.LinAlgError:
+        raise ValueError(NO_GAIN) from None
+    if period is None:
+        K = np.linalg.solve(R_, B.T @ P)
+    else:
+        K = np.linalg.solve(R_ + B.T @ P @ B, B.T @ P @ A + S.T)
+    poles = np.linalg.eigvals(A - B @ K).astype(np.complex128)
+    if period is not None:
+        poles = np.log(poles[poles != 0.0])
+    if not np.all(poles.real < -DECAY * np.abs(poles)):
+        raise ValueError(NO_GAIN)
+    return np.asarray(K, dtype=np.float64)
+
+
+def _sampled(
+    linalg: Any, A: FloatArray, B: FloatArray, weight: FloatArray, period: float
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return A, B from one sample to the next, and the cost in between, by one exponential.
+
+    C. F. Van Loan, Computing integrals involving the matrix exponential, 1978, doi
+    10.1109/TAC.1978.1101743.
+    """
+    states, size = len(A), len(weight)
+    motion = np.zeros((size, size))  # of state and held command together
+    motion[:states] = np.hstack([A, B])
+    both = np.block([[-motion.T, weight], [np.zeros_like(motion), motion]])
+    grown = linalg.expm(both * period)
+    step = grown[size:, size:]
+    cost = step.T @ grown[:size, size:]
+    return step[:states, :states], step[:states, states:], (cost + cost.T) / 2.0
+
+
+def _weight(name: str, value: ArrayLike, size: int, *, definite: bool) -> FloatArray:
+    """Return a weight as a symmetric matrix, or refuse it."""
+    given = finite(value, name)
+    if given.shape not in ((), (size,), (size, size)):
+        raise ValueError(
+            f"{name} must be a number or have shape ({size},) or ({size}, {size}), "
+            f"got {given.shape}"
+        )
+    matrix = given if given.ndim == 2 else np.diag(np.broadcast_to(given, size))
+    largest = np.max(np.abs(matrix))
+    if np.max(np.abs(matrix - matrix.T)) > SYMMETRY * largest:
+        raise ValueError(f"{name} must be symmetric, and differs from its transpose")
+    matrix = (matrix + matrix.T) / 2.0
+    least = np.min(np.linalg.eigvalsh(matrix))
+    if definite and least <= DEFINITE * largest:
+        raise ValueError(f"{name} must be positive definite, its least eigenvalue is {least:.3g}")
+    if least < -DEFINITE * largest:
+        raise ValueError(
+            f"{name} must be positive semidefinite, its least eigenvalue is {least:.3g}"
+        )
+    return np.asarray(matrix)
+
+
+def _checked_period(period: float) -> float:
+    check = Check()
+    found = check.number("period", period, "a number > 0 s and finite, or None", above=0.0)
+    check.done()
+    return found

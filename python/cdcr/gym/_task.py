@@ -1,0 +1,209 @@
+"""What is to be done: robots whose tips follow targets, any number of them at once."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from cdcr import _core
+from cdcr.base.arrays import FloatArray, finite
+from cdcr.base.check import Check, known_name, require_kind
+from cdcr.gym._drive import Drive
+from cdcr.gym._randomization import Ranges, checked_ranges, draw_robot
+from cdcr.model.model import Model
+from cdcr.model.stability import stable_step
+from cdcr.robot.robot import Robot
+from cdcr.robots import amouri2020, three_sections
+
+# Damped so that they come to rest within an episode.
+ROBOTS = {"amouri2020": amouri2020(damping=0.02), "three_sections": three_sections(damping=5e-3)}
+TASKS, ACTIONS = ("reach", "track"), ("tension", "length")
+
+MAX_RATE = 100.0  # of observed rates [rad/s]; those of targets [robot lengths/s]
+NOISE = 0.05  # of the first state, about rest [rad], [rad/s]
+REACHED = 0.02  # distance that counts as success [robot lengths]
+FAILED = -100.0  # reward where the robot bends beyond what the model allows
+CYCLE = (3.0, 6.0)  # range of the time in which a target goes round its path [s]
+LEAST_STEPS = 5  # of Runge-Kutta in a period
+STABLE_SHARE = 3.0  # the largest stable step over the one taken
+MAX_DRAWS = 20  # of commands, until the robot rests under one
+THIRDS = 2.0 * math.pi / 3.0 * np.arange(3)
+
+
+class Task:
+    """Robots after their targets, all of one kind; arrays have a row for each of them.
+
+    The parameters are those of `RobotEnv`.
+    """
+
+    def __init__(
+        self,
+        count: int,
+        *,
+        task: str,
+        robot: str | Robot,
+        action: str,
+        limit: ArrayLike | None,
+        control_cost: float,
+        period: float,
+        randomization: Ranges | None,
+    ) -> None:
+        self.moving = known_name("task", task, TASKS) == "track"
+        if isinstance(robot, str):
+            robot = ROBOTS[known_name("robot", robot, tuple(ROBOTS))]
+        require_kind("robot", robot, Robot)
+        self.drive = Drive(robot, known_name("action", action, ACTIONS) == "length", limit)
+        check = Check()
+        self._cost = check.number("control_cost", control_cost, "a number >= 0 and finite")
+        self._period = check.number("period", period, "a number > 0 s and finite", above=0.0)
+        check.done()
+        if not 0.0 <= self._cost < math.inf:
+            raise ValueError(f"control_cost must be a number >= 0 and finite, got {control_cost!r}")
+        self._ranges = checked_ranges(randomization)
+        self.model = Model(self.drive.robot)  # not randomised; its geometry is that of all
+        self._length = self.drive.robot.length
+        substeps = self._substeps(self.model)
+        self._simulators = [self._simulator(self.model, substeps) for _ in range(count)]
+        self._bounds = self.bounds
+        size = self.model.num_coordinates
+        self.q, self.qd = np.zeros((count, size)), np.zeros((count, size))
+        self._corners = np.zeros((count, 3, size))  # shapes on the way of the target
+        self._phase, self._rate = np.zeros(count), np.zeros(count)
+        self.tip, self.target = np.zeros((count, 3)), np.zeros((count, 3))
+        self._velocity, self._away = np.zeros((count, 3)), np.zeros((count, 3))
+        self.distance = np.zeros(count)  # of tips and targets [m]
+        self.episode = np.zeros(count, dtype=int)  # number of the one that each robot is in
+
+    @property
+    def bounds(self) -> FloatArray:
+        """Largest magnitudes of the numbers of an observation."""
+        size = self.model.num_coordinates
+        parts = [(size, _core.max_bending), (size, MAX_RATE), (3, 1.0), (3, 2.0)]
+        parts += [(3, MAX_RATE)] if self.moving else []
+        return np.concatenate([np.full(*part) for part in parts])
+
+    def model_of(self, i: int) -> Model:
+        """Return the model of a robot in its episode."""
+        model: Model = self._simulators[i].model
+        return model
+
+    def reset(
+        self,
+        robots: Iterable[int],
+        rngs: Iterable[np.random.Generator],
+        options: Mapping[str, Any] | None,
+    ) -> None:
+        """Begin an episode of some robots, each with numbers of its own."""
+        given = self._checked(options or {})
+        for i, rng in zip(robots, rngs, strict=True):
+            self._begin(i, rng, given)
+        self._update()
+
+    def _begin(self, i: int, rng: np.random.Generator, given: Mapping[str, FloatArray]) -> None:
+        if self._ranges:
+            model = Model(draw_robot(self.drive.robot, self._ranges, rng))
+            self._simulators[i] = self._simulator(model, self._substeps(model))
+        rest = self._rest(i, self.model.rest_command())
+        self.q[i] = rest + rng.uniform(-NOISE, NOISE, rest.shape)
+        self.qd[i] = rng.uniform(-NOISE, NOISE, rest.shape)
+        self._corners[i] = [self._drawn_shape(i, rng) for _ in range(3 if self.moving else 1)]
+        self._phase[i] = rng.uniform(0.0, 2.0 * math.pi)
+        self._rate[i] = 2.0 * math.pi / rng.uniform(*CYCLE)
+        self.target[i] = given.get("target", self.model.tips(self._corners[i, 0]))
+        self.q[i], self.qd[i] = given.get("q", self.q[i]), given.get("qd", self.qd[i])
+        self._simulators[i].reset(self.q[i], self.qd[i])
+        self.episode[i] += 1
+
+    def step(
+        self, action: ArrayLike, active: NDArray[np.bool_]
+    ) -> tuple[dict[str, FloatArray], NDArray[np.bool_]]:
+        """Take the active robots through a period; return parts of rewards, and which failed."""
+        failed = np.zeros(len(self.q), dtype=bool)
+        share = self.drive.share(action)
+        commands = self.drive.command(share)
+        for i in np.flatnonzero(active).tolist():
+            simulator = self._simulators[i]
+            failed[i] = simulator.step(commands[i]) != _core.Status.ok
+            self.q[i], self.qd[i] = simulator.q, simulator.qd
+        self._update()
+        cost = self._cost / share.shape[1]
+        parts = {
+            "reward_distance": -self.distance / self._length,
+            "reward_control": -cost * np.einsum("ij,ij->i", share, share),
+        }
+        return parts, failed
+
+    @property
+    def reached(self) -> NDArray[np.bool_]:
+        """Whether each tip is at its target."""
+        return np.asarray(self.distance < REACHED * self._length)
+
+    def observe(self) -> NDArray[np.float32]:
+        """Return what is seen of each robot (count, k)."""
+        parts = [self.q, self.qd, self.tip / self._length, self._away / self._length]
+        parts += [self._velocity / self._length] if self.moving else []
+        seen = np.concatenate(parts, axis=1)
+        return np.maximum(np.minimum(seen, self._bounds), -self._bounds).astype(np.float32)
+
+    def shapes(self, count: int, rng: np.random.Generator) -> FloatArray:
+        """Return shapes (count, 2n) in which robot 0 may rest [rad]."""
+        return np.array([self._drawn_shape(0, rng) for _ in range(count)])
+
+    def _update(self) -> None:
+        """Bring tips and targets to the time and state of the simulators."""
+        self.tip = self.model.tips(self.q)
+        if self.moving:
+            time = np.array([simulator.time for simulator in self._simulators])
+            now, soon = (self._shapes_at(time + ahead) for ahead in (0.0, self._period))
+            self.target, later = self.model.tips(np.stack([now, soon]))
+            self._velocity = (later - self.target) / self._period
+        self._away = self.target - self.tip
+        self.distance = np.sqrt(np.einsum("ij,ij->i", self._away, self._away))
+
+    def _shapes_at(self, time: FloatArray) -> FloatArray:
+        """Return the shapes (count, 2n) whose tips the targets are, within their corners."""
+        angle = (self._phase + self._rate * time)[:, None] + THIRDS
+        weights = (1.0 + np.cos(angle)) / 3.0
+        return np.asarray(np.einsum("ik,ikj->ij", weights, self._corners))
+
+    def _drawn_shape(self, i: int, rng: np.random.Generator) -> FloatArray:
+        """Return a shape (2n,) in which robot i rests under some command."""
+        actions = rng.uniform(-1.0, 1.0, (MAX_DRAWS, self.model.num_cables))
+        return self._rest(i, *self.drive.command(self.drive.share(actions)))
+
+    def _rest(self, i: int, *commands: FloatArray) -> FloatArray:
+        """Return the shape (2n,) in which robot i rests under the first of some that has one."""
+        for command in commands:
+            found = self.model_of(i).find_equilibrium(command)
+            if found.status == _core.Status.ok:
+                return found.q
+        raise ValueError(
+            "the robot rests under none of the commands that were tried: choose a smaller limit"
+        )
+
+    def _substeps(self, model: Model) -> int:
+        """Return the Runge-Kutta steps of a period: well below what is stable, all cables taut."""
+        taut = self.drive.command(np.full(model.num_cables, 0.5))
+        largest = stable_step(model, np.zeros(model.num_coordinates), taut)
+        return max(LEAST_STEPS, math.ceil(STABLE_SHARE * self._period / largest))
+
+    def _simulator(self, model: Model, substeps: int) -> _core.Simulator:
+        return _core.Simulator(model, step=self._period, substeps=substeps)
+
+    def _checked(self, options: Mapping[str, Any]) -> dict[str, FloatArray]:
+        """Return the options of `reset`, or refuse them."""
+        size = self.model.num_coordinates
+        shapes = {"q": (size,), "qd": (size,)} | ({} if self.moving else {"target": (3,)})
+        given = {}
+        for name, value in options.items():
+            known_name("option of reset", name, tuple(shapes))
+            given[name] = finite(value, f"options[{name!r}]")
+            if given[name].shape != shapes[name]:
+                raise ValueError(
+                    f"options[{name!r}] must have shape {shapes[name]}, got {given[name].shape}"
+                )
+        return given

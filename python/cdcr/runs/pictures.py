@@ -1,0 +1,167 @@
+"""What is drawn of a run: pictures, films, and the robot in the browser."""
+
+from __future__ import annotations
+
+import base64
+import html
+from typing import TYPE_CHECKING, cast
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from os import PathLike
+    from pathlib import Path
+    from typing import Any
+
+    from matplotlib.figure import Figure
+    from numpy.typing import ArrayLike
+
+    from cdcr.plotting.geometry import Motion
+    from cdcr.plotting.sizes import Size
+    from cdcr.runs.trajectory import Trajectory
+    from cdcr.view import View
+
+
+class Pictures:
+    """The part of `Trajectory` that draws."""
+
+    @property
+    def _run(self) -> Trajectory:
+        return cast("Trajectory", self)
+
+    def _repr_html_(self) -> str:
+        words = f"<div>{html.escape(repr(self))}</div>"
+        try:
+            png = cast("Any", self.plot())._repr_png_()
+        except ImportError:  # without the extra plot
+            return words
+        data = base64.b64encode(png).decode("ascii")
+        return f'<img src="data:image/png;base64,{data}" width="880" alt="the run"/>{words}'
+
+    def plot(self, *, size: Size = None) -> Figure:
+        """Draw angles [deg], tensions, tip and energy over time. Needs the extra ``plot``.
+
+        A free run (no damping, no tension) also shows ``energy_error``.
+
+        Parameters
+        ----------
+        size : optional
+            As in `Scenario.figure`.
+        """
+        from cdcr import plotting
+
+        return plotting.resize(plotting.plot_run(self._run), size)
+
+    def plot_robot(
+        self, times: ArrayLike | None = None, *, num: int = 5, ax: Any = None, size: Size = None
+    ) -> Any:
+        """Draw the robot in space at several times, earlier ones fainter. Needs the extra ``plot``.
+
+        Parameters
+        ----------
+        times : (M,) array_like, optional
+            Times within the run [s]; by default `num` of them, evenly spaced.
+        num : int
+            How many shapes when `times` is not given.
+        ax : Axes3D, optional
+            Axes to draw into; by default those of a new figure.
+        size : optional
+            Of the new figure, as in `Scenario.figure`.
+
+        Returns
+        -------
+        Axes3D
+            The axes; their figure is ``ax.figure``.
+        """
+        from cdcr import plotting
+
+        return plotting.plot_run_robot(self._run, times, num=num, ax=ax, size=size)
+
+    def animate(
+        self,
+        path: str | PathLike[str],
+        *,
+        fps: float = 30.0,
+        speed: float = 1.0,
+        size: Size = None,
+        overwrite: bool = False,
+        progress: Callable[[int, int], None] | None = None,
+    ) -> Path:
+        """Write a film of the robot beside its bending angles. Needs the extra ``plot``.
+
+        Parameters
+        ----------
+        path : path-like
+            ``.mp4`` (needs ffmpeg), ``.gif`` or ``.html``, a page that any browser plays; without
+            a suffix, ``.mp4`` where ffmpeg is found and ``.gif`` elsewhere.
+        fps : float
+            Frames for each second of film.
+        speed : float
+            Seconds of the run for each second of film: 0.5 is slow motion.
+        size : optional
+            As in `Scenario.figure`; a slide has 1920 x 1080 pixels.
+        overwrite : bool
+            Whether an existing file may be replaced.
+        progress : callable, optional
+            Told (frames done, frames in all) after each frame.
+
+        Returns
+        -------
+        Path
+            The file written.
+        """
+        from cdcr import plotting
+
+        return plotting.animate(
+            self._run,
+            path,
+            fps=fps,
+            speed=speed,
+            size=size,
+            overwrite=overwrite,
+            progress=progress,
+        )
+
+    def view(
+        self,
+        *,
+        reference: Motion | None = None,
+        speed: float = 1.0,
+        port: int = 8080,
+        browser: bool = True,
+    ) -> View:
+        """Play the run in the browser, where one can go on with it live. Needs the extra ``view``.
+
+        Sliders of the cables, gravity and payload, and the mouse, which pulls the backbone, leave
+        the run at what is shown and simulate from there, without the wrenches of the run. A
+        notebook shows the recorded page, as ``.record("out.html")`` of what is returned writes it.
+
+        Parameters
+        ----------
+        reference : Trajectory or Reference, optional
+            What is shown beside it, faintly, at the same times.
+        speed : float, default 1
+            Time played over real time.
+        port : int, default 8080
+            Where it is served, to this machine alone; 0 for any free one.
+        browser : bool, default True
+            Whether to open it in the browser.
+
+        Returns
+        -------
+        View
+            Served until its ``close()``, at its ``url``; ``wait()`` waits for Ctrl-C.
+
+        Raises
+        ------
+        ImportError
+            Without the extra ``view``.
+        OSError
+            Where the port is in use.
+        """
+        from cdcr import view
+
+        run = self._run
+        session = view.Session(
+            run.model.robot, run.model.formulation, run=run, reference=reference, speed=speed
+        )
+        return view.show(session, "run", port=port, browser=browser)

@@ -1,0 +1,220 @@
+"""A robot simulated now: under commands, gravity, a payload and a pull that all may change."""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from cdcr import _core
+from cdcr.base.arrays import FloatArray
+
+if TYPE_CHECKING:
+    from cdcr.robot.robot import Robot
+
+PERIOD = 2e-3  # for which commands and pull are held [s]
+STABLE = 1.2  # step times fastest rate; RK4 is stable up to 2.78, and bent robots are faster
+MOST_SUBSTEPS = 1000
+ADDED_DAMPING = 0.1  # share of critical damping, given to a robot that has none at all
+MOST_BENT = 2.5  # bending angle that the largest command of a slider gives one section [rad]
+
+
+class LiveModel(_core.Model):
+    """The equations of motion of a robot, which knows its description as `cdcr.Model` does."""
+
+    def __init__(self, robot: Robot, formulation: str = "exact") -> None:
+        super().__init__(robot._to_core(), _core.Formulation[formulation.replace("-", "_")])
+        self.robot = robot
+
+
+@dataclass(frozen=True)
+class Pull:
+    """A spring between a point of the backbone and a point in space.
+
+    Parameters
+    ----------
+    section : int
+        Index of the section.
+    fraction : float
+        Fraction of its length.
+    target : tuple of float
+        The point in space [m].
+    stiffness : float
+        Of the spring [N/m].
+    """
+
+    section: int
+    fraction: float
+    target: tuple[float, ...]
+    stiffness: float
+
+    def point(self, model: _core.Model, q: FloatArray) -> FloatArray:
+        """Return the point of the backbone (3,) [m]."""
+        return model.pose(q, self.section, self.fraction)[1]
+
+    def force(self, model: _core.Model, q: FloatArray) -> FloatArray:
+        """Return the force on the backbone (3,) [N]."""
+        return self.stiffness * (np.array(self.target) - self.point(model, q))
+
+
+@dataclass(frozen=True)
+class _Wrench:
+    """What the core takes for a wrench."""
+
+    section: int
+    fraction: float
+    force: FloatArray
+    profile: ClassVar[None] = None
+
+    def _to_core(self) -> _core.CoreWrench:
+        return _core.CoreWrench(self.section, self.fraction, self.force, np.zeros(3), False)
+
+
+class LiveRobot:
+    """A robot that moves as time goes on. One without inertia is always at rest.
+
+    Parameters
+    ----------
+    robot : Robot
+        The robot.
+    formulation : str
+        Of the equations of motion.
+    q, qd : (2n,) array, optional
+        Where it starts [rad] and how fast [rad/s]; by default at rest, without tension.
+    command : (num_cables,) array, optional
+        Of the cables [N], [m] where driven by length.
+    """
+
+    def __init__(
+        self,
+        robot: Robot,
+        formulation: str = "exact",
+        *,
+        q: FloatArray | None = None,
+        qd: FloatArray | None = None,
+        command: FloatArray | None = None,
+    ) -> None:
+        self.robot, self._given, self._formulation = robot, robot, formulation
+        self.pull: Pull | None = None
+        self.time, self.message = 0.0, ""
+        self.added_damping = first_damping(robot)
+        self.model = LiveModel(robot, formulation)
+        self.command = np.array(self.model.rest_command() if command is None else command)
+        size = self.model.num_coordinates
+        self.q = self._rest(np.zeros(size)) if q is None else np.array(q)
+        self.qd = np.zeros(size) if qd is None else np.array(qd)
+        self._build()
+
+    @property
+    def tension(self) -> FloatArray:
+        """What the cables pull with at the base (num_cables,) [N]."""
+        return self.model.cable_tensions(self.q, self.qd, self.command)
+
+    @property
+    def pull_stiffness(self) -> float:
+        """Stiffness of a spring that bends the robot well where it is pulled [N/m]."""
+        bending = 1.0 / sum(1.0 / section.stiffness for section in self.robot.sections)
+        return 6.0 * bending / self.robot.length**2
+
+    def change(
+        self,
+        *,
+        gravity: tuple[float, float, float] | None = None,
+        payload: float | None = None,
+        added_damping: float | None = None,
+    ) -> None:
+        """Go on under another gravity [m/s^2], payload [kg], share of critical damping added."""
+        if gravity is not None:
+            self._given = replace(self._given, gravity=gravity)
+        if payload is not None:
+            self._given = replace(self._given, payload=payload)
+        if added_damping is not None:
+            self.added_damping = added_damping
+        self._build()
+
+    def advance(self, seconds: float, budget: float = math.inf) -> None:
+        """Go on for so long [s], but compute no longer than the budget [s]."""
+        end, patience = self.time + seconds, time.perf_counter() + budget
+        if self._simulator is None:
+            self.q, self.time = self._rest(self.q), end
+            return
+        while self.time < end - PERIOD / 2 and time.perf_counter() < patience:
+            status = self._simulator.step(self.command, self._wrenches(self.q))
+            self.q, self.qd = self._simulator.q, self._simulator.qd
+            self.time += PERIOD
+            self.message = "" if status.name == "ok" else status.name.replace("_", " ")
+            if self.message:  # held where it is
+                self.qd = np.zeros_like(self.qd)
+                self._simulator.reset(self.q, self.qd)
+
+    def _wrenches(self, q: FloatArray) -> Any:
+        pull = self.pull
+        if pull is None:
+            return ()
+        return (_Wrench(pull.section, pull.fraction, pull.force(self.model, q)),)
+
+    def _rest(self, q: FloatArray) -> FloatArray:
+        """Return the shape at rest nearest to q, or q where none is found."""
+        found = self.model.find_equilibrium(self.command, q, self._wrenches(q))
+        return np.array(found.q if found.status.name == "ok" else q)
+
+    def _build(self) -> None:
+        """Make model and simulator anew, in the state reached."""
+        self.robot = _damped(self._given, self._formulation, self.added_damping)
+        self.model = LiveModel(self.robot, self._formulation)
+        self._simulator = None
+        if self.model.has_inertia:
+            A, _ = self.model.linearize(self.q, np.zeros_like(self.q), self.command)
+            fastest = float(np.max(np.abs(np.linalg.eigvals(A)), initial=0.0))
+            substeps = min(MOST_SUBSTEPS, max(1, math.ceil(PERIOD * fastest / STABLE)))
+            self._simulator = _core.Simulator(self.model, step=PERIOD, substeps=substeps)
+            self._simulator.reset(self.q, self.qd)
+
+
+def first_damping(robot: Robot) -> float:
+    """Return the share of critical damping that is added to a robot unless somebody changes it."""
+    undamped = all(section.damping == 0.0 for section in robot.sections)
+    return ADDED_DAMPING if undamped else 0.0
+
+
+def _damped(robot: Robot, formulation: str, share: float) -> Robot:
+    """Return the robot with a share of the critical damping of each section added to its own."""
+    if share == 0.0:
+        return robot
+    model = LiveModel(robot, formulation)
+    mass = np.diag(model.mass_matrix(np.zeros(model.num_coordinates)))[::2]
+    sections = [
+        replace(section, damping=section.damping + 2.0 * share * math.sqrt(section.stiffness * m))
+        for section, m in zip(robot.sections, mass, strict=True)
+    ]
+    return replace(robot, sections=tuple(sections))
+
+
+def command_ranges(model: LiveModel, commands: FloatArray) -> list[tuple[float, float]]:
+    """Return the range of each cable's slider, wide enough for commands (N, num_cables).
+
+    A tension goes from nothing to what bends the softest section passed by MOST_BENT; a length
+    from what bends all sections passed so, to as much as that over ten longer.
+    """
+    ranges = []
+    rest = model.rest_command()
+    for j, cable in enumerate(model.robot.all_cables):
+        passed = model.robot.sections[: cable.end_section + 1]
+        if cable.length_driven:
+            stroke = cable.radius * MOST_BENT
+            low, high = max(0.0, rest[j] - stroke), rest[j] + stroke / 10.0
+        else:
+            softest = min(section.stiffness for section in passed)
+            low, high = 0.0, round_up(softest * MOST_BENT / cable.radius)
+        column = commands[:, j]
+        ranges.append((min(low, *column), max(high, *column)))
+    return ranges
+
+
+def round_up(value: float) -> float:
+    """Return the least of ..., 0.5, 1, 2, 5, 10, ... that is not less than a value > 0."""
+    power = 10.0 ** math.floor(math.log10(value))
+    return float(next(m * power for m in (1, 2, 5, 10) if m * power >= value * (1 - 1e-9)))

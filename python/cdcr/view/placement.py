@@ -1,0 +1,136 @@
+"""Where the solids of a picture stand: unit cylinders, placed and turned, and lines."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cdcr.base.arrays import FloatArray
+from cdcr.plotting.geometry import PIECES, RobotShape, robot_shape
+from cdcr.view.live import LiveModel
+
+STRIDE = 2  # pieces of the backbone's outline that one cylinder spans
+SIDES = 24  # of a cylinder
+SLENDER, THIN = 1 / 250, 1 / 200  # least radius of a backbone, thickness of a disk, over length
+
+
+class Poses(NamedTuple):
+    """Frames of several solids."""
+
+    wxyz: FloatArray  # (K, 4) unit quaternions
+    position: FloatArray  # (K, 3) [m]
+
+
+class Placement(NamedTuple):
+    """A robot in one state."""
+
+    backbone: Poses  # of cylinders along z, centred
+    disks: Poses
+    cables: FloatArray  # (S, 2, 3) straight pieces [m]
+    frames: Poses  # of the base and of the end of each section
+    tip: FloatArray  # (3,) [m]
+
+
+class Sizes(NamedTuple):
+    """What does not change as a robot moves."""
+
+    backbone: FloatArray  # (K, 3) radius, radius, length of each cylinder [m]
+    backbone_section: NDArray[np.int64]  # (K,)
+    disks: FloatArray  # (D, 3) likewise
+    pieces: NDArray[np.int64]  # (S,) cable that each piece is of
+    disk_place: list[tuple[int, float]]  # section and fraction of each disk
+
+
+def sizes(model: LiveModel) -> Sizes:
+    """Return sizes and owners of the solids of a robot."""
+    robot = model.robot
+    per_section = PIECES // STRIDE
+    backbone = [
+        (radius, radius, 1.03 * section.length / per_section)  # overlap where it bends
+        for section in robot.sections
+        for radius in [max(section.backbone_diameter / 2, robot.length * SLENDER)]
+        for _ in range(per_section)
+    ]
+    thick = robot.length * THIN
+    places = [
+        (i, disk) for i, s in enumerate(robot.sections) for disk in sorted(s.disks) if disk.diameter
+    ]
+    shape = robot_shape(model, np.zeros(model.num_coordinates))
+    return Sizes(
+        np.array(backbone),
+        np.repeat(np.arange(len(robot.sections)), per_section),
+        np.array([(d.diameter / 2, d.diameter / 2, thick) for _, d in places]).reshape(-1, 3),
+        np.repeat(np.arange(len(shape.cables)), [len(cable) - 1 for cable in shape.cables]),
+        [(i, disk.position) for i, disk in places],
+    )
+
+
+def place(model: LiveModel, q: FloatArray) -> Placement:
+    """Return where everything is at q (2n,) [rad]."""
+    shape = robot_shape(model, q)
+    line = shape.backbone[::STRIDE]
+    ends = [model.pose(q, i, 1.0) for i in range(model.num_sections)]
+    frames = [(np.array(model.robot.base_orientation), np.zeros(3)), *ends]
+    pieces = [np.stack([cable[:-1], cable[1:]], axis=1) for cable in shape.cables]
+    return Placement(
+        Poses(along(np.diff(line, axis=0)), (line[:-1] + line[1:]) / 2),
+        _disks(shape),
+        np.concatenate(pieces) if pieces else np.zeros((0, 2, 3)),
+        Poses(np.array([quaternion(R) for R, _ in frames]), np.array([p for _, p in frames])),
+        shape.backbone[-1],
+    )
+
+
+def _disks(shape: RobotShape) -> Poses:
+    """Return where disks are, of those that have a width."""
+    rims = [rim for rim in shape.disks if np.ptp(rim, axis=0).any()]
+    if not rims:
+        return Poses(np.zeros((0, 4)), np.zeros((0, 3)))
+    rim = np.array(rims)
+    center = rim.mean(axis=1)
+    quarter = rim.shape[1] // 4
+    return Poses(along(np.cross(rim[:, 0] - center, rim[:, quarter] - center)), center)
+
+
+def along(directions: FloatArray) -> FloatArray:
+    """Return the quaternions (K, 4) that turn z to directions (K, 3) by the shortest way."""
+    unit = directions / np.linalg.norm(directions, axis=1, keepdims=True)
+    x, y, z = unit.T
+    turned = np.stack([1.0 + z, -y, x, np.zeros_like(z)], axis=1)
+    turned[z < -1.0 + 1e-12] = (0.0, 1.0, 0.0, 0.0)  # straight back: about x
+    return np.asarray(turned / np.linalg.norm(turned, axis=1, keepdims=True))
+
+
+def quaternion(R: FloatArray) -> FloatArray:
+    """Return the quaternion (4,) of a rotation matrix, w first."""
+    # Four times the products of its components; the row of the largest has no cancellation.
+    products = np.array(
+        [
+            [1 + np.trace(R), R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]],
+            [0, 1 + R[0, 0] - R[1, 1] - R[2, 2], R[0, 1] + R[1, 0], R[0, 2] + R[2, 0]],
+            [0, 0, 1 - R[0, 0] + R[1, 1] - R[2, 2], R[1, 2] + R[2, 1]],
+            [0, 0, 0, 1 - R[0, 0] - R[1, 1] + R[2, 2]],
+        ]
+    )
+    products = np.triu(products) + np.triu(products, 1).T
+    row = products[np.argmax(np.diag(products))]
+    return np.asarray(row / np.linalg.norm(row))
+
+
+def cylinder() -> tuple[FloatArray, NDArray[np.uint32]]:
+    """Return vertices (V, 3) and faces (F, 3) of a cylinder of radius and height 1 about z."""
+    angle = np.linspace(0.0, 2.0 * np.pi, SIDES, endpoint=False)
+    ring = np.stack([np.cos(angle), np.sin(angle), np.full(SIDES, -0.5)], axis=1)
+    top = ring + np.array([0.0, 0.0, 1.0])
+    # The rims stand twice: their edges are to look sharp.
+    vertices = np.concatenate([ring, top, ring, top])
+    k = np.arange(SIDES)
+    after = (k + 1) % SIDES
+    side = np.concatenate(
+        [np.stack([k, after, after + SIDES], 1), np.stack([k, after + SIDES, k + SIDES], 1)]
+    )
+    fan = np.stack([np.zeros(SIDES - 2, int), k[1:-1], k[2:]], 1)
+    faces = np.concatenate([side, fan[:, ::-1] + 2 * SIDES, fan + 3 * SIDES])
+    return vertices, faces.astype(np.uint32)

@@ -1,0 +1,265 @@
+"""What is shown when: a run played back, or a robot simulated now. Knows no browser."""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from cdcr.base.arrays import FloatArray
+from cdcr.base.check import Check, count
+from cdcr.plotting.geometry import Motion, states_at
+from cdcr.view.live import LiveModel, LiveRobot, Pull, command_ranges, first_damping, round_up
+
+if TYPE_CHECKING:
+    from cdcr.robot.robot import Robot
+    from cdcr.runs.trajectory import Trajectory
+
+KEPT = 60.0  # of what was simulated, to look back at [s]
+TRAIL, TRAIL_POINTS = 2.0, 60  # how far back the path of the tip is shown [s]
+BUDGET = 0.03  # most computing for one picture [s]
+DIMMED = 10.0  # full range of a slider over the scale of colours at first
+CIRCLE, RAMP = 6.0, 1.0  # time of one round of `circling`, and how it begins [s]
+CIRCLING = 0.5  # its share of the sliders' range, over the number of sections
+
+
+class Moment(NamedTuple):
+    """All that is drawn of one time."""
+
+    time: float  # [s]
+    q: FloatArray  # (2n,) [rad]
+    tension: FloatArray  # (num_cables,) [N]
+    reference: FloatArray | None = None  # (2n,) [rad]
+
+
+class Session:
+    """A run that is played, or a robot that is simulated, and the clock of both.
+
+    Parameters
+    ----------
+    robot : Robot
+        The robot.
+    formulation : str
+        Of the equations of motion.
+    run : Trajectory, optional
+        The run to play; without one the robot is simulated.
+    reference : Trajectory or Reference, optional
+        What is shown beside it: anything with times `t`, states `q` and rates `qd`.
+    speed : float, default 1
+        Time simulated or played over real time.
+    """
+
+    def __init__(
+        self,
+        robot: Robot,
+        formulation: str = "exact",
+        *,
+        run: Trajectory | None = None,
+        reference: Motion | None = None,
+        speed: float = 1.0,
+    ) -> None:
+        check = Check()
+        self.speed = check.number("speed", speed, "a number > 0 and finite", above=0.0)
+        check.done()
+        self.run, self.reference = run, reference
+        self.playing, self.time = True, 0.0 if run is None else float(run.t[0])
+        self._robot, self._formulation = robot, formulation
+        self._still = LiveModel(robot, formulation)
+        size = self._still.num_coordinates
+        if reference is not None and reference.q.shape[1] != size:
+            raise ValueError(
+                f"reference must be of a robot of {count(size // 2, 'section')}, got one of "
+                f"{reference.q.shape[1] // 2}"
+            )
+        self._kept: deque[Moment] = deque()
+        self.live: LiveRobot | None = None
+        if run is None:
+            self.restart()
+
+    @property
+    def model(self) -> LiveModel:
+        """The model of what is shown."""
+        return self._still if self.live is None else self.live.model
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """First and last time that can be shown [s]."""
+        if self.live is None:
+            assert self.run is not None
+            return float(self.run.t[0]), float(self.run.t[-1])
+        return self._kept[0].time, self._kept[-1].time
+
+    @property
+    def added_damping(self) -> float:
+        """Share of critical damping that is added where the robot is simulated."""
+        return first_damping(self._robot) if self.live is None else self.live.added_damping
+
+    @property
+    def command(self) -> FloatArray:
+        """Commands of the cables in what is shown (num_cables,) [N], [m] where by length."""
+        if self.live is not None:
+            return self.live.command
+        assert self.run is not None
+        return np.asarray(self.run.command[self._sample(self.time)])
+
+    def ranges(self) -> list[tuple[float, float]]:
+        """Range of the command of each cable."""
+        commands = self.model.rest_command()[None] if self.run is None else self.run.command
+        return command_ranges(self.model, commands)
+
+    @property
+    def scale(self) -> float:
+        """Tension at the end of a scale of colours: a run's largest, or a share of a slider [N]."""
+        tensions = [] if self.run is None else [*self.run.tension.ravel()]
+        if not any(tensions):
+            driven = [not cable.length_driven for cable in self.model.robot.all_cables]
+            tensions = [
+                high / DIMMED
+                for (_, high), by_tension in zip(self.ranges(), driven, strict=True)
+                if by_tension
+            ]
+        return round_up(max(tensions, default=1.0))
+
+    def play(self) -> None:
+        """Go on; from the start where the end of a run is shown."""
+        self.playing = True
+        if self.live is not None:
+            self.time = self.live.time
+        elif self.time >= self.span[1]:
+            self.time = self.span[0]
+
+    def seek(self, time: float) -> None:
+        """Show another time, and stay there."""
+        self.playing = False
+        self.time = float(np.clip(time, *self.span))
+
+    def restart(self) -> None:
+        """Begin anew: the run, or the robot at rest without tension, or as the run began."""
+        if self.run is not None and self.live is None:
+            self.time = self.span[0]
+        elif self.run is not None:
+            self.time = float(self.run.t[0])
+            self.live = None
+            self.go_live()
+        else:
+            self.live = LiveRobot(self._robot, self._formulation)
+            self._kept.clear()
+            self._keep()
+        self.playing = True
+
+    def go_live(self) -> None:
+        """Simulate from what is shown of the run."""
+        if self.live is not None or self.run is None:
+            return
+        run = self.run
+        moment, rate = self.moment(), _rates_at(run, self.time)
+        self.live = LiveRobot(
+            self._robot, self._formulation, q=moment.q, qd=rate, command=self.command
+        )
+        self.live.time = self.time
+        self._kept.clear()
+        self._keep()
+        self.playing = True
+
+    def go_back(self) -> None:
+        """Play the run again, from its start."""
+        if self.run is not None:
+            self.live = None
+            self.restart()
+
+    def pull_to(self, section: int, fraction: float, target: tuple[float, ...]) -> None:
+        """Pull a point of the backbone towards a point in space (3,) [m]; all goes on live."""
+        self.go_live()
+        assert self.live is not None
+        self.live.pull = Pull(section, fraction, target, self.live.pull_stiffness)
+        if not self.playing:
+            self.play()
+
+    def let_go(self) -> None:
+        """Pull no more."""
+        if self.live is not None:
+            self.live.pull = None
+
+    def advance(self, elapsed: float) -> float:
+        """Go on after so much real time [s]; return how much was simulated or played."""
+        if not self.playing:
+            return 0.0
+        before = self.time
+        if self.live is None:
+            self.time = min(self.time + self.speed * elapsed, self.span[1])
+            self.playing = self.time < self.span[1]
+        else:
+            self.live.advance(self.speed * elapsed, BUDGET)
+            self.time = self.live.time
+            if self.time > self._kept[-1].time:
+                self._keep()
+        return self.time - before
+
+    def live_for(self, seconds: float) -> None:
+        """Simulate for so long [s], however long it takes."""
+        assert self.live is not None
+        self.live.advance(seconds)
+        self.time = self.live.time
+        self._keep()
+
+    def moment(self) -> Moment:
+        """Return what is shown now."""
+        if self.live is not None:
+            return self._latest if self.playing else self._at(self.time)
+        assert self.run is not None
+        q = states_at(self.run, np.array([self.time]))[0]
+        tension = self.run.tension[self._sample(self.time)]
+        return Moment(self.time, q, tension, self._reference(self.time))
+
+    def trail(self) -> FloatArray:
+        """Return where the tip was lately (TRAIL_POINTS, 3), oldest first [m]."""
+        start = max(self.span[0], self.time - TRAIL)
+        times = np.linspace(start, self.time, TRAIL_POINTS)
+        if self.live is None:
+            assert self.run is not None
+            return self.model.tips(states_at(self.run, times))
+        kept = [m for m in self._kept if start <= m.time <= self.time] or [self.moment()]
+        chosen = np.rint(np.linspace(0, len(kept) - 1, TRAIL_POINTS)).astype(int)
+        return self.model.tips(np.array([kept[k].q for k in chosen]))
+
+    @property
+    def _latest(self) -> Moment:
+        assert self.live is not None
+        live = self.live
+        return Moment(live.time, live.q, live.tension, self._reference(live.time))
+
+    def _keep(self) -> None:
+        self._kept.append(self._latest)
+        while self._kept[-1].time - self._kept[0].time > KEPT:
+            self._kept.popleft()
+
+    def _at(self, time: float) -> Moment:
+        return min(self._kept, key=lambda moment: abs(moment.time - time))
+
+    def _sample(self, time: float) -> int:
+        """Return which sample of the run holds at a time."""
+        assert self.run is not None
+        return max(0, int(np.searchsorted(self.run.t, time, side="right")) - 1)
+
+    def _reference(self, time: float) -> FloatArray | None:
+        if self.reference is None:
+            return None
+        t = self.reference.t
+        return np.asarray(states_at(self.reference, np.array([np.clip(time, t[0], t[-1])]))[0])
+
+
+def _rates_at(run: Trajectory, time: float) -> FloatArray:
+    """Return qd (2n,) at a time, on a line between samples [rad/s]."""
+    return np.array([np.interp(time, run.t, rates) for rates in run.qd.T])
+
+
+def circling(ranges: list[tuple[float, float]], model: LiveModel, time: float) -> FloatArray:
+    """Return commands (num_cables,) that lead a robot round in a circle, begun gently."""
+    share = CIRCLING / model.num_sections * min(1.0, time / RAMP)
+    rest, command = model.rest_command(), []
+    for j, (cable, (low, high)) in enumerate(zip(model.robot.all_cables, ranges, strict=True)):
+        pulled = share * max(0.0, np.cos(2.0 * np.pi * time / CIRCLE - cable.angle))
+        toward = low if cable.length_driven else high
+        command.append(rest[j] + pulled * (toward - rest[j]))
+    return np.array(command)

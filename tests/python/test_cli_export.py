@@ -1,0 +1,65 @@
+"""`cdcr export-fmu` and `cdcr export-mjcf`: files by name or from a file, and their refusals."""
+
+import zipfile
+from pathlib import Path
+
+import pytest
+
+import cdcr
+from cdcr.export.fmu import LIBRARY
+
+pytest.importorskip("typer")
+
+from command import cdcr_, everything_in, refused
+
+
+@pytest.mark.skipif(not LIBRARY.is_file(), reason="cdcr was built without its FMU")
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_fmu(tmp_path: Path, fmi: int) -> None:
+    file, robot = tmp_path / "arm.fmu", tmp_path / "arm.toml"
+    cdcr.robots.amouri2020(payload=0.1).save(robot)
+    result = cdcr_("export-fmu", robot, "--out", file, "--fmi", fmi, "--step", "1e-3")
+    assert (result.exit_code, result.stdout) == (0, f"wrote {file}, for FMI {fmi}\n")
+    with zipfile.ZipFile(file) as archive:
+        description = archive.read("modelDescription.xml").decode()
+        setup = archive.read("resources/setup.txt").decode().splitlines()
+    assert f'fmiVersion="{fmi}.0" modelName="arm"' in description
+    assert f"payload {(0.1).as_integer_ratio()[0]:#x}p-55" in setup
+    assert "--overwrite" in refused(cdcr_("export-fmu", "amouri2020", "--out", file))
+    assert cdcr_("export-fmu", "amouri2020", "--out", file, "--overwrite").exit_code == 0
+
+
+@pytest.mark.skipif(not LIBRARY.is_file(), reason="cdcr was built without its FMU")
+def test_fmu_refusals(tmp_path: Path) -> None:
+    out = ["--out", tmp_path / "arm.fmu"]
+    assert "fmi must be 2 or 3, got 1" in refused(
+        cdcr_("export-fmu", "amouri2020", *out, "--fmi", 1)
+    )
+    assert "step must be" in refused(cdcr_("export-fmu", "amouri2020", *out, "--step", "-1"))
+    assert "there is no robot" in refused(cdcr_("export-fmu", "amouri2019", *out))
+    assert "no dynamics" in refused(cdcr_("export-fmu", "rao2021", *out))
+    wrong = cdcr_("export-fmu", "amouri2020", "--out", tmp_path / "arm")
+    assert refused(wrong) == "the file name must end in .fmu, got 'arm'"
+    nowhere = cdcr_("export-fmu", "amouri2020", "--out", tmp_path / "no" / "arm.fmu")
+    assert "does not exist" in refused(nowhere)
+    assert everything_in(tmp_path) == []
+
+
+def test_mjcf(tmp_path: Path) -> None:
+    file = tmp_path / "arm.xml"
+    result = cdcr_("export-mjcf", "three-sections", "--out", file, "--links", 4)
+    assert (result.exit_code, result.stdout) == (0, f"wrote {file}\n")
+    assert file.read_text().count("<spatial ") == 9
+    assert "--overwrite" in refused(cdcr_("export-mjcf", "amouri2020", "--out", file))
+    many = cdcr_("export-mjcf", "amouri2020", "--out", file, "--links", 1000, "--overwrite")
+    assert refused(many).startswith("links must be a whole number 1 to 320 for 1 section, got 1000")
+
+
+@pytest.mark.filterwarnings("default")
+def test_a_warning_is_a_sentence(tmp_path: Path) -> None:
+    robot = cdcr.robots.amouri2020()
+    cable = cdcr.Cable(radius=0.01, angle=0.0, end_section=0, friction=0.2)
+    cdcr.Robot(sections=robot.sections, cables=[cable]).save(tmp_path / "arm.toml")
+    result = cdcr_("export-mjcf", tmp_path / "arm.toml", "--out", tmp_path / "arm.xml")
+    assert result.exit_code == 0
+    assert result.stderr == "cdcr: warning: MuJoCo's model leaves the friction of cables out\n"

@@ -1,0 +1,77 @@
+"""What shells complete."""
+
+import os
+import stat
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import cdcr
+
+pytest.importorskip("typer")
+
+DEADLINE = 100.0  # after which something hangs [s]
+
+
+@pytest.fixture
+def home(tmp_path: Path) -> Path:
+    """Make a folder with the command, some files and nothing else."""
+    command = tmp_path / "bin" / "cdcr"
+    command.parent.mkdir()
+    command.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m cdcr "$@"\n')
+    command.chmod(command.stat().st_mode | stat.S_IXUSR)
+    work = tmp_path / "work"
+    (work / "mine").mkdir(parents=True)
+    for name in ("my.toml", "other.toml", "my.csv", ".hidden.toml", "mine/deep.toml"):
+        (work / name).write_text("")
+    return tmp_path
+
+
+def shell(home: Path, script: str) -> str:
+    """Return what a shell prints that begins in the folder."""
+    environment = os.environ | {"HOME": str(home), "PATH": f"{home / 'bin'}:{os.environ['PATH']}"}
+    done = subprocess.run(
+        ["bash", "--norc", "-c", script],
+        capture_output=True,
+        text=True,
+        cwd=home / "work",
+        env=environment,
+        timeout=DEADLINE,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    return done.stdout
+
+
+def offered(home: Path, *words: str) -> list[str]:
+    """Return what bash offers for the last word."""
+    line = " ".join(f"'{word}'" for word in words)
+    script = f"""
+eval "$(_CDCR_COMPLETE=source_bash cdcr)"
+COMP_WORDS=({line}); COMP_CWORD={len(words) - 1}
+_cdcr_completion cdcr
+printf '%s\\n' "${{COMPREPLY[@]}}"
+"""
+    return shell(home, script).split()
+
+
+def test_scenarios_and_files_are_offered(home: Path) -> None:
+    assert offered(home, "cdcr", "run", "mine/") == ["mine/deep.toml"]
+    everything = offered(home, "cdcr", "run", "")
+    assert everything == [*cdcr.scenarios.names(), "mine/", "my.toml", "other.toml"]
+
+
+def test_options_and_their_values_are_offered(home: Path) -> None:
+    assert "--watch" in offered(home, "cdcr", "run", "--w")
+    assert offered(home, "cdcr", "run", "pid", "--method", "d") == ["dopri5"]
+
+
+def test_the_shell_is_found_and_told(home: Path) -> None:
+    pytest.importorskip("shellingham")
+    script = shell(home, "cdcr --show-completion; true")
+    assert "complete -o default -F _cdcr_completion cdcr" in script
+    shell(home, "cdcr --install-completion; true")
+    assert "_cdcr_completion" in (home / ".bash_completions" / "cdcr.sh").read_text()
+    assert "cdcr.sh" in (home / ".bashrc").read_text()

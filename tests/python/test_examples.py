@@ -1,0 +1,352 @@
+"""Each example runs, draws its picture, and finds what other means find."""
+
+from __future__ import annotations
+
+import ast
+import re
+import runpy
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp  # type: ignore[import-untyped]
+from scipy.linalg import expm  # type: ignore[import-untyped]
+from scipy.optimize import brentq, minimize_scalar, root  # type: ignore[import-untyped]
+
+import cdcr
+
+FOLDER = Path(__file__).parents[2] / "examples"
+SCRIPTS = sorted(FOLDER.glob("[0-9][0-9]_*.py"))
+FEWEST_BYTES = 10_000  # of a picture with something on it
+GRAVITY = 9.81
+
+
+class Example:
+    """Runs an example and keeps its names, its picture and what it prints."""
+
+    def __init__(self, picture: Path, capsys: pytest.CaptureFixture[str]) -> None:
+        self.picture, self.capsys = picture, capsys
+
+    def __call__(self, number: int) -> dict[str, Any]:
+        (script,) = FOLDER.glob(f"{number:02}_*.py")
+        sys.argv = [str(script), str(self.picture)]
+        names = runpy.run_path(str(script))
+        findings = self.capsys.readouterr().out.splitlines()
+        assert len(findings) >= 2
+        assert self.picture.read_bytes().startswith(b"\x89PNG")
+        assert self.picture.stat().st_size > FEWEST_BYTES
+        return names
+
+
+@pytest.fixture
+def example(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> Iterator[Example]:
+    monkeypatch.setattr(sys, "argv", [])
+    mpl.use("Agg")
+    with mpl.rc_context():
+        yield Example(tmp_path / "picture.png", capsys)
+    from matplotlib import pyplot
+
+    pyplot.close("all")
+
+
+def rotated(phi: Any) -> Any:
+    return np.stack([np.cos(phi), np.sin(phi)], axis=-1)
+
+
+# Form
+
+
+def test_the_table_has_every_example() -> None:
+    rows = re.findall(r"^\| (\d\d) \|", (FOLDER / "README.md").read_text(), re.MULTILINE)
+    assert rows == [script.name[:2] for script in SCRIPTS]
+
+
+@pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.stem)
+def test_an_example_is_a_page_and_uses_public_names_alone(script: Path) -> None:
+    text = script.read_text()
+    tree = ast.parse(text)
+    title, line, *paragraphs = (ast.get_docstring(tree) or "").splitlines()
+    assert line == "=" * len(title)
+    assert any(paragraph.startswith("Look at ") for paragraph in paragraphs)
+    assert text.count("\n# %%\n") >= 3
+    assert len(text.splitlines()) <= 100
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Attribute):
+            assert not node.attr.startswith("_") or node.attr == "__init__"
+        if isinstance(node, ast.ImportFrom):
+            assert not str(node.module).startswith("cdcr")
+
+
+# Findings
+
+
+def test_own_robot(example: Example) -> None:
+    found = example(1)
+    # One cable bends to F r/K; swings about that shape are those of a damped oscillator.
+    K = 60e9 * np.pi / 64 * 2e-3**4 / 0.4
+    assert found["theta_rest"] == pytest.approx(4.0 * 0.015 / K, rel=1e-9)
+    theta, t = found["run"].theta[:, 0], found["run"].t
+    peaks = np.flatnonzero((theta[1:-1] > theta[:-2]) & (theta[1:-1] > theta[2:])) + 1
+    first, last = peaks[3], peaks[-1]
+    swings = len(peaks) - 4
+    period = (t[last] - t[first]) / swings
+    decrement = np.log((theta[first] - K**-1 * 0.06) / (theta[last] - K**-1 * 0.06)) / swings
+    ratio = decrement / np.hypot(2 * np.pi, decrement)
+    assert found["modes"].damping_ratio[0] == pytest.approx(ratio, rel=2e-3)
+    damped = found["modes"].frequency_hz[0] * np.sqrt(1 - ratio**2)
+    assert period == pytest.approx(1.0 / damped, rel=2e-3)
+
+
+def test_shapes(example: Example) -> None:
+    found = example(2)
+    section = found["model"].robot.sections[0]
+    needed = section.stiffness * np.pi / 3 / section.cable_radius  # [N]
+    directions = rotated(2 * np.pi / 3 * np.arange(3))
+    np.testing.assert_allclose(
+        found["tension"] @ directions, needed * rotated(found["phi"]), rtol=0, atol=1e-9 * needed
+    )
+    assert found["total"].min() == pytest.approx(needed, rel=1e-9)
+    assert found["total"].max() == pytest.approx(2 * needed, rel=1e-9)
+    assert found["tension"].max() == pytest.approx(needed / np.cos(np.pi / 6), rel=1e-9)
+    l = section.length
+    circle = l * (1 - np.cos(np.pi / 3)) / (np.pi / 3)
+    tips = found["model"].tips(found["shapes"])
+    np.testing.assert_allclose(np.hypot(*tips[:, :2].T), circle, rtol=1e-9)
+
+
+def test_two_sections(example: Example) -> None:
+    found = example(3)
+    K = found["first"].stiffness
+    bent = 6.0 * 0.015 / K * rotated(np.pi / 3)
+    np.testing.assert_allclose(found["coupled"], [*bent, *bent], rtol=1e-9)
+    np.testing.assert_allclose(found["alone"], [0.0, 0.0, *bent], rtol=0, atol=1e-9)
+    np.testing.assert_allclose(found["inner"][0::2], -6.0 * 0.008 / K, rtol=1e-9)
+
+
+def test_gravity_and_payload(example: Example) -> None:
+    found = example(4)
+    section = found["arm"].sections[0]
+    l, EI = section.length, section.stiffness * section.length
+    disks = np.array([disk.position * l for disk in section.disks])
+
+    def weight_beyond(s: float, payload: float) -> float:
+        own = section.backbone_mass * (1 - s / l) + section.disk_mass * np.sum(disks > s)
+        return GRAVITY * float(own + payload)
+
+    def elastica(payload: float) -> float:
+        """Sag of the tip of a rod, integrated from its tip, whose angle is sought."""
+
+        def base(angle: float) -> Any:
+            return solve_ivp(
+                lambda s, y: [y[1], -weight_beyond(s, payload) * np.cos(y[0]) / EI, np.sin(y[0])],
+                (l, 0.0),
+                [angle, 0.0, 0.0],
+                max_step=l / 100,
+            ).y[:, -1]
+
+        return float(-base(brentq(lambda angle: base(angle)[0], 0.0, 1.5, xtol=1e-6))[2])
+
+    def arc(payload: float) -> float:
+        """The same of a circular arc, which has the least energy."""
+
+        def energy(theta: float) -> float:
+            def drop(s: Any) -> Any:
+                return l * (1 - np.cos(theta * s / l)) / theta
+
+            spread = np.mean(drop((np.arange(1000) + 0.5) * l / 1000))
+            work = section.backbone_mass * spread + section.disk_mass * np.sum(drop(disks))
+            work += payload * drop(l)
+            return float(section.stiffness * theta**2 / 2 - GRAVITY * work)
+
+        theta = minimize_scalar(energy, bounds=(1e-3, 3.0), method="bounded").x
+        return float(l * (1 - np.cos(theta)) / theta)
+
+    for payload in (0.0, 0.1):
+        assert found["sag"][payload, 8] == pytest.approx(elastica(payload), rel=0.02)
+        assert found["sag"][payload, 1] == pytest.approx(arc(payload), rel=1e-4)
+    # Straight, a mass m at s bends by m g s^2/(2 l).
+    moment = section.backbone_mass * l / 6 + (section.disk_mass * disks**2).sum() / (2 * l)
+    moment = GRAVITY * (moment + 0.05 * l / 2)
+    np.testing.assert_allclose(found["lift"], [moment / section.cable_radius, 0, 0], atol=1e-9)
+
+
+def test_length_drives_and_friction(example: Example) -> None:
+    found = example(5)
+    t, lengths = found["t"], found["lengths"]
+    for mu, run in found["runs"].items():
+        model = run.model
+        section = model.robot.sections[0]
+        d, k = section.cable_damping, section.cable_stiffness
+        rate = run.qd @ -model.actuation_matrix()  # of the lengths
+        stretch = model.cable_lengths(run.q) - lengths
+        # What the drives put in is in springs and robot, or heat.
+        winding = -(k * stretch * np.gradient(lengths, t, axis=0)).sum(axis=1)
+        heat = d * (rate**2).sum(axis=1) + section.damping * (run.qd**2).sum(axis=1)
+        heat = heat + run.friction_power
+        stored = run.energy + run.cable_energy
+        put_in, lost = np.trapezoid(winding, t), np.trapezoid(heat, t)
+        scale = np.ptp(stored)
+        assert put_in == pytest.approx(stored[-1] - stored[0] + lost, abs=1e-4 * scale)
+        # Capstan: along an arc of theta a sliding cable loses exp(-mu theta).
+        row = np.argmax(t > 5.0)
+        along = model.tensions_along(run.q[row], run.qd[row], lengths[row])
+        speed = np.tanh(rate[row] / 2 / model.robot.sliding_speed)  # half way along
+        ratio = np.exp(mu * run.theta[row, 0] * np.abs(speed))
+        assert np.all(run.friction_power >= 0.0)
+        base, end = along
+        np.testing.assert_allclose(np.maximum(base / end, end / base), ratio, rtol=0.01)
+    assert np.abs(found["rubbing"].q[:, 0] - found["asked"]).max() > np.deg2rad(1.0)
+    assert np.abs(found["runs"][0.0].q[:, 0] - found["asked"]).max() < np.deg2rad(0.1)
+
+
+def test_pid(example: Example) -> None:
+    found = example(6)
+    real, known, goal = found["real"], found["known"], found["goal"]
+    hold = known.potential_gradient(goal)
+    # Without an integral it rests where the robot's own moment is the controller's.
+    offset = root(lambda q: real.potential_gradient(q) - hold - (goal - q), goal).x
+    np.testing.assert_allclose(found["runs"]["kp, kd"].q[-1], offset, rtol=0, atol=1e-6)
+    np.testing.assert_allclose(found["runs"]["kp, ki, kd"].q[-1], goal, rtol=0, atol=1e-6)
+
+
+def test_lqr(example: Example) -> None:
+    found = example(7)
+    A, B, Q, K = (found[name] for name in "ABQK")
+    # The poles of the loop are the stable ones of the Hamiltonian matrix.
+    poles = np.linalg.eigvals(np.block([[A, -B @ B.T], [-Q, -A.T]]))
+    expected = np.sort_complex(poles[poles.real < 0.0])
+    assert len(expected) == 12
+    np.testing.assert_allclose(np.sort_complex(found["after"]), expected, rtol=1e-8)
+    # After the knock the run decays as the linear loop does.
+    t, run = found["t"], found["runs"]["LQR"]
+    early, late = np.searchsorted(t, [1.0, 1.5])
+    x = np.hstack([run.q - found["shape"], run.qd])
+    decayed = expm((A - B @ K) * (t[late] - t[early])) @ x[early]
+    np.testing.assert_allclose(x[late], decayed, rtol=0, atol=0.05 * np.abs(x[early]).max())
+    assert found["off"]["held"][t >= 2].max() > 100.0 > 1.0 > found["off"]["LQR"][t >= 2].max()
+
+
+def test_own_controller(example: Example) -> None:
+    found = example(8)
+    w, run, reference = found["w"], found["run"], found["reference"]
+    # The error equation integrated: e'' = -2 w e' - w^2 e.
+    A = np.kron([[0.0, 1.0], [-(w**2), -2.0 * w]], np.eye(2))
+    e0 = -np.concatenate([reference.q[0], reference.qd[0]])
+    for row in (10, 30, 60):
+        error = (expm(A * run.t[row]) @ e0)[:2]
+        atol = 0.01 * np.linalg.norm(e0)
+        np.testing.assert_allclose(run.q[row] - reference.q[row], error, rtol=0, atol=atol)
+    assert found["late"] < 2.0
+    assert run.tension.min() >= 0.5
+
+
+def test_fit(example: Example) -> None:
+    found = example(9)
+    modulus, damping = found["TRUE"]
+    off = np.log([found["modulus"] / modulus, found["damping"] / damping])
+    assert np.all(np.abs(off) < 4 * found["spread"])
+    assert np.all(found["spread"] < 0.01)
+    assert found["deviation"] == pytest.approx(found["NOISE"], rel=0.15)
+
+
+def test_sweep(example: Example) -> None:
+    found = example(10)
+    model, rest = found["model"], found["rest"]
+    # A linear oscillator with the inertia at rest.
+    inertia = float(rest @ model.mass_matrix(rest) @ rest / (rest @ rest))
+    section = model.robot.sections[0]
+    pole = np.roots([inertia, section.damping, section.stiffness])[0]
+    half = np.pi / abs(pole.imag)
+    share = 1.0 / (1.0 + np.exp(pole.real * half))
+    assert found["half_period"] == pytest.approx(half, rel=1e-6)
+    assert found["first"] == pytest.approx(share, rel=1e-6)
+    # The robot is not linear: its best is near.
+    assert found["best_share"] == pytest.approx(share, abs=0.02)
+    assert found["best_wait"] == pytest.approx(half, rel=0.04)
+    assert found["left_over"].min() < 0.02 * found["residual"](1.0, 0.1)
+
+
+def test_optimise_pull(example: Example) -> None:
+    found = example(11)
+    model, knots, pull, goal = (found[name] for name in ("model", "knots", "pull", "goal"))
+
+    def rate(t: float, y: Any) -> Any:
+        tension = [np.interp(t, knots, pull), 0.0, 0.0]
+        return np.concatenate([y[2:], model.forward_dynamics(y[:2], y[2:], tension)])
+
+    options = {"rtol": 1e-9, "atol": 1e-11, "max_step": knots[1]}
+    end = solve_ivp(rate, (0.0, 0.5), np.zeros(4), **options).y[:, -1]
+    np.testing.assert_allclose(end, [*goal, 0.0, 0.0], rtol=0, atol=1e-4)
+    # No pull that arrives is smoother: the gradient is one of the two constraints alone.
+    gradient = np.convolve(pull, [-1, 2, -1])[1:-1][1:-1]
+    columns = np.eye(knots.size)[1:-1] * 1e-3
+    miss = [np.subtract(found["miss"](pull + dp), found["miss"](pull - dp)) for dp in columns]
+    left = np.linalg.lstsq(np.array(miss), gradient)[0]
+    np.testing.assert_allclose(np.array(miss) @ left, gradient, atol=0.02 * np.abs(gradient).max())
+
+
+def test_control_loop(example: Example) -> None:
+    found = example(12)
+    model, goal = found["model"], found["goal"]
+
+    class Loop(cdcr.Controller):
+        def update(self, t: float, q: Any, qd: Any) -> Any:
+            moment = found["hold"] + found["KP"] * (goal - q) - found["KD"] * qd
+            return model.allocate(moment, min_tension=0.5)
+
+    # The same in one run.
+    push = cdcr.Wrench(
+        section=0,
+        force=(0.0, 0.5, 0.0),
+        profile=([0.0, 1.0, 2.0], [0.0, 1.0, 0.0]),
+        interpolation="previous",
+    )
+    run = cdcr.simulate(
+        model,
+        goal,
+        [0, 0],
+        t=np.arange(3001) * 1e-3,
+        controller=Loop(1e-3),
+        wrenches=push,
+        method="rk4",
+        step=1e-3,
+    )
+    np.testing.assert_allclose(found["q"], run.q[1:], rtol=0, atol=1e-9)
+    # Pushed, it rests where push, moment and robot are in balance.
+    push = cdcr.Wrench(section=0, force=(0.0, 0.5, 0.0))
+
+    def balance(q: Any) -> Any:
+        given = found["hold"] + found["KP"] * (goal - q) + model.wrench_force(q, push)
+        return model.potential_gradient(q) - given
+
+    np.testing.assert_allclose(found["q"][1999], root(balance, goal).x, rtol=0, atol=1e-3)
+
+
+def test_events_and_files(example: Example) -> None:
+    found = example(13)
+    model, run, touch = found["model"], found["run"], found["touch"]
+    assert model.tip(touch.q)[1][2] == pytest.approx(found["SHELF"], abs=1e-9)
+    for turn in found["turning"]:
+        assert turn.q @ turn.qd == pytest.approx(0.0, abs=1e-9)
+    # Work of the pulls is energy or heat.
+    t = np.append(run.t, touch.time)
+    lengths = model.cable_lengths(np.vstack([run.q, touch.q]))[:, 0]
+    held = np.array([4.0, 8.0, 12.0, 20.0])[np.floor(t[:-1]).astype(int)]
+    work = np.sum(held * -np.diff(lengths))
+    qd = np.vstack([run.qd, touch.qd])
+    heat = model.robot.sections[0].damping * np.trapezoid((qd**2).sum(axis=1), t)
+    energy = model.kinetic_energy(touch.q, touch.qd) + model.potential_energy(touch.q)
+    assert energy == pytest.approx(work - heat, rel=2e-3)
+    assert found["speed"] == pytest.approx(
+        np.linalg.norm(
+            np.diff([model.tip(touch.q + h * touch.qd)[1] for h in (-1e-5, 1e-5)], axis=0)
+        )
+        / 2e-5,
+        rel=1e-6,
+    )

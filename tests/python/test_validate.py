@@ -1,0 +1,155 @@
+"""cdcr validate: one sentence for each fault, with its line; nothing runs."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import cdcr
+
+pytest.importorskip("typer")
+
+from cdcr.files.toml_lines import key_lines, line_of
+from command import cdcr_
+
+LIBRARY = sorted((Path(cdcr.__file__).parent / "scenarios" / "library").glob("*.toml"))
+FAULTY = """\
+title = "faulty"
+robot = "amouri2020"
+t_end = 10
+tension = [1, 2]                  # three cables
+[integrator]
+rtoll = 1e-6
+[output]
+files = ["png"]
+[[wrenches]]
+section = 1
+force = [1, 0, 0]
+[[wrenches]]
+section = 4
+force = [1, 0, 0]
+[initial]
+q = [0, 0]
+theta = [0]
+"""
+
+
+def test_all_faults_are_told_each_with_its_line(tmp_path: Path) -> None:
+    path = tmp_path / "faulty.toml"
+    path.write_text(FAULTY, encoding="utf-8")
+    result = cdcr_("validate", path)
+    assert (result.exit_code, result.stdout) == (2, "")
+    told = [line.removeprefix(f"cdcr: {path}, line ") for line in result.stderr.splitlines()]
+    assert [line.partition(" ")[:3:2] for line in (one.partition(" must")[0] for one in told)] == [
+        ("6:", "integrator.rtoll is not a known key. Did you mean 'rtol'? Known keys: "
+         "method, rtol, atol, step, max_step, max_steps"),
+        ("8:", "output.files"),
+        ("4:", "tension"),
+        ("13:", "wrenches[1].section"),
+        ("15:", "initial"),
+    ]  # fmt: skip
+
+
+def test_files_without_faults_are_told_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cdcr.scenarios.Scenario, "simulate", None)  # a run would fail
+    robot = tmp_path / "robot.toml"
+    cdcr.robots.three_sections().save(robot)
+    result = cdcr_("validate", LIBRARY[-1], robot, tmp_path / "no.toml", robot)
+    assert result.exit_code == 2
+    assert result.stdout.splitlines()[1:] == [f"{robot}: ok, a robot of 3 sections, 9 cables"] * 2
+    assert result.stderr == f"cdcr: there is no robot or scenario file {tmp_path / 'no.toml'}\n"
+    assert cdcr_("validate", robot).exit_code == 0
+
+
+def test_scenarios_of_the_package_that_run_are_valid() -> None:
+    files = [path for path in LIBRARY if cdcr.scenarios.get(path.stem).has_run]
+    result = cdcr_("validate", *files)
+    assert (result.exit_code, result.stderr) == (0, "")
+    assert len(result.stdout.splitlines()) == len(files) == 11
+
+
+def test_faults_of_a_robot_that_a_scenario_names_are_found_there(tmp_path: Path) -> None:
+    robot, path = tmp_path / "robot.toml", tmp_path / "my.toml"
+    cdcr.robots.three_sections().save(robot)
+    lines = robot.read_text(encoding="utf-8").splitlines()
+    at = [i for i, line in enumerate(lines) if line.startswith("length")][1]
+    lines[at] = "length = -1.0"
+    robot.write_text("\n".join(lines), encoding="utf-8")
+    path.write_text('robot = "robot.toml"\nt_end = 1.0\n', encoding="utf-8")
+    start = f"cdcr: {robot}, line {at + 1}: section 2: length must be"
+    assert cdcr_("validate", path).stderr.startswith(start)
+    assert cdcr_("validate", robot).stderr.startswith(start)
+
+
+def test_syntax_keeps_its_line(tmp_path: Path) -> None:
+    path = tmp_path / "my.toml"
+    path.write_text('robot = "amouri2020"\nt_end = \n', encoding="utf-8")
+    told = cdcr_("validate", path).stderr
+    assert told.startswith(f"cdcr: {path}, line 2, column 9: ")
+
+
+def test_json_is_one_object(tmp_path: Path) -> None:
+    path = tmp_path / "faulty.toml"
+    path.write_text(FAULTY, encoding="utf-8")
+    result = cdcr_("validate", path, LIBRARY[-1], "--json")
+    assert (result.exit_code, result.stderr) == (2, "")
+    bad, good = json.loads(result.stdout)["files"]
+    assert (bad["ok"], len(bad["faults"]), bad["file"]) == (False, 5, str(path))
+    assert (good["ok"], good["faults"]) == (True, [])
+
+
+TOML = '''
+integrator.rtol = 1
+[initial]
+q = [1,
+ 2]  # ] [ no = "bracket
+text = """
+[not.a.table]
+a = 1
+"""
+inline = { a = 1 }
+[["wrenches"]]
+section = 1
+[[wrenches]]
+section = 2
+[[robot.sections]]
+length = 1
+[[robot.sections]]
+length = 2
+'''
+
+
+def test_lines_of_keys() -> None:
+    assert key_lines(TOML) == {
+        "integrator": 2,
+        "integrator.rtol": 2,
+        "initial": 3,
+        "initial.q": 4,
+        "initial.text": 6,
+        "initial.inline": 10,
+        "wrenches[0]": 11,
+        "wrenches[0].section": 12,
+        "wrenches[1]": 13,
+        "wrenches[1].section": 14,
+        "robot": 15,
+        "robot.sections[0]": 15,
+        "robot.sections[0].length": 16,
+        "robot.sections[1]": 17,
+        "robot.sections[1].length": 18,
+    }
+
+
+@pytest.mark.parametrize(
+    ("sentence", "home", "line"),
+    [
+        ("integrator.rtol must be", "", 2),
+        ("rtol must be", "integrator", 2),
+        ("initial.q[0] must be", "", 4),
+        ("wrenches[1].force is missing", "", 13),
+        ("section 2: length must be", "robot", 18),
+        ("there must be only one of", "", None),
+    ],
+)
+def test_the_line_of_a_sentence(sentence: str, home: str, line: Any) -> None:
+    assert line_of(key_lines(TOML), sentence, home) == line
