@@ -41,6 +41,8 @@ def rows(name: str) -> list[tuple[str, str, str]]:
         value = str(field.description)
         if described is not None and "about" in described.metadata:
             value = f"{described.metadata['about']}: {value}"
+        elif field.title:
+            value = f"{field.title}: {value}"
         need = (
             "needed"
             if field.is_required()

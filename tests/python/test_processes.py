@@ -24,11 +24,12 @@ DEADLINE = 100.0  # after which something hangs [s]
 SLEEPERS = """
 import time
 from cdcr.cli import main, processes
-from cdcr.cli.app import app, _told_plainly
+from cdcr.cli.app import app
+from cdcr.cli.plain import told_plainly
 
 @app.command("sleep")
 def sleep():
-    with _told_plainly():
+    with told_plainly():
         kept = processes._send
         def send(stream, thing):
             kept(stream, thing)

@@ -1,4 +1,4 @@
-"""The commands but for those of `export` and `view`."""
+"""The commands; those that need more stand in files of their own, which this one adds."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ import cdcr
 from cdcr.cli import (
     audit,
     complete,
+    doctor,
     export,
     figures,
     info,
@@ -24,8 +25,7 @@ from cdcr.cli import (
     view,
     watch,
 )
-from cdcr.cli.plain import AsJson, Overwrite, Quiet, Robot, Size, print_json
-from cdcr.cli.plain import told_plainly as _told_plainly
+from cdcr.cli.plain import AsJson, Overwrite, Quiet, Robot, Size, print_json, told_plainly
 
 app = typer.Typer(
     help="Dynamics of cable-driven continuum robots.",
@@ -34,8 +34,8 @@ app = typer.Typer(
     rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-app.add_typer(export.commands)
-app.add_typer(view.commands)
+for group in (validate, schema, doctor, export, view):
+    app.add_typer(group.commands)
 
 
 def _version(wanted: bool) -> None:
@@ -57,7 +57,7 @@ def cdcr_command(
 @app.command("list", short_help="List the known scenarios and robots.")
 def list_command(as_json: AsJson = False) -> None:
     """List the scenarios and robots that `run` and `info` know by name."""
-    with _told_plainly():
+    with told_plainly():
         if as_json:
             print_json(tables.known())
         else:
@@ -73,7 +73,7 @@ def info_command(
 
     Sections, cables, masses, natural frequencies, stiffness of the tip, largest stable step.
     """
-    with _told_plainly():
+    with told_plainly():
         found = run.find_robot(robot)
         if as_json:
             print_json(info_json.as_dict(robot, found))
@@ -120,6 +120,16 @@ def run_command(
     overwrite: Overwrite = False,
     as_json: AsJson = False,
     size: Size = None,
+    formats: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--format",
+            metavar="FORMAT",
+            help="Write picture, csv, nc or mcap in place of the scenario's own files; may be "
+            "given several times.",
+            autocompletion=complete.formats,
+        ),
+    ] = None,
     film: Annotated[
         str | None,
         typer.Option(
@@ -137,6 +147,8 @@ def run_command(
 ) -> None:
     """Run a scenario; write a picture (.png) and the data (.csv, .nc); print a summary.
 
+    With --format other files, such as mcap, a log for Foxglove.
+
     Exit codes: 0 all went well, 1 the integration failed, 2 something in the command or in a file
     has to be mended first, 130 interrupted. Files appear when all are complete; a run that failed
     leaves its numbers, in files whose names end in -incomplete.
@@ -151,6 +163,7 @@ def run_command(
             overwrite=overwrite,
             console=console,
             size=size,
+            formats=formats or (),
             film=film,
             own=own,
             max_steps=max_steps,
@@ -170,7 +183,7 @@ def run_command(
     if watching:
         watch.run_and_watch(scenario, run_once, quiet=quiet)
         return
-    with _told_plainly():
+    with told_plainly():
         run_once()
 
 
@@ -201,7 +214,7 @@ def new_command(
     With --from, the file of a scenario of `cdcr list`; with --robot, a robot file, which a scenario
     file names in `robot = "FILE.toml"`.
     """
-    with _told_plainly(), run.mistakes():
+    with told_plainly(), run.mistakes():
         if robot is None:
             new.write_scenario(file, name, overwrite=overwrite)
         elif name is not None:
@@ -209,57 +222,6 @@ def new_command(
         else:
             new.write_robot(file, robot, overwrite=overwrite)
         typer.echo(f"wrote {file}; next: cdcr {'run' if robot is None else 'info'} {file}")
-
-
-@app.command("validate", short_help="Check robot and scenario files without running.")
-def validate_command(
-    files: Annotated[
-        list[str],
-        typer.Argument(
-            metavar="FILE.toml...",
-            help="Files of robots and scenarios.",
-            autocompletion=complete.toml_files,
-        ),
-    ],
-    as_json: AsJson = False,
-) -> None:
-    """Check robot and scenario files, and the files they name, without running.
-
-    One sentence for each fault, with its line where that is known. Exit code 2 where there is any.
-    """
-    with _told_plainly():
-        verdicts = [validate.validate(file) for file in files]
-    if as_json:
-        print_json({"files": [verdict.as_dict() for verdict in verdicts]})
-    for verdict in verdicts if not as_json else ():
-        if verdict.holds:
-            typer.echo(f"{verdict.file}: ok, {verdict.holds}")
-        for fault in verdict.faults:
-            typer.echo(f"cdcr: {fault}", err=True)
-    if any(verdict.faults for verdict in verdicts):
-        raise typer.Exit(2)
-
-
-@app.command("schema", short_help="Print the JSON schema of robot or scenario files.")
-def schema_command(
-    kind: Annotated[
-        str,
-        typer.Argument(
-            metavar="robot|scenario", help="The files.", autocompletion=complete.kinds_of_files
-        ),
-    ],
-) -> None:
-    """Print the JSON schema of robot or scenario files, by which editors complete and check keys.
-
-    Files written by `cdcr new` name it: taplo and Even Better TOML (VS Code) look for it beside the
-    file, under cdcr-robot.schema.json or cdcr-scenario.schema.json.
-    """
-    with _told_plainly():
-        for known in schema.KINDS:
-            if kind == known:
-                typer.echo(schema.text(known))
-                return
-        raise run.Mistake(f"the schema must be one of {', '.join(schema.KINDS)}, got {kind!r}")
 
 
 @app.command("audit", short_help="Hold the origin paper's claims against its own equations.")
@@ -273,7 +235,7 @@ def audit_command(
     One row per claim: where it stands, what the paper says, what follows from its equations, and a
     verdict. Every number is computed by this command. Exit code 0, whatever the verdicts.
     """
-    with _told_plainly():
+    with told_plainly():
         claims = audit.compute(Console(stderr=True))
         if as_json:
             typer.echo(audit.as_json(claims))
@@ -302,7 +264,7 @@ def figures_command(
 
     Files appear only when all are complete.
     """
-    with _told_plainly():
+    with told_plainly():
         written = figures.figures(
             out,
             overwrite=overwrite,

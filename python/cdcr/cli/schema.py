@@ -3,7 +3,15 @@
 from __future__ import annotations
 
 import json
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
+
+import typer
+
+from cdcr.cli import complete
+from cdcr.cli.plain import told_plainly
+from cdcr.cli.run import Mistake
+
+commands = typer.Typer()
 
 Kind = Literal["robot", "scenario"]
 KINDS: tuple[Kind, ...] = ("robot", "scenario")
@@ -35,3 +43,25 @@ def comment(kind: Kind) -> str:
     name = file_name(kind)
     made = f"cdcr schema {kind} > {name}"
     return f"#:schema ./{name}\n# Editors complete keys by it where it is; to make it: {made}\n\n"
+
+
+@commands.command("schema", short_help="Print the JSON schema of robot or scenario files.")
+def schema_command(
+    kind: Annotated[
+        str,
+        typer.Argument(
+            metavar="robot|scenario", help="The files.", autocompletion=complete.kinds_of_files
+        ),
+    ],
+) -> None:
+    """Print the JSON schema of robot or scenario files, by which editors complete and check keys.
+
+    Files written by `cdcr new` name it: taplo and Even Better TOML (VS Code) look for it beside the
+    file, under cdcr-robot.schema.json or cdcr-scenario.schema.json.
+    """
+    with told_plainly():
+        for known in KINDS:
+            if kind == known:
+                typer.echo(text(known))
+                return
+        raise Mistake(f"the schema must be one of {', '.join(KINDS)}, got {kind!r}")

@@ -6,14 +6,20 @@ import re
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
+
+import typer
 
 from cdcr.base.check import count
+from cdcr.cli import complete
+from cdcr.cli.plain import AsJson, print_json, told_plainly
 from cdcr.files.text import read_text
 from cdcr.files.toml import read_toml
 from cdcr.files.toml_lines import key_lines, line_of
 from cdcr.robot.robot import Robot
 from cdcr.scenarios.file.reader import load_scenario
+
+commands = typer.Typer()
 
 # A refusal: the file, the table in it that it is about where one is named, and the rest.
 _REFUSAL = re.compile(r"(?P<file>.+?\.toml)(?P<home>, [^:]+)?: (?P<rest>.*)")
@@ -74,3 +80,32 @@ def _tables(home: str) -> Iterator[str]:
     for one in home.split(","):
         if one.strip():
             yield one.strip(" []")
+
+
+@commands.command("validate", short_help="Check robot and scenario files without running.")
+def validate_command(
+    files: Annotated[
+        list[str],
+        typer.Argument(
+            metavar="FILE.toml...",
+            help="Files of robots and scenarios.",
+            autocompletion=complete.toml_files,
+        ),
+    ],
+    as_json: AsJson = False,
+) -> None:
+    """Check robot and scenario files, and the files they name, without running.
+
+    One sentence for each fault, with its line where that is known. Exit code 2 where there is any.
+    """
+    with told_plainly():
+        verdicts = [validate(file) for file in files]
+    if as_json:
+        print_json({"files": [verdict.as_dict() for verdict in verdicts]})
+    for verdict in verdicts if not as_json else ():
+        if verdict.holds:
+            typer.echo(f"{verdict.file}: ok, {verdict.holds}")
+        for fault in verdict.faults:
+            typer.echo(f"cdcr: {fault}", err=True)
+    if any(verdict.faults for verdict in verdicts):
+        raise typer.Exit(2)

@@ -5,12 +5,13 @@ from __future__ import annotations
 import re
 import textwrap
 from functools import partial
+from itertools import pairwise
 from typing import Any, Literal
 
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.legend import Legend
-from matplotlib.text import Text
+from matplotlib.text import Annotation, Text
 
 from cdcr.plotting import space
 from cdcr.plotting.legend import legend_of
@@ -25,8 +26,10 @@ SMALLEST, LARGEST = 1.0, 200.0  # of a side [cm]
 # Of a narrow picture [in]: a panel, room above, below its name and without, sides, the robot, a row
 # of a legend.
 PANEL, ABOVE, BELOW, UNNAMED, LEFT, RIGHT, SPACE, ROW = 0.95, 0.3, 0.4, 0.12, 0.62, 0.1, 2.9, 0.14
+SQUARE = 2.2  # height of a panel whose axes have one scale [in]
 LETTER = 0.054  # mean width of one [in]
 LONG = 26  # letters of a name with which a legend has one column
+NAME = 24  # letters in a line beside a panel
 TEXT = 0.7  # of the letters of a narrow picture, over those of a wide one
 
 
@@ -127,7 +130,8 @@ def _stack(figure: Figure, width: float) -> None:
     below = [BELOW if axes.get_xlabel() else UNNAMED for axes in charts]
     above = [ABOVE + 0.1 * _retell(axes, letters) for axes in charts]
     height = 0.16 * lines + 0.1 + SPACE * len(spaces) + ROW * rows + 0.05
-    height += sum(above) + sum(below) + PANEL * len(charts)
+    tall = [SQUARE if axes.get_aspect() == 1.0 else PANEL for axes in charts]
+    height += sum(above) + sum(below) + sum(tall)
     figure.set_size_inches(width, height)
     top = height - 0.16 * lines - 0.1
     if title is not None:
@@ -141,13 +145,14 @@ def _stack(figure: Figure, width: float) -> None:
         axes.set_position((box.x0, box.y0 + top / height, box.width, box.height))
     top -= ROW * rows
     _move_legends(figure, top / height)
-    for axes, over, under in zip(charts, above, below, strict=True):
-        top -= over + PANEL
-        _place(axes, (LEFT, top, width - LEFT - RIGHT, PANEL))
+    for axes, over, high, under in zip(charts, above, tall, below, strict=True):
+        top -= over + high
+        _place(axes, (LEFT, top, width - LEFT - RIGHT, high))
         top -= under
     figure.canvas.draw()
     for axes in charts:
         _keep_inside(axes, width)
+        _part_names(axes)
 
 
 def _keep_inside(axes: Any, width: float) -> None:
@@ -159,6 +164,19 @@ def _keep_inside(axes: Any, width: float) -> None:
     low = (box.x0 + max(0.0, 2.0 - extent.x0)) / dpi
     high = (box.x1 - max(0.0, extent.x1 + 2.0 - width * dpi)) / dpi
     _place(axes, (low, box.y0 / dpi, high - low, box.height / dpi))
+
+
+def _part_names(axes: Any) -> None:
+    """Move names in a panel up and down, so that none lies on another."""
+    names = [text for text in axes.texts if isinstance(text, Annotation)]
+    for _ in names:
+        boxes = {name: Text.get_window_extent(name) for name in names}
+        for below, above in pairwise(sorted(names, key=lambda name: boxes[name].y0)):
+            shift = (boxes[below].y1 - boxes[above].y0) * 36.0 / axes.get_figure(root=True).dpi
+            if boxes[below].overlaps(boxes[above]):
+                for name, way in ((below, -shift), (above, shift)):
+                    x, y = name.get_position()
+                    name.set_position((x, y + way))
 
 
 def _place(axes: Any, box: tuple[float, ...]) -> None:
@@ -198,8 +216,16 @@ def _retell(axes: Any, letters: int) -> int:
     shared = axes.get_shared_y_axes().get_siblings(axes)
     name = axes.get_ylabel() or next((one.get_ylabel() for one in shared if one.get_ylabel()), "")
     axes.tick_params(labelleft=True)
-    axes.set_ylabel(name.replace(" [", "\n[") if len(name) > 12 else name, fontsize=TEXT * 10.5)
+    axes.set_ylabel(_in_lines(name), fontsize=TEXT * 10.5)
     return 2 * bool(legend and note) + told.count("\n")
+
+
+def _in_lines(name: str) -> str:
+    """Return the name of an axis in lines that a panel has room for, its unit last."""
+    words, bracket, unit = name.rpartition(" [")
+    if len(name) <= 12 or not bracket:
+        return name
+    return f"{textwrap.fill(words, NAME) if '$' not in words else words}\n[{unit}"
 
 
 def _columns(names: list[str]) -> int:

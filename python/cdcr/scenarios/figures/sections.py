@@ -26,6 +26,8 @@ ROOM = np.array([5.9, 7.0])  # of the robot in space, left [in]
 PLACE = {"left": 0.545, "bottom": 0.075, "top": 0.91, "hspace": 0.42}  # of the panels
 DISTANCES = (12.0, 18.0, 26.0, 36.0, 48.0)  # from a tip to the middle of its name, tried [pt]
 ENOUGH = 7.0  # room that a name needs [pt]
+AWAY = ((0.0, -1.0), (0.7, -0.7), (1.0, 0.0))  # from the axes x, y, z to their numbers
+NUMBERS = (8.0, 16.0, 24.0, 32.0)  # how far these reach [pt]
 # Points of a box, in its half sizes from the middle.
 GRID = np.stack(np.meshgrid([-1, -0.5, 0, 0.5, 1], [-1, 0, 1]), axis=-1).reshape(-1, 2)
 
@@ -68,7 +70,7 @@ def name_shapes(
     texts = [_text_at(axes, tip, name) for tip, name in zip(tips, filter(None, names), strict=True)]
 
     def arrange() -> None:
-        axes.figure.draw_without_rendering()  # settles numbers
+        axes.apply_aspect()
         taken = np.concatenate([_on_paper(axes, np.concatenate(drawn)), _numbers(axes)])
         for text, point in zip(texts, tips, strict=True):
             tip = _on_paper(axes, point[None])[0]
@@ -114,16 +116,14 @@ def _half_size(text: Any) -> FloatArray:
 
 
 def _numbers(axes: Any) -> FloatArray:
-    """Return points (P, 2) in the numbers along the axes, on the paper [pt]."""
-    texts = [
-        text for axis in (axes.xaxis, axes.yaxis, axes.zaxis) for text in axis.get_ticklabels()
-    ]
-    boxes = [(text.get_window_extent(), _half_size(text)) for text in texts if text.get_text()]
-    centers = [
-        np.array([box.x0 + box.x1, box.y0 + box.y1]) * 36.0 / axes.figure.dpi for box, _ in boxes
-    ]
+    """Return points (P, 2) where the numbers along the axes are, on the paper [pt]."""
+    lines = np.split(_on_paper(axes, _box(axes)), 3)
     return np.concatenate(
-        [center + half * GRID for center, (_, half) in zip(centers, boxes, strict=True)]
+        [
+            line + distance * np.array(away)
+            for line, away in zip(lines, AWAY, strict=True)
+            for distance in NUMBERS
+        ]
     )
 
 
