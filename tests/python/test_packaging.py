@@ -159,7 +159,7 @@ def test_licences_of_what_is_inside_are_installed() -> None:
 def test_lock_has_the_versions_of_our_tools() -> None:
     project = read_toml(ROOT / "pyproject.toml", "project file")
     locked = "".join(path.read_text() for path in (ROOT / "tools" / "lock").glob("*.txt"))
-    for group in ("build", "test", "lint"):
+    for group in ("build", "test", "lint", "docs"):
         for pinned in project["dependency-groups"][group]:
             assert f"\n{pinned.partition(';')[0].strip()} " in f"\n{locked}", pinned
 
