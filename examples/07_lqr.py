@@ -1,19 +1,20 @@
 """
-LQR
-===
+LQR with python-control
+=======================
 
-Nine cables hold three sections against gravity; a knock sets them swinging. ``Model.linearize``
-gives the exact A and B about the shape, and the Riccati equation of SciPy the gain that brings the
-robot back with little extra tension.
+Nine cables hold three sections against gravity; a knock sets them swinging. ``cdcr.control.lqr``
+gives the gain that brings the robot back with little extra tension, and ``Model.to_statespace`` the
+linear system about the shape, as python-control takes it.
 
-Look at the tip: without control it swings on for seconds; with it the knock is over in one swing.
+Look at the tip: without control it swings on for seconds, with it the knock is over in one swing,
+and the linear system of python-control says so beforehand.
 """
 
 import sys
 
+import control
 import matplotlib.pyplot as plt
 import numpy as np
-from scipy.linalg import solve_continuous_are
 
 import cdcr
 
@@ -23,8 +24,7 @@ import cdcr
 # Each cable with at least 1 N, so that feedback may take some away.
 
 model = cdcr.Model(cdcr.robots.three_sections(gravity=(0, 0, -9.81)))
-theta, phi = np.deg2rad([30, 40, 30]), np.deg2rad([0, 60, 120])
-shape = cdcr.bending(theta, phi)
+shape = cdcr.bending(np.deg2rad([30, 40, 30]), np.deg2rad([0, 60, 120]))
 hold = model.allocate(model.potential_gradient(shape), min_tension=1.0)
 
 # %%
@@ -32,12 +32,12 @@ hold = model.allocate(model.potential_gradient(shape), min_tension=1.0)
 # --------
 # An angle of 0.1 rad costs as much as 1 N of extra tension.
 
-A, B = model.linearize(shape, np.zeros_like(shape), hold)
-Q = np.diag([100.0] * 6 + [0.0] * 6)
-R = np.eye(9)
-K = np.linalg.solve(R, B.T @ solve_continuous_are(A, B, Q, R))
-before, after = np.linalg.eigvals(A), np.linalg.eigvals(A - B @ K)
-print(f"slowest decay: {-before.real.max():.2f} 1/s without, {-after.real.max():.2f} 1/s with LQR")
+Q = np.array([100.0] * 6 + [0.0] * 6)
+K = cdcr.control.lqr(model, shape, hold, Q=Q, R=1.0)
+system = model.to_statespace(shape, hold, outputs="tip")
+closed = control.ss(system.A - system.B @ K, system.B, system.C, system.D)
+slowest = {"without": system.poles().real.max(), "with LQR": closed.poles().real.max()}
+print("slowest decay: " + ", ".join(f"{-pole:.2f} 1/s {name}" for name, pole in slowest.items()))
 
 # %%
 # The knock
@@ -71,6 +71,16 @@ for name, distance in off.items():
     )
 
 # %%
+# What python-control says
+# ------------------------
+# The closed loop from the state after the knock on.
+
+after = 7  # the sample at 35 ms
+state = np.concatenate([runs["LQR"].q[after] - shape, runs["LQR"].qd[after]])
+linear = control.initial_response(closed, t[after:] - t[after], state)
+expected = 1e3 * np.linalg.norm(linear.outputs, axis=0)
+
+# %%
 # The picture
 # -----------
 
@@ -78,6 +88,7 @@ plt.style.use(cdcr.plotting.STYLE)
 fig, (left, right) = plt.subplots(1, 2, figsize=(9, 4))
 for name, distance in off.items():
     left.plot(t, distance, label=name)
+left.plot(t[after:], expected, color="0.3", linestyle=":", label="LQR, linear")
 left.set(xlabel="time [s]", ylabel="tip off its place [mm]")
 left.legend()
 for j, pull in enumerate(runs["LQR"].tension.T):

@@ -271,7 +271,7 @@ VectorXd Instance::save() const {
 }
 
 void Instance::restore(const VectorXd& saved) {
-  const bool fits = saved.size() == saved_size();
+  const bool fits = saved.size() == saved_size() && saved.tail(kept_.size()).allFinite();
   const double phase = fits ? saved[0] : -1.0;
   if (!(phase >= 0.0 && phase <= static_cast<double>(Phase::terminated))) {
     refuse("the state is not one of this FMU");

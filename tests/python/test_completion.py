@@ -63,6 +63,15 @@ def test_scenarios_and_files_are_offered(home: Path) -> None:
     assert everything == [*cdcr.scenarios.names(), "mine/", "my.toml", "other.toml"]
 
 
+def test_what_can_be_viewed_is_offered(home: Path) -> None:
+    (home / "work" / "run.nc").write_text("")
+    everything = {*cdcr.robots.names(), *cdcr.scenarios.names()}
+    assert set(offered(home, "cdcr", "view", "")) == {
+        *everything,
+        *("my.toml", "other.toml", "run.nc", "mine/"),
+    }
+
+
 def test_options_and_their_values_are_offered(home: Path) -> None:
     assert "--watch" in offered(home, "cdcr", "run", "--w")
     assert offered(home, "cdcr", "run", "pid", "--method", "d") == ["dopri5"]

@@ -16,6 +16,7 @@ import pytest
 
 import cdcr
 import cdcr.plotting
+import cdcr.view
 from cdcr import _core
 
 MODULES = (
@@ -26,6 +27,7 @@ MODULES = (
     cdcr.plotting,
     cdcr.robots,
     cdcr.scenarios,
+    cdcr.view,
     _core,
 )
 # What says what kind of number it is: a unit in brackets, or words in place of one.

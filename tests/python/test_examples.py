@@ -216,19 +216,22 @@ def test_pid(example: Example) -> None:
 
 
 def test_lqr(example: Example) -> None:
+    pytest.importorskip("control", reason="the extra control")
     found = example(7)
-    A, B, Q, K = (found[name] for name in "ABQK")
+    A, B, Q, K = found["system"].A, found["system"].B, np.diag(found["Q"]), found["K"]
     # The poles of the loop are the stable ones of the Hamiltonian matrix.
     poles = np.linalg.eigvals(np.block([[A, -B @ B.T], [-Q, -A.T]]))
     expected = np.sort_complex(poles[poles.real < 0.0])
     assert len(expected) == 12
-    np.testing.assert_allclose(np.sort_complex(found["after"]), expected, rtol=1e-8)
+    np.testing.assert_allclose(np.sort_complex(found["closed"].poles()), expected, rtol=1e-8)
     # After the knock the run decays as the linear loop does.
     t, run = found["t"], found["runs"]["LQR"]
     early, late = np.searchsorted(t, [1.0, 1.5])
     x = np.hstack([run.q - found["shape"], run.qd])
     decayed = expm((A - B @ K) * (t[late] - t[early])) @ x[early]
     np.testing.assert_allclose(x[late], decayed, rtol=0, atol=0.05 * np.abs(x[early]).max())
+    off, expected = found["off"]["LQR"][found["after"] :], found["expected"]
+    np.testing.assert_allclose(off, expected, rtol=0, atol=0.1 * expected.max())
     assert found["off"]["held"][t >= 2].max() > 100.0 > 1.0 > found["off"]["LQR"][t >= 2].max()
 
 

@@ -240,6 +240,16 @@ def test_a_saved_state_comes_back_bit_by_bit(tmp_path: Path, fmi: int) -> None:
     other.slave.doStep(0.1, 0.2)
     assert np.array_equal(other.get(names), later)
 
+    damaged = content[:-8] + np.float64(np.nan).tobytes()
+    if fmi == 3:
+        damaged_state, take = slave.deserializeFMUState(damaged), other.slave.setFMUState
+    else:
+        damaged_state, take = slave.deSerializeFMUstate(damaged), other.slave.setFMUstate
+    with pytest.raises(fmpy.fmi1.FMICallException):
+        take(damaged_state)
+    assert "the state is not one of this FMU" in other.messages[-1]
+    assert np.array_equal(other.get(names), later)
+
     fmu.slave.reset()
     fresh = Fmu(robot, tmp_path, fmi=fmi)
     assert np.array_equal(fmu.get(names), fresh.get(names))

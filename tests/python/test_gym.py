@@ -321,6 +321,12 @@ def test_more_refusals() -> None:
         env.reset(options={"target": [0.0, 0.0, 0.8]})
     with pytest.raises(ValueError, match=r"options\['q'\] must have shape \(2,\), got \(3,\)"):
         env.reset(options={"q": [0.0, 0.0, 0.8]})
+    env.reset(seed=0)
+    for action in ([0.0], np.zeros(4), np.zeros((1, 3)), 0.0):
+        with pytest.raises(ValueError, match="action must be 3 numbers for each robot, got shape"):
+            env.step(action)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match=r"tension\[0\] must be finite, got nan"):
+        env.step(np.array([np.nan, 0.0, 0.0], dtype=np.float32))
     with pytest.raises(ValueError, match="num_envs must be a whole number >= 1, got 0"):
         RobotVectorEnv(0)
     with pytest.raises(ValueError, match="max_episode_steps must be a whole number >= 1"):

@@ -174,3 +174,17 @@ def test_a_scenario_file_asks_for_a_log(tmp_path: Path) -> None:
     (path,) = (tmp_path / "out").iterdir()
     assert path.name == "pull.mcap"
     assert len(read(path)[0]["/state"]) == 3
+
+
+def test_a_command_asks_for_a_log(tmp_path: Path) -> None:
+    args = ["run", "step-tension", "--t-end", "0.02", "--out", str(tmp_path)]
+    result = CliRunner().invoke(app, [*args, "--format", "mcap", "--format", "csv"])
+    assert result.exit_code == 0, result.output
+    assert {path.name for path in tmp_path.iterdir()} == {"step-tension.mcap", "step-tension.csv"}
+    assert read(tmp_path / "step-tension.mcap")[2]["method"]
+    result = CliRunner().invoke(app, [*args, "--format", "bag"])
+    assert result.exit_code == 2
+    assert "--format must be one of picture, csv, nc, mcap, got 'bag'" in result.output
+    result = CliRunner().invoke(app, ["run", "block-diagram", "--format", "csv"])
+    assert result.exit_code == 2
+    assert "nothing runs in the scenario 'block-diagram', so it takes no --format" in result.output

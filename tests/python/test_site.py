@@ -14,12 +14,22 @@ from typing import Any
 import pytest
 
 import cdcr
+import cdcr.export
 import cdcr.plotting
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
 REFERENCE = DOCS / "reference"
-MODULES = (cdcr, cdcr.paper, cdcr.plotting, cdcr.robots, cdcr.scenarios)
+MODULES = (
+    cdcr,
+    cdcr.control,
+    cdcr.export,
+    cdcr.gym,
+    cdcr.paper,
+    cdcr.plotting,
+    cdcr.robots,
+    cdcr.scenarios,
+)
 FLAGS = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS
 
 

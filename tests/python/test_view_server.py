@@ -10,6 +10,7 @@ import sys
 import threading
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from urllib.request import urlopen
 
 import numpy as np
@@ -23,7 +24,7 @@ pytest.importorskip("typer")
 
 from cdcr.view import Session, View
 from cdcr.view.page import page
-from cdcr.view.viewer import _Meter
+from cdcr.view.viewer import _Meter, in_notebook
 from command import cdcr_, refused
 
 ROBOT = cdcr.robots.three_sections(gravity=(0.0, 0.0, 9.81))
@@ -156,6 +157,18 @@ def test_notebooks_show_the_page(run: cdcr.Trajectory, monkeypatch: pytest.Monke
     shown = view._repr_html_()
     assert shown.startswith("<iframe srcdoc=")
     assert "__VISER_EMBED_DATA__" in shown
+
+
+@pytest.mark.parametrize(
+    ("shell", "notebook"),
+    [(None, False), (SimpleNamespace(), False), (SimpleNamespace(kernel=object()), True)],
+)
+def test_a_notebook_is_what_has_a_kernel(
+    shell: object, notebook: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # Python, ipython in a terminal, a notebook.
+    monkeypatch.setitem(sys.modules, "IPython", SimpleNamespace(get_ipython=lambda: shell))
+    assert in_notebook() is notebook
 
 
 # --- the command ----------------------------------------------------------------------------------

@@ -120,6 +120,16 @@ def run_command(
     overwrite: Overwrite = False,
     as_json: AsJson = False,
     size: Size = None,
+    formats: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--format",
+            metavar="FORMAT",
+            help="Write picture, csv, nc or mcap in place of the scenario's own files; may be "
+            "given several times.",
+            autocompletion=complete.formats,
+        ),
+    ] = None,
     film: Annotated[
         str | None,
         typer.Option(
@@ -138,6 +148,8 @@ def run_command(
 ) -> None:
     """Run a scenario; write a picture (.png) and the data (.csv, .nc); print a summary.
 
+    With --format other files, such as mcap, a log for Foxglove.
+
     Exit codes: 0 all went well, 1 the integration failed, 2 something in the command or in a file
     has to be mended first, 130 interrupted. Files appear when all are complete; a run that failed
     leaves its numbers, in files whose names end in -incomplete.
@@ -152,6 +164,7 @@ def run_command(
             overwrite=overwrite,
             console=console,
             size=size,
+            formats=formats or (),
             film=film,
             own=own,
             max_steps=max_steps,

@@ -20,6 +20,13 @@ def films(incomplete: str) -> list[str]:
     return _begun(FILMS, incomplete)
 
 
+def formats(incomplete: str) -> list[str]:
+    """Return the formats of files of a run that begin so."""
+    from cdcr.scenarios.scenario import FILES
+
+    return _begun(tuple(FILES), incomplete)
+
+
 def sizes(incomplete: str) -> list[str]:
     """Return the names of sizes that begin so."""
     return _begun(SIZES, incomplete)
@@ -54,8 +61,18 @@ def robots(incomplete: str) -> list[str]:
     return [*robot_names(incomplete), *toml_files(incomplete)]
 
 
+def shown(incomplete: str) -> list[str]:
+    """Return what can be viewed and begins so: robots, scenarios, their files and those of runs."""
+    names = {*robot_names(incomplete), *scenario_names(incomplete)}
+    return [*sorted(names), *_files(incomplete, (".nc", ".toml"))]
+
+
 def toml_files(incomplete: str) -> list[str]:
     """Return the TOML files that begin so, and the folders, from which one goes on."""
+    return _files(incomplete, (".toml",))
+
+
+def _files(incomplete: str, suffixes: tuple[str, ...]) -> list[str]:
     folder, slash, begun = incomplete.rpartition("/")
     try:
         found = sorted(Path(f"{folder}{slash}" or ".").iterdir())
@@ -65,7 +82,7 @@ def toml_files(incomplete: str) -> list[str]:
     names = [
         f"{one.name}/" if one.is_dir() else one.name
         for one in shown
-        if one.is_dir() or one.suffix == ".toml"
+        if one.is_dir() or one.suffix in suffixes
     ]
     return [f"{folder}{slash}{name}" for name in names]
 

@@ -51,7 +51,7 @@ def export_mjcf_command(
     robot: Robot,
     out: Annotated[Path, typer.Option(metavar="FILE.xml", help="The file to write.")],
     links: Annotated[
-        int, typer.Option(metavar="NUMBER", help="Rigid links of each section, 1 to 100.")
+        int, typer.Option(metavar="NUMBER", help="Rigid links of each section, from 1.")
     ] = 10,
     overwrite: Overwrite = False,
 ) -> None:

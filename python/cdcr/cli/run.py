@@ -105,21 +105,23 @@ def run(
     overwrite: bool,
     console: Console,
     size: str | None = None,
+    formats: Collection[str] = (),
     film: str | None = None,
     own: Collection[Path] = (),
     **options: Any,
 ) -> Report:
     """Run a scenario by name or file and write its files; of a failed run its numbers.
 
-    `film` is the format of a film to write too; files in `own` may be replaced. `options` are those
-    of `Scenario.simulate`, None where not given.
+    `formats` are those of its files in place of the scenario's own, `film` is that of a film to
+    write too; files in `own` may be replaced. `options` are those of `Scenario.simulate`, None
+    where not given.
     """
     scenario = find_scenario(name)
     if not scenario.has_run:
-        _refuse_options(scenario, options | {"film": film})
+        _refuse_options(scenario, options | {"film": film, "format": formats or None})
         return _picture(scenario, out, overwrite=overwrite, size=size)
     _check_film(film)
-    files = (*scenario.files, *([f".{film}"] if film else ()))
+    files = (*_files(scenario, formats), *([f".{film}"] if film else ()))
     targets = tuple(out / f"{scenario.name}{suffix}" for suffix in files)
     overwrite = overwrite or all(path in own for path in targets if path.exists())
     of_integrator = {key: value for key, value in options.items() if key != "t_end"}
@@ -172,6 +174,14 @@ def check_size(size: str | None) -> None:
 
         with mistakes(lambda message: f"--{message}"):
             checked_size(size)
+
+
+def _files(scenario: Scenario, formats: Collection[str]) -> tuple[str, ...]:
+    """Return the suffixes of the files to write: the scenario's own, or those of some formats."""
+    for one in formats:
+        if one not in FILES:
+            raise Mistake(f"--format must be one of {', '.join(FILES)}, got {one!r}")
+    return tuple(FILES[one] for one in FILES if one in formats) or scenario.files
 
 
 def _check_film(film: str | None) -> None:

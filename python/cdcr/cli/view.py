@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -14,6 +15,7 @@ from rich.console import Console
 from cdcr import robots, scenarios
 from cdcr.base.check import nearest
 from cdcr.base.extras import require
+from cdcr.cli import complete
 from cdcr.cli.plain import Overwrite, told_plainly
 from cdcr.cli.run import DelayedBar, Mistake, find_robot, find_scenario, mistakes
 from cdcr.files.new_file import check_files
@@ -135,6 +137,7 @@ def view_command(
         typer.Argument(
             metavar="ROBOT|SCENARIO|FILE",
             help="A name from `cdcr list`, a file .toml of a robot or a scenario, or a run .nc.",
+            autocompletion=complete.shown,
         ),
     ],
     live: Annotated[
@@ -181,6 +184,6 @@ def view_command(
         if page is not None:
             typer.echo(f"wrote {page} ({page.stat().st_size / 1e6:.1f} MB)")
             return
-        with found.serve(port, browser=browser):
+        with found.serve(port, browser=browser), suppress(KeyboardInterrupt):
             typer.echo(f"{found.url} - Ctrl-C ends")
             found.wait()

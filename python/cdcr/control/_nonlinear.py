@@ -12,7 +12,7 @@ from cdcr.base.arrays import FloatArray
 from cdcr.base.check import Check, require_kind
 from cdcr.base.extras import require
 from cdcr.model.model import Model
-from cdcr.model.statespace import find_outputs, input_names, state_names
+from cdcr.model.signals import find_outputs, input_names, state_names
 from cdcr.model.wrench import Wrench
 
 
@@ -27,8 +27,8 @@ def nonlinear_system(
     """Equations of motion as a system of python-control. Needs the extra ``control``.
 
     Its signals have the names of `Model.to_statespace`, its values are whole, not differences:
-    the state is (q, qd), the inputs are commands. Python is called at every evaluation, so that a
-    simulation takes some hundred times as long as that of `simulate`.
+    the state is (q, qd), the inputs are commands. Python is called at every evaluation, which makes
+    simulations slow; those of `simulate` are not.
 
     Parameters
     ----------

@@ -25,6 +25,7 @@ _MOST_LINKS = 320  # of all sections together: bodies are nested in each other
 _STEP = 0.5  # of MuJoCo, times the fastest frequency; it is unstable beyond 2
 _LONGEST_STEP = 2e-3  # [s]
 _RANGE = 10.0  # largest command over the tension that bends a section by 180 degrees
+_WIDTH = 0.001  # of a cable, over the robot's length
 _HIDDEN = {"contype": "0", "conaffinity": "0"}  # from collisions
 _COLORS = ("0.00 0.45 0.70 1", "0.84 0.37 0.00 1", "0.00 0.62 0.45 1", "0.80 0.47 0.65 1")
 
@@ -117,6 +118,7 @@ def mjcf_text(robot: Robot, file: Path, *, links: int = 10) -> str:
     step = min(_LONGEST_STEP, _STEP / chain.fastest())
     options = {"timestep": f"{step:.2g}", "integrator": "implicitfast"}
     ElementTree.SubElement(root, "option", options, gravity=_numbers(robot.gravity))
+    _add_looks(root, chain)
     _add_bodies(root, chain, bends, sites)
     _add_cables(root, chain, sites)
     ElementTree.indent(root)
@@ -136,6 +138,17 @@ def _require_mass(chain: Chain) -> None:
             )
 
 
+def _add_looks(root: ElementTree.Element, chain: Chain) -> None:
+    """Add a light, a white background, and what a camera looks at."""
+    axis = np.array(chain.robot.base_orientation)[:, 2]
+    middle = _numbers(0.5 * chain.ends[-1] * axis)
+    ElementTree.SubElement(root, "statistic", center=middle, extent=repr(chain.ends[-1]))
+    visual = ElementTree.SubElement(root, "visual")
+    ElementTree.SubElement(visual, "headlight", ambient="0.5 0.5 0.5", diffuse="0.5 0.5 0.5")
+    white = {"builtin": "flat", "rgb1": "1 1 1", "rgb2": "1 1 1", "width": "8", "height": "8"}
+    ElementTree.SubElement(ElementTree.SubElement(root, "asset"), "texture", white, type="skybox")
+
+
 # Bodies ------------------------------------------------------------------------------------------
 
 
@@ -143,8 +156,6 @@ def _add_bodies(
     root: ElementTree.Element, chain: Chain, bends: Sequence[float], sites: Sequence[Sequence[Site]]
 ) -> None:
     world = ElementTree.SubElement(root, "worldbody")
-    light = {"pos": _numbers((0.0, 0.0, 2.0 * chain.ends[-1])), "dir": "0 0 -1"}
-    ElementTree.SubElement(world, "light", light)
     axes = np.array(chain.robot.base_orientation).T[:2].ravel()
     body = ElementTree.SubElement(world, "body", name="base", xyaxes=_numbers(axes))
     _add_geoms(body, chain, chain.links[0])
@@ -205,12 +216,13 @@ def _add_geoms(body: ElementTree.Element, chain: Chain, link: Link) -> None:
                 type="capsule",
                 fromto=_numbers((0.0, 0.0, low - link.start, 0.0, 0.0, high - link.start)),
                 size=repr(section.backbone_diameter / 2.0),
+                rgba="0.2 0.2 0.2 1",
             )
     for height, diameter in link.disks:
         if diameter > 0.0:
             size = (diameter / 2.0, 0.001)
             pos = _numbers((0.0, 0.0, height))
-            about = {"pos": pos, "size": _numbers(size), "rgba": "0.8 0.8 0.8 0.4"}
+            about = {"pos": pos, "size": _numbers(size), "rgba": "0.6 0.6 0.6 0.6"}
             ElementTree.SubElement(body, "geom", _HIDDEN | about, type="cylinder")
 
 
@@ -255,11 +267,12 @@ def _add_cables(root: ElementTree.Element, chain: Chain, sites: Sequence[Sequenc
     sensors = ElementTree.SubElement(root, "sensor")
     for kind in ("framepos", "framequat"):
         ElementTree.SubElement(sensors, kind, name=f"tip_{kind}", objtype="site", objname="tip")
+    width = repr(chain.ends[-1] * _WIDTH)
     names = [site.name for holes in sites for site in holes]
     for j, cable in enumerate(chain.cables):
         name = f"cable{j + 1}"
         color = _COLORS[cable.end_section % len(_COLORS)]
-        path = ElementTree.SubElement(paths, "spatial", name=name, width="0.0005", rgba=color)
+        path = ElementTree.SubElement(paths, "spatial", name=name, width=width, rgba=color)
         for site in names:
             if site.startswith(f"hole{j + 1}_"):
                 ElementTree.SubElement(path, "site", site=site)

@@ -78,6 +78,7 @@ class RobotEnv(gymnasium.Env[Observation, Action]):
     ((21,), (9,))
     """
 
+    #: What Gymnasium asks about pictures.
     metadata: dict[str, Any] = {"render_modes": list(RENDER_MODES), "render_fps": 50}  # noqa: RUF012
 
     def __init__(

@@ -124,6 +124,9 @@ class Task:
         """Take the active robots through a period; return parts of rewards, and which failed."""
         failed = np.zeros(len(self.q), dtype=bool)
         share = self.drive.share(action)
+        if share.shape != (len(self.q), self.model.num_cables):
+            wanted = f"{self.model.num_cables} numbers for each robot"
+            raise ValueError(f"action must be {wanted}, got shape {np.shape(action)}")
         commands = self.drive.command(share)
         for i in np.flatnonzero(active).tolist():
             simulator = self._simulators[i]

@@ -56,6 +56,7 @@ class RobotVectorEnv(VectorEnv[Observation, NDArray[np.float32], NDArray[Any]]):
     (8,)
     """
 
+    #: What Gymnasium asks about pictures and new episodes.
     metadata: dict[str, Any] = {  # noqa: RUF012
         "render_modes": ["rgb_array"],
         "render_fps": 50,

@@ -2,88 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, cast
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from cdcr import _core
-from cdcr.base.arrays import FloatArray, finite
-from cdcr.base.check import format_value, known_name
+from cdcr.base.arrays import finite
 from cdcr.base.extras import require
 
 if TYPE_CHECKING:
     from cdcr.model.model import Model
     from cdcr.model.wrench import Wrench
-
-
-class Output(NamedTuple):
-    """What a system may give out: names, values, and derivatives with respect to q and qd."""
-
-    names: Callable[[Model], list[str]]
-    values: Callable[[Model, FloatArray, FloatArray], FloatArray]
-    derivative: Callable[[Model, FloatArray], FloatArray]  # (k, 4n)
-
-
-def _components(name: str) -> Callable[[Model], list[str]]:
-    return lambda model: [
-        f"{name}{i + 1}_{axis}" for i in range(model.num_sections) for axis in "xy"
-    ]
-
-
-def _of_shape(derivative: FloatArray) -> FloatArray:
-    """Return a derivative (k, 4n) of what does not depend on qd, from that (k, 2n) by q."""
-    return np.hstack([derivative, np.zeros_like(derivative)])
-
-
-_OUTPUTS = {
-    "q": Output(
-        _components("q"),
-        lambda model, q, qd: q,
-        lambda model, q: np.eye(len(q), 2 * len(q)),
-    ),
-    "qd": Output(
-        _components("qd"),
-        lambda model, q, qd: qd,
-        lambda model, q: np.eye(len(q), 2 * len(q), len(q)),
-    ),
-    "tip": Output(
-        lambda model: [f"tip_{axis}" for axis in "xyz"],
-        lambda model, q, qd: model.tip(q)[1],
-        lambda model, q: _of_shape(model.jacobian(q, model.num_sections - 1, 1.0)[:3]),
-    ),
-    "lengths": Output(
-        lambda model: [f"length{j + 1}" for j in range(model.num_cables)],
-        lambda model, q, qd: model.cable_lengths(q),
-        lambda model, q: _of_shape(-model.actuation_matrix().T),
-    ),
-}
-
-
-def state_names(model: Model) -> list[str]:
-    """Return the names of the 4n states: q1_x, q1_y, ..., then qd1_x, qd1_y, ..."""
-    return _OUTPUTS["q"].names(model) + _OUTPUTS["qd"].names(model)
-
-
-def input_names(model: Model) -> list[str]:
-    """Return the names of the inputs: tension1, ..., or command1 of a cable driven by length."""
-    cables = model.robot.all_cables
-    return [
-        f"{'command' if cable.length_driven else 'tension'}{j + 1}"
-        for j, cable in enumerate(cables)
-    ]
-
-
-def find_outputs(outputs: str | Sequence[str]) -> list[Output]:
-    """Return the outputs of these names, or refuse one that is none."""
-    names: object = [outputs] if isinstance(outputs, str) else outputs
-    if not (isinstance(names, Sequence) and names):
-        raise ValueError(f"outputs must be names of outputs, got {format_value(outputs)}")
-    found = [known_name("output", name, tuple(_OUTPUTS)) for name in names]
-    if len(set(found)) < len(found):
-        raise ValueError(f"outputs must differ from each other, got {format_value(outputs)}")
-    return [_OUTPUTS[name] for name in found]
 
 
 class StateSpaceModel(_core.Model):
@@ -146,6 +77,8 @@ class StateSpaceModel(_core.Model):
         >>> print(f"{abs(system['tip_x', 'tension1'].dcgain()):.4f} m/N")
         0.0206 m/N
         """
+        from cdcr.model.signals import find_outputs, input_names, state_names
+
         chosen = find_outputs(outputs)
         control: Any = require("control", "control")
         model = cast("Model", self)

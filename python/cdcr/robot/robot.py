@@ -311,6 +311,13 @@ class Robot:
             Without the extra ``view``.
         OSError
             Where the port is in use.
+
+        Examples
+        --------
+        >>> import cdcr
+        >>> with cdcr.robots.amouri2020().view(port=0, browser=False) as view:
+        ...     print(view.url)
+        http://127.0.0.1:...
         """
         from cdcr import view
 

@@ -89,6 +89,20 @@ class TensionTable:
             If there is no such file.
         ValueError
             For other columns, and for what is no number >= 0, with file, line and column.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> from pathlib import Path
+        >>> import numpy as np
+        >>> import cdcr
+        >>> model = cdcr.Model(cdcr.robots.amouri2020())
+        >>> rows, header = [[0.0, 0, 0, 0], [1.5, 4, 0, 0]], "t,cable 1,cable 2,cable 3"
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     file = Path(folder) / "pull.csv"
+        ...     np.savetxt(file, rows, delimiter=",", header=header, comments="")
+        ...     cdcr.TensionTable.load(file, model)
+        <TensionTable: 2 x 3 commands, linear>
         """
         from cdcr.runs.export import by_length, columns_of
 

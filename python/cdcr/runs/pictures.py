@@ -157,6 +157,15 @@ class Pictures:
             Without the extra ``view``.
         OSError
             Where the port is in use.
+
+        Examples
+        --------
+        >>> import cdcr
+        >>> model = cdcr.Model(cdcr.robots.amouri2020())
+        >>> run = cdcr.simulate(model, [0.5, 0.0], [0.0, 0.0], t=[0.0, 0.5, 1.0])
+        >>> with run.view(port=0, browser=False) as view:
+        ...     print(view.url)
+        http://127.0.0.1:...
         """
         from cdcr import view
 

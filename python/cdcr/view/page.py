@@ -40,6 +40,7 @@ def page(session: Session, title: str) -> str:
 
     A run is recorded whole. A robot without one goes round in a circle once.
     """
+    session.restart()
     server = open_server(0, title)
     try:
         look_at(server, session.model)
@@ -47,6 +48,7 @@ def page(session: Session, title: str) -> str:
         recorded = _record(server, session, drawing)
     finally:
         close_server(server)
+        session.restart()
     words = html.escape(title)
     overlay = _OVERLAY.format(title=words, legend=legend(drawing.scale))
     head, _, tail = recorded.replace("<title>Viser</title>", f"<title>{words}</title>").rpartition(

@@ -36,7 +36,7 @@ class Panel:
     """
 
     def __init__(
-        self, gui: Any, session: Session, drawing: Drawing, do: Callable[[Task], None]
+        self, gui: Any, session: Session, drawing: Drawing, do: Callable[[Task], object]
     ) -> None:
         self._session, self._drawing, self._do = session, drawing, do
         self._status = gui.add_html("")

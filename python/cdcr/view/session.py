@@ -130,7 +130,13 @@ class Session:
             self.time = self.span[0]
 
     def seek(self, time: float) -> None:
-        """Show another time, and stay there."""
+        """Show another time, and stay there.
+
+        Parameters
+        ----------
+        time : float
+            The time [s]; the nearest in `span` where it lies outside.
+        """
         self.playing = False
         self.time = float(np.clip(time, *self.span))
 
@@ -169,7 +175,17 @@ class Session:
             self.restart()
 
     def pull_to(self, section: int, fraction: float, target: tuple[float, ...]) -> None:
-        """Pull a point of the backbone towards a point in space (3,) [m]; all goes on live."""
+        """Pull a point of the backbone towards a point in space; all goes on live.
+
+        Parameters
+        ----------
+        section : int
+            Index of the section.
+        fraction : float
+            Fraction of its length.
+        target : tuple of float
+            The point in space [m].
+        """
         self.go_live()
         assert self.live is not None
         self.live.pull = Pull(section, fraction, target, self.live.pull_stiffness)
@@ -182,7 +198,18 @@ class Session:
             self.live.pull = None
 
     def advance(self, elapsed: float) -> float:
-        """Go on after so much real time [s]; return how much was simulated or played."""
+        """Go on, as fast as `speed` says.
+
+        Parameters
+        ----------
+        elapsed : float
+            Real time since the last call [s].
+
+        Returns
+        -------
+        float
+            Time simulated or played [s].
+        """
         if not self.playing:
             return 0.0
         before = self.time
@@ -197,7 +224,13 @@ class Session:
         return self.time - before
 
     def live_for(self, seconds: float) -> None:
-        """Simulate for so long [s], however long it takes."""
+        """Simulate, however long it takes.
+
+        Parameters
+        ----------
+        seconds : float
+            How far [s].
+        """
         assert self.live is not None
         self.live.advance(seconds)
         self.time = self.live.time

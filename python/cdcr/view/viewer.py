@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import os
 import queue
 import sys
 import threading
@@ -81,7 +82,7 @@ class View:
         port : int
             Where; 0 for any free one.
         browser : bool, default False
-            Whether to open it in the browser.
+            Whether to open it in the browser, where there is a screen.
 
         Returns
         -------
@@ -103,7 +104,7 @@ class View:
         self._make_pullable()
         self._thread = threading.Thread(target=self._run, name="cdcr view", daemon=True)
         self._thread.start()
-        if browser:
+        if browser and _has_screen():
             webbrowser.open(self.url)
         return self
 
@@ -174,10 +175,11 @@ class View:
         while not self._closing.wait(max(0.0, due - time.perf_counter())):
             now = time.perf_counter()
             due = max(due + 1.0 / PICTURES, now)
-            busy = session.playing or not self._tasks.empty()
+            watched = bool(self._server.get_clients())  # else time stands still
+            busy = (session.playing and watched) or not self._tasks.empty()
             while not self._tasks.empty():
                 self._tasks.get()()
-            meter.add(now - last, session.advance(now - last), busy)
+            meter.add(now - last, session.advance(now - last) if watched else 0.0, busy)
             last = now
             moment = session.moment()
             if busy or told < 0.0:
@@ -238,6 +240,11 @@ class _Meter:
         rows: FloatArray = np.array(self._rows, dtype=np.float64)
         real, simulated, drawn = rows.sum(axis=0)
         return (simulated / real, drawn / real) if real > 0.0 else (0.0, 0.0)
+
+
+def _has_screen() -> bool:
+    """Whether a browser would have a window, not the terminal that the program is in."""
+    return sys.platform != "linux" or bool({"DISPLAY", "WAYLAND_DISPLAY"} & os.environ.keys())
 
 
 def in_notebook() -> bool:
