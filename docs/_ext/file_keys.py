@@ -1,10 +1,11 @@
-"""The keys of robot and scenario files, as tables, from the schemas that read them."""
+"""The keys of robot and scenario files, as tables, and as JSON schemas beside the pages."""
 
 from __future__ import annotations
 
 import json
 from dataclasses import MISSING
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 from docutils import nodes
@@ -12,6 +13,7 @@ from pydantic import BaseModel
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
+from cdcr.cli import schema as json_schema
 from cdcr.robot.cable import Cable
 from cdcr.robot.robot import Robot
 from cdcr.robot.schema import table_of
@@ -79,7 +81,18 @@ class FileKeys(SphinxDirective):
         return row
 
 
+def publish(app: Sphinx, error: Exception | None) -> None:
+    """Write the JSON schemas into the site."""
+    if error is None:
+        folder = Path(app.outdir) / "schema"
+        folder.mkdir(exist_ok=True)
+        for kind in json_schema.KINDS:
+            path = folder / json_schema.file_name(kind)
+            path.write_text(json_schema.text(kind) + "\n", encoding="utf-8")
+
+
 def setup(app: Sphinx) -> dict[str, Any]:
-    """Add the directive ``file-keys``."""
+    """Add the directive ``file-keys``, and the schemas."""
     app.add_directive("file-keys", FileKeys)
+    app.connect("build-finished", publish)
     return {"parallel_read_safe": True}

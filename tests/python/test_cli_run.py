@@ -306,6 +306,19 @@ def test_a_film_is_written_too(tmp_path: Path, film: str) -> None:
     assert begin in (tmp_path / f"step-tension.{film}").read_bytes()[:20]
 
 
+@pytest.mark.usefixtures("quick")
+def test_films_of_long_runs_are_played_faster(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from PIL import Image
+
+    monkeypatch.setattr(cli_run, "LONGEST_FILM", 0.1)
+    args = ("run", "step-tension", "--out", tmp_path, "--t-end", 1.0, "--film", "gif")
+    assert cdcr_(*args).exit_code == 0
+    with Image.open(tmp_path / "step-tension.gif") as film:
+        assert getattr(film, "n_frames", 0) == 4  # of 0.1 s, 30 a second, both ends
+
+
 def test_films_that_cannot_be_written_are_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

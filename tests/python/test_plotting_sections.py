@@ -134,3 +134,21 @@ def test_base_orientation_turns_the_picture(run: cdcr.Trajectory) -> None:
     turned = cdcr.Model(replace(run.model.robot, base_orientation=R))
     up, down = (robot_shape(model, run.q[-1]) for model in (run.model, turned))
     np.testing.assert_allclose(down.points, up.points @ np.array(R).T, atol=ROUNDING)
+
+
+def test_turns_of_a_straight_section_are_not_drawn() -> None:
+    """Of a section that comes back bent, after it has turned round and round nearly straight."""
+    model = cdcr.Model(cdcr.robots.three_sections())
+    theta = np.concatenate([np.full(5, 0.5), np.full(40, 1e-3), np.full(5, 0.5)])
+    phi = np.linspace(0.0, 8.0 * np.pi, 50)
+    q = np.zeros((50, 6))
+    q[:, :2] = cdcr.bending(theta, phi).reshape(50, 2)
+    q[:, 2] = 0.5
+    still, pulls = np.zeros((50, 6)), np.zeros((50, 9))
+    options: dict[str, Any] = {"status": cdcr.Status.ok, "message": "", "stats": cdcr.Stats()}
+    run = cdcr.Trajectory(model=model, t=np.arange(50.0), q=q, qd=still, tension=pulls, **options)
+    assert run.phi[-1, 0] == pytest.approx(8.0 * np.pi)  # the run itself counts them
+    shown = panels.shown_phi(run)[:, 0]
+    np.testing.assert_allclose(shown[:5], np.rad2deg(phi[:5]), atol=1e-9)
+    np.testing.assert_allclose(shown[-5:], np.rad2deg(phi[-5:]) - 1440.0, atol=1e-9)
+    assert np.isnan(shown[5:45]).all()

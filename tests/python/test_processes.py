@@ -132,6 +132,23 @@ def test_several_processes_draw_the_same_without_input_and_deaf_to_control_c(
         assert one == two, name
 
 
+def test_a_signal_amid_the_figures_leaves_nothing(tmp_path: Path) -> None:
+    """The first picture is drawn, and the second on its way, as the signal comes."""
+    pytest.importorskip("matplotlib")
+    code = TWO_FIGURES.replace(
+        "page.audit = list",
+        """
+import os, signal
+from cdcr.cli import run
+run.DelayedBar.__call__ = lambda self, done, name: done and os.kill(os.getpid(), signal.SIGTERM)
+""",
+    )
+    command = [sys.executable, "-c", code, str(tmp_path / "new" / "figures"), "2"]
+    done = subprocess.run(command, capture_output=True, timeout=DEADLINE, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (143, b"", b"")
+    assert everything_in(tmp_path) == []
+
+
 def test_what_fails_in_a_process_is_told_by_name(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -135,7 +135,8 @@ def run_command(
         typer.Option(
             metavar="FORMAT",
             help="Write a film too: mp4 (needs ffmpeg), gif or html, a page that any browser "
-            "plays. In Python, `run.animate` also takes speed, frames a second and size.",
+            "plays; a minute at most, so longer runs play faster. In Python, `run.animate` also "
+            "takes speed and frames a second.",
             autocompletion=complete.films,
         ),
     ] = None,

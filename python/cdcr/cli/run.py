@@ -35,6 +35,7 @@ NEEDED = {
 }
 REPLACE = "give --overwrite to replace, or another folder with --out"
 _ARGUMENTS = r"\b(t_end|method|rtol|atol|max_steps)\b"  # options too, with dashes
+LONGEST_FILM = 60.0  # longer runs are played faster [s]
 BAR_DELAY = 1.0  # shorter runs show no progress bar [s]
 
 
@@ -254,9 +255,15 @@ def _write_film(
 ) -> None:
     from cdcr.plotting.animation import write_frames
 
+    speed = max(1.0, float(run.t[-1] - run.t[0]) / LONGEST_FILM)
     with DelayedBar(console, target.name, 1.0) as bar:
         write_frames(
-            run, part, target.suffix, size=size, progress=lambda done, total: bar(done / total)
+            run,
+            part,
+            target.suffix,
+            speed=speed,
+            size=size,
+            progress=lambda done, total: bar(done / total),
         )
 
 

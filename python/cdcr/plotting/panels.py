@@ -112,12 +112,17 @@ def shown_phi(run: Trajectory) -> FloatArray:
     """Return the orientation angles (N, n) [deg] as they are drawn.
 
     They are those of the run, continuous; of several sections, not drawn (NaN) where a section is
-    nearly straight.
+    nearly straight, and without the whole turns that it makes there.
     """
     phi: FloatArray = np.rad2deg(run.phi)
     if run.model.num_sections > 1:
         theta = np.abs(run.theta)
         phi[theta < STRAIGHT * theta.max()] = np.nan
+        for column in phi.T:
+            shown = np.flatnonzero(np.isfinite(column))
+            for piece in np.split(shown, np.flatnonzero(np.diff(shown) > 1) + 1):
+                if piece.size:
+                    column[piece] -= 360.0 * np.round(column[piece[0]] / 360.0)
     return phi
 
 
