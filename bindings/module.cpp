@@ -4,6 +4,7 @@
 #include "cdcr/version.hpp"
 #include "docs.hpp"
 #include "pickling.hpp"
+#include "plain_calls.hpp"
 
 PYBIND11_MODULE(_core, m) {
   pybind11::options options;
@@ -23,4 +24,5 @@ PYBIND11_MODULE(_core, m) {
   cdcr::python::bind_simulator(m);
   cdcr::python::show_constructors(m);
   cdcr::python::finish_pickling(m);
+  cdcr::python::tell_calls_plainly(m);
 }
