@@ -7,7 +7,7 @@ export PYTHON VENV CVODE
 # Tools come from the venv; make's own PATH stays, so that PYTHON means the same throughout.
 IN_VENV := PATH="$(CURDIR)/$(VENV)/bin:$$PATH"
 
-SPHINX := python -m sphinx -W --keep-going -q -d build/docs-doctrees
+SPHINX := python -m sphinx -W --keep-going -q
 
 .NOTPARALLEL:
 .PHONY: help demo test lint format bench bench-smoke view-test wheel docs docs-links asan tsan fuzz builds lock audit clean setup setup-dev setup-docs test-cpp types test-python
@@ -50,11 +50,12 @@ wheel: setup-dev ## a wheel that needs nothing installed, in dist/
 	@$(IN_VENV) tools/wheel.sh
 
 docs: setup-docs ## the documentation site in build/docs; every page's code runs, warnings are errors
-	@$(IN_VENV) $(SPHINX) -b html docs build/docs
+	@rm -rf build/docs
+	@$(IN_VENV) $(SPHINX) -E -b html -d build/docs-doctrees docs build/docs
 	@$(IN_VENV) python docs/check_site.py build/docs
 
 docs-links: setup-docs ## look up the links of the site that lead elsewhere
-	@$(IN_VENV) $(SPHINX) -b linkcheck docs build/docs-links
+	@$(IN_VENV) $(SPHINX) -b linkcheck -D nb_execution_mode=off docs build/docs-links
 
 asan: setup-dev ## C++ tests under the address and undefined-behaviour sanitizers
 	@$(IN_VENV) cmake --preset asan

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Writes tools/lock: what set-up installs from the package index, to the version and the hash, for
-# every Python that cdcr takes. demo.txt: what builds cdcr and runs its commands; dev.txt and docs.txt: what comes
-# on top for tests and linters, and for the site.
+# every Python that cdcr takes. demo.txt: what builds cdcr and runs its commands; dev.txt and
+# docs.txt: what comes on top for tests and linters, and for the site.
 # After a change of versions in pyproject.toml, or to take newer ones: make lock.
 set -eu
 cd "$(dirname "$0")/.."

@@ -12,16 +12,19 @@ from sphinx.util.docutils import SphinxDirective
 
 from cdcr.cli.app import app as cdcr_app
 
+WIDTH = 92  # of a line of help
+
 
 def helps() -> dict[str, tuple[str, str]]:
-    """Return of each command its first sentence and its whole help."""
+    """Return of each command its first sentence and its whole help, of cdcr itself first."""
     group: Any = typer.main.get_command(cdcr_app)
-    told = {}
-    for name, command in group.commands.items():
-        with group.make_context("cdcr", [], resilient_parsing=True) as parent:
-            parent.terminal_width = parent.max_content_width = 92
+    with group.make_context("cdcr", [], resilient_parsing=True) as parent:
+        parent.terminal_width = parent.max_content_width = WIDTH
+        told = {"cdcr": (group.get_short_help_str(200), plain(group.get_help(parent)))}
+        for name, command in group.commands.items():
             with command.make_context(name, [], parent=parent, resilient_parsing=True) as context:
-                told[name] = (command.get_short_help_str(200), plain(command.get_help(context)))
+                help_text = plain(command.get_help(context))
+                told[f"cdcr {name}"] = (command.get_short_help_str(200), help_text)
     return told
 
 
@@ -37,8 +40,8 @@ class CommandLine(SphinxDirective):
         """Return the sections."""
         told: list[nodes.Node] = []
         for name, (short, text) in helps().items():
-            section = nodes.section(ids=[f"cdcr-{name}"], names=[f"cdcr {name}"])
-            section += nodes.title(text=f"cdcr {name}")
+            section = nodes.section(ids=[nodes.make_id(name)], names=[name])
+            section += nodes.title(text=name)
             section += nodes.paragraph(text=short)
             section += nodes.literal_block(text, text, language="text")
             told.append(section)

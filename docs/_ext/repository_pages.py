@@ -1,7 +1,8 @@
 """Pages whose text is a file of the repository, and links between pages and such files.
 
-A page that says ``<!-- text: cpp/README.md -->`` has the text of that file from there on. Links to
-a file that a page shows lead to the page; links to other files of the source become plain words.
+A page that says ``<!-- text: cpp/README.md -->`` has the text of that file there; scripts and
+notebooks run. Links to a file that a page shows lead to the page; links to other files of the
+source become plain words.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from os.path import normpath, relpath
 from pathlib import Path, PurePosixPath
 from typing import Any
 
+from scripts import PAGES
 from sphinx.application import Sphinx
 from typeset import typeset
 
@@ -62,10 +64,13 @@ def _read(app: Sphinx, docname: str, source: list[str]) -> None:
     if match := TEXT.search(text):
         file = ROOT / match[1]
         app.env.note_dependency(str(file))
-        told = relinked(file.read_text(encoding="utf-8"), match[1], page)
+        told = file.read_text(encoding="utf-8")
+        if file.suffix in PAGES:
+            told = PAGES[file.suffix](told)
+        told = relinked(told, match[1], page)
         if match[1].startswith("cpp/"):
             told = typeset(told)
-        text = text[: match.start()] + told
+        text = text[: match.start()] + told + text[match.end() :]
     source[0] = text
 
 

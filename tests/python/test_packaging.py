@@ -85,7 +85,7 @@ def test_installed_with_the_shared_object_of_fmus() -> None:
 
 def test_installs_the_package_and_nothing_else() -> None:
     belongs = re.compile(
-        r"cdcr/([\w/-]+\.(html|py|pyi|toml)|py\.typed|_core\.[\w.-]+\.so|_fmu\.so)"
+        r"cdcr/([\w/-]+\.(html|json|py|pyi|toml)|py\.typed|_core\.[\w.-]+\.so|_fmu\.so)"
         r"|cdcr-[\d.]+\.dist-info/.*"
         r"|(\.\./)+bin/cdcr"
     )
@@ -159,7 +159,7 @@ def test_licences_of_what_is_inside_are_installed() -> None:
 def test_lock_has_the_versions_of_our_tools() -> None:
     project = read_toml(ROOT / "pyproject.toml", "project file")
     locked = "".join(path.read_text() for path in (ROOT / "tools" / "lock").glob("*.txt"))
-    for group in ("build", "test", "lint"):
+    for group in ("build", "test", "lint", "docs"):
         for pinned in project["dependency-groups"][group]:
             assert f"\n{pinned.partition(';')[0].strip()} " in f"\n{locked}", pinned
 

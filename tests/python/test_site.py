@@ -14,28 +14,23 @@ from typing import Any
 import pytest
 
 import cdcr
-import cdcr.export
+import cdcr.gym
 import cdcr.plotting
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
 REFERENCE = DOCS / "reference"
 MODULES = (
-    cdcr,
-    cdcr.control,
-    cdcr.export,
-    cdcr.gym,
-    cdcr.paper,
-    cdcr.plotting,
-    cdcr.robots,
+    *(cdcr, cdcr.control, cdcr.export, cdcr.gym, cdcr.paper, cdcr.plotting, cdcr.robots),
     cdcr.scenarios,
 )
+RETURNED = {"cdcr._core.Allocation", "cdcr.view.View"}  # by public names
 FLAGS = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS
 
 
-def extension(name: str) -> ModuleType:
-    """Load what Sphinx is taught, without Sphinx."""
-    spec = importlib.util.spec_from_file_location(name, DOCS / "_ext" / f"{name}.py")
+def module_of(path: Path) -> ModuleType:
+    """Load a file of the site, without Sphinx."""
+    spec = importlib.util.spec_from_file_location(path.stem, path)
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
@@ -116,8 +111,7 @@ def test_a_public_name_is_in_the_reference_with_an_example(name: str) -> None:
 
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_an_example_of_the_reference_runs(name: str) -> None:
-    # A name that is gone or is not public has none; what is returned by a public name may.
-    assert name in PUBLIC or name == "cdcr._core.Allocation"
+    assert name in PUBLIC or name in RETURNED
     test = doctest.DocTestParser().get_doctest(EXAMPLES[name], {}, name, None, 0)
     assert test.examples
     assert doctest.DocTestRunner(optionflags=FLAGS).run(test).failed == 0
@@ -173,7 +167,7 @@ def test_python_in_a_page_runs(block: str, tmp_path: Path, monkeypatch: pytest.M
 
 # --- Formulas ---
 
-typeset = extension("typeset")
+typeset = module_of(DOCS / "_ext" / "typeset.py")
 
 
 @pytest.mark.parametrize(
@@ -210,3 +204,42 @@ def test_all_numbered_equations_are_set(name: str) -> None:
     for block in re.findall(r"\\begin\{align\*\}(.*?)\\end\{align\*\}", told, re.DOTALL):
         assert block.count("{") == block.count("}")
         assert block.count(r"\left") - block.count(r"\leftarrow") == block.count(r"\right)")
+
+
+# --- Pages of scripts, and the check of links ---
+
+
+def test_a_script_becomes_cells_with_text_between_them() -> None:
+    script = (
+        '"""\nTitle\n=====\n\nText.\n"""\n\nimport sys\n\n# %%\n# Part\n# ----\n\nx = 1  # one\n'
+    )
+    page = module_of(DOCS / "_ext" / "scripts.py").page_of_script(script)
+    assert re.findall(r"```.*?```", page, re.DOTALL)[1:] == [
+        "```{code-cell} python\nimport sys\n```",
+        "```{code-cell} python\nx = 1  # one\n```",
+    ]
+    assert re.sub(r"```.*?```", "", page, flags=re.DOTALL).split() == [
+        *("---", "file_format:", "mystnb", "kernelspec:", "{name:", "python3}", "---"),
+        *("Title", "=====", "Text.", "Part", "----"),
+    ]
+
+
+def test_dead_links_and_requests_to_elsewhere_are_found(tmp_path: Path) -> None:
+    complaints = module_of(DOCS / "check_site.py").complaints
+    good, bad = tmp_path / "good", tmp_path / "bad"
+    for folder in (good, bad):
+        folder.mkdir()
+        (folder / "a.html").write_text('<a href="b.html#b">b</a> <a href="https://x.org">x</a>')
+    (good / "b.html").write_text('<h1 id="b">b</h1>')
+    assert complaints(good) == []
+    (bad / "b.html").write_text('<script src="https://x.org/y.js"></script>')
+    (bad / "c.css").write_text("@import url(https://x.org/font.css);")
+    (bad / "d.html").write_text('<img src="none.png"><a href="#none">d</a>')
+    told = [line.removeprefix(f"{bad}/") for line in complaints(bad)]
+    assert told == [
+        "a.html: b.html#b has no such place",
+        "b.html: asks https://x.org/y.js of another machine",
+        "d.html: none.png is not there",
+        "d.html: #none has no such place",
+        "c.css: asks https://x.org/font.css of another machine",
+    ]
