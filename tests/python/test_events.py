@@ -87,7 +87,7 @@ def test_two_crossings_within_a_step_are_found(model: cdcr.Model, method: Any) -
 @pytest.mark.parametrize(
     ("events", "error", "sentence"),
     [
-        (3, TypeError, "'int' object is not iterable"),
+        (3, ValueError, "events must be a function or a sequence of functions, got 3 (int)"),
         ([3], TypeError, "events[0] must be a function, got int"),
         (lambda a, b, c, d: 0, ValueError, "events[0] must take (t, q, qd), (t, y)"),
         (event(lambda t: t, terminal=-1), ValueError, "terminal of events[0] must be True, False"),

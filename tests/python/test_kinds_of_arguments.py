@@ -8,9 +8,13 @@ import numpy as np
 import pytest
 
 import cdcr
+from cdcr.base.calls import explain
 
 MODEL = cdcr.Model(cdcr.robots.amouri2020())
 ZERO = [0.0, 0.0]
+REFERENCE = cdcr.Reference(
+    t=np.arange(2.0), q=np.zeros((2, 2)), qd=np.zeros((2, 2)), qdd=np.zeros((2, 2))
+)
 NONE = cast("Any", None)
 
 
@@ -31,6 +35,30 @@ CASES: dict[str, tuple[Callable[[], object], str]] = {
     "formulation": (lambda: cdcr.Model(MODEL.robot, cast("Any", [])), "formulation must be one of"),
     "stable_step": (lambda: cdcr.stable_step(NONE), "model must be a cdcr.Model, got NoneType"),
     "simulate": (lambda: run(model=None), "model must be a cdcr.Model, got NoneType"),
+    "least tension": (
+        lambda: MODEL.allocate(ZERO, cast("Any", "a")),
+        "min_tension must be a number, got 'a' (str)",
+    ),
+    "largest tension": (
+        lambda: cdcr.inverse_run(MODEL, REFERENCE, max_tension=cast("Any", [1.0])),
+        "max_tension must be a number [N], got [1.0] (list)",
+    ),
+    "method of allocate": (
+        lambda: MODEL.allocate(ZERO, method=cast("Any", 3)),
+        "method must be a string, got 3 (int)",
+    ),
+    "seeds": (
+        lambda: MODEL.inverse_kinematics([0.0, 0.0, 0.8], seeds=cast("Any", 1.5)),
+        "seeds must be a whole number, got 1.5 (float)",
+    ),
+    "tolerance": (
+        lambda: MODEL.inverse_kinematics([0.0, 0.0, 0.8], tolerance=cast("Any", "fine")),
+        "tolerance must be a number, got 'fine' (str)",
+    ),
+    "events": (
+        lambda: run(events=3),
+        "events must be a function or a sequence of functions, got 3 (int)",
+    ),
     "gain": (
         lambda: cdcr.Pid(MODEL, kp=cast("Any", "a"), kd=1.0),
         "kp must be a number, got 'a' (str)",
@@ -132,3 +160,20 @@ def test_inverse_dynamics_beside_wrenches() -> None:
     np.testing.assert_array_equal(
         model.inverse_dynamics(q, qd, qdd, []), model.inverse_dynamics(q, qd, qdd)
     )
+
+
+@pytest.mark.parametrize(
+    ("function", "arguments", "sentence"),
+    [
+        (cdcr.Model.pose, ([0.1, 0.0], "tip", 1.0), "section must be a whole number, got 'tip'"),
+        (cdcr.Model.pose, ([0.1, 0.0], 0, "end"), "fraction must be a number, got 'end' (str)"),
+        (cdcr.Model.forward_dynamics, ([0.1, 0.0],), "forward_dynamics(): missing a required "),
+        (cdcr.Model.rest_command, ([0.1, 0.0],), "rest_command(): too many positional arguments"),
+    ],
+)
+def test_what_the_core_refuses_can_be_explained(
+    function: Callable[..., Any], arguments: tuple[Any, ...], sentence: str
+) -> None:
+    with pytest.raises(TypeError):
+        function(MODEL, *arguments)
+    assert explain(function, (MODEL, *arguments), {}).startswith(sentence)

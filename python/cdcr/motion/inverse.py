@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray, ReadOnlyArrays, read_only
-from cdcr.base.check import one_of, require_kind
+from cdcr.base.check import Check, one_of, require_kind
 from cdcr.model.model import Model
 from cdcr.model.statics import InfeasibleError
 from cdcr.motion.reference import Reference
@@ -223,6 +223,10 @@ def inverse_run(
     <InverseRun: 51 samples, t = 0 to 10 s, 3 cables, up to 5.754 N>
     """
     _check(model, reference, infeasible)
+    limits = Check()
+    limits.number("min_tension", min_tension, "a number [N]")
+    limits.number("max_tension", max_tension, "a number [N]")
+    limits.done()
     warn_beyond_taylor_range(model, reference.q)
     force = model.inverse_dynamics(reference.q, reference.qd, reference.qdd)
     answers = [model.find_tension(one, min_tension, max_tension) for one in force]

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from cdcr.base.arrays import FloatArray
+from cdcr.base.check import Check
 
 EventFunction: TypeAlias = Callable[..., Any]
 Watched: TypeAlias = tuple[EventFunction, int, int]
@@ -59,7 +60,10 @@ def watched(events: EventFunction | Sequence[EventFunction]) -> list[Watched]:
     TypeError, ValueError
         For what is no function, takes other arguments, or has other attributes.
     """
+    check = Check()
     functions = [events] if callable(events) else events
+    functions = check.items("events", functions, "a function or a sequence of functions")
+    check.done()
     return [_watched(function, i) for i, function in enumerate(functions)]
 
 

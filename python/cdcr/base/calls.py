@@ -1,0 +1,68 @@
+"""What is wrong with the arguments of a call to the compiled core, in a sentence."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Callable, Mapping, Sequence
+from functools import wraps
+from numbers import Integral, Real
+from typing import Any, ParamSpec, TypeVar
+
+from cdcr.base.check import format_value
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+# What docstrings in numpydoc's form say of an argument, and what it must be.
+_KINDS: dict[str, tuple[Any, str]] = {
+    "int": (Integral, "a whole number"),
+    "float": (Real, "a number"),
+    "bool": (bool, "True or False"),
+    "{": (str, "a string"),
+}
+_LIST_OF_TYPES = "incompatible function arguments"  # in what the core raises
+
+
+def told(function: Callable[P, R]) -> Callable[P, R]:
+    """Return a function that says what is wrong where the core would list the types it takes."""
+
+    @wraps(function)
+    def call(*args: P.args, **kwargs: P.kwargs) -> R:
+        try:
+            return function(*args, **kwargs)
+        except TypeError as error:
+            if _LIST_OF_TYPES not in str(error):
+                raise
+            raise TypeError(explain(function, args, kwargs)) from None
+
+    return call
+
+
+def explain(function: Callable[..., Any], args: Sequence[Any], kwargs: Mapping[str, Any]) -> str:
+    """Return what is wrong with a call that the core refused, from signature and docstring.
+
+    Examples
+    --------
+    >>> import cdcr
+    >>> model = cdcr.Model(cdcr.robots.amouri2020())
+    >>> explain(cdcr.Model.pose, (model, [0.1, 0.0], 0), {})
+    "pose(): missing a required argument: 'fraction'"
+    >>> explain(cdcr.Model.pose, (model, [0.1, 0.0], "tip", 1.0), {})
+    "section must be a whole number, got 'tip' (str)"
+    """
+    name, signature = function.__name__, inspect.signature(function)
+    try:
+        given = signature.bind(*args, **kwargs).arguments
+    except TypeError as error:
+        return f"{name}(): {error}"
+    for item, value in given.items():
+        listed = rf"^ *(?:\w+, )*{item}(?:, \w+)* : (?:(int|float|bool)(?:,.*)?$|({{))"
+        kind = re.search(listed, function.__doc__ or "", re.MULTILINE)
+        left_out = value is None and signature.parameters[item].default is None
+        if kind and not left_out:
+            wanted, requirement = _KINDS[kind[1] or kind[2]]
+            if not isinstance(value, wanted):
+                return f"{item} must be {requirement}, got {format_value(value)}"
+    kinds = ", ".join(f"{item} {type(value).__name__}" for item, value in given.items())
+    return f"{name}() takes arguments of other kinds than {kinds}"
