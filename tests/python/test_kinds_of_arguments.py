@@ -116,6 +116,38 @@ CASES: dict[str, tuple[Callable[[], object], str]] = {
         lambda: cdcr.TensionTable([0.0], [[0.0] * 3], cast("Any", np.ones(2))),
         "interpolation must be 'linear' or 'previous', got",
     ),
+    "pose": (
+        lambda: cast("Any", MODEL).pose(ZERO),
+        "pose(): missing a required argument: 'section'",
+    ),
+    "too many": (
+        lambda: cast("Any", MODEL).pose(ZERO, 0, 1.0, 2),
+        "pose(): too many positional arguments",
+    ),
+    "keyword": (
+        lambda: cast("Any", MODEL).tip(ZERO, speed=1.0),
+        "tip(): got an unexpected keyword argument 'speed'",
+    ),
+    "fraction": (
+        lambda: MODEL.jacobian(ZERO, 0, cast("Any", "1")),
+        "fraction must be a number, got '1' (str)",
+    ),
+    "duration": (
+        lambda: cdcr.Simulator(MODEL, step=cast("Any", np.timedelta64(1, "ms"))),
+        "step must be a number, got np.timedelta64(1,'ms') (timedelta64)",
+    ),
+    "constructor": (
+        lambda: cast("Any", cdcr.Simulator)(),
+        "Simulator(): missing a required argument: 'model'",
+    ),
+    "tolerance": (
+        lambda: MODEL.inverse_kinematics([0.1, 0.0, 0.7], tolerance=cast("Any", "1")),
+        "tolerance must be a number, got '1' (str)",
+    ),
+    "another self": (
+        lambda: cast("Any", cdcr.Model).tip(5, ZERO),
+        "tip() takes arguments of other kinds than q list",
+    ),
 }
 
 

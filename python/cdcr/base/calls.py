@@ -5,14 +5,12 @@ from __future__ import annotations
 import inspect
 import re
 from collections.abc import Callable, Mapping, Sequence
-from functools import wraps
 from numbers import Integral, Real
-from typing import Any, ParamSpec, TypeVar
+from typing import Any
+
+import numpy as np
 
 from cdcr.base.check import format_value
-
-P = ParamSpec("P")
-R = TypeVar("R")
 
 # What docstrings in numpydoc's form say of an argument, and what it must be.
 _KINDS: dict[str, tuple[Any, str]] = {
@@ -21,22 +19,6 @@ _KINDS: dict[str, tuple[Any, str]] = {
     "bool": (bool, "True or False"),
     "{": (str, "a string"),
 }
-_LIST_OF_TYPES = "incompatible function arguments"  # in what the core raises
-
-
-def told(function: Callable[P, R]) -> Callable[P, R]:
-    """Return a function that says what is wrong where the core would list the types it takes."""
-
-    @wraps(function)
-    def call(*args: P.args, **kwargs: P.kwargs) -> R:
-        try:
-            return function(*args, **kwargs)
-        except TypeError as error:
-            if _LIST_OF_TYPES not in str(error):
-                raise
-            raise TypeError(explain(function, args, kwargs)) from None
-
-    return call
 
 
 def explain(function: Callable[..., Any], args: Sequence[Any], kwargs: Mapping[str, Any]) -> str:
@@ -51,18 +33,24 @@ def explain(function: Callable[..., Any], args: Sequence[Any], kwargs: Mapping[s
     >>> explain(cdcr.Model.pose, (model, [0.1, 0.0], "tip", 1.0), {})
     "section must be a whole number, got 'tip' (str)"
     """
-    name, signature = function.__name__, inspect.signature(function)
+    name, signature = function.__name__.strip("_"), inspect.signature(function)
+    owner = type(args[0]) if "self" in signature.parameters else None
+    documented = getattr(owner, name, function)  # where the core's own is a private one beneath
+    if function.__name__ == "__init__" and owner:
+        name = owner.__name__
     try:
         given = signature.bind(*args, **kwargs).arguments
     except TypeError as error:
         return f"{name}(): {error}"
+    given.pop("self", None)
+    parameters = inspect.signature(documented).parameters
     for item, value in given.items():
         listed = rf"^ *(?:\w+, )*{item}(?:, \w+)* : (?:(int|float|bool)(?:,.*)?$|({{))"
-        kind = re.search(listed, function.__doc__ or "", re.MULTILINE)
-        left_out = value is None and signature.parameters[item].default is None
+        kind = re.search(listed, documented.__doc__ or "", re.MULTILINE)
+        left_out = value is None and parameters[item].default is None
         if kind and not left_out:
             wanted, requirement = _KINDS[kind[1] or kind[2]]
-            if not isinstance(value, wanted):
+            if not isinstance(value, wanted) or isinstance(value, np.timedelta64):
                 return f"{item} must be {requirement}, got {format_value(value)}"
     kinds = ", ".join(f"{item} {type(value).__name__}" for item, value in given.items())
     return f"{name}() takes arguments of other kinds than {kinds}"

@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray, finite
-from cdcr.base.calls import told
 from cdcr.base.check import one_of, require_kind
 from cdcr.model.inverse_kinematics import InverseKinematics
 from cdcr.model.modes import Modes
@@ -246,7 +245,6 @@ class Model(StateSpaceModel):
         method: str = ...,
         throw: Literal[False],
     ) -> _core.Allocation: ...
-    @told
     def allocate(
         self,
         force: ArrayLike,
@@ -289,7 +287,6 @@ class Model(StateSpaceModel):
         found = self.find_tension(force, min_tension, max_tension, method=method)
         return checked_allocation(found, force, (min_tension, max_tension)) if throw else found
 
-    @told
     def inverse_kinematics(
         self,
         p: ArrayLike,
