@@ -45,36 +45,27 @@ def shell(home: Path, script: str) -> str:
     return done.stdout
 
 
-def offered(home: Path, *words: str) -> list[str]:
-    """Return what bash offers for the last word."""
-    line = " ".join(f"'{word}'" for word in words)
-    script = f"""
-eval "$(_CDCR_COMPLETE=source_bash cdcr)"
-COMP_WORDS=({line}); COMP_CWORD={len(words) - 1}
+def offered(home: Path, *lines: str) -> list[list[str]]:
+    """Return what bash offers for the last word of each line, which may be empty."""
+    script = 'eval "$(_CDCR_COMPLETE=source_bash cdcr)"\n'
+    for line in lines:
+        words = line.split(" ")
+        script += f"""
+COMP_WORDS=({" ".join(f"'{word}'" for word in words)}); COMP_CWORD={len(words) - 1}
 _cdcr_completion cdcr
-printf '%s\\n' "${{COMPREPLY[@]}}"
+echo "${{COMPREPLY[*]}}"
 """
-    return shell(home, script).split()
+    return [line.split() for line in shell(home, script).splitlines()]
 
 
-def test_scenarios_and_files_are_offered(home: Path) -> None:
-    assert offered(home, "cdcr", "run", "mine/") == ["mine/deep.toml"]
-    everything = offered(home, "cdcr", "run", "")
+def test_scenarios_files_options_and_values_are_offered(home: Path) -> None:
+    everything, deep, options, values = offered(
+        home, "cdcr run ", "cdcr run mine/", "cdcr run --w", "cdcr run pid --method d"
+    )
     assert everything == [*cdcr.scenarios.names(), "mine/", "my.toml", "other.toml"]
-
-
-def test_what_can_be_viewed_is_offered(home: Path) -> None:
-    (home / "work" / "run.nc").write_text("")
-    everything = {*cdcr.robots.names(), *cdcr.scenarios.names()}
-    assert set(offered(home, "cdcr", "view", "")) == {
-        *everything,
-        *("my.toml", "other.toml", "run.nc", "mine/"),
-    }
-
-
-def test_options_and_their_values_are_offered(home: Path) -> None:
-    assert "--watch" in offered(home, "cdcr", "run", "--w")
-    assert offered(home, "cdcr", "run", "pid", "--method", "d") == ["dopri5"]
+    assert deep == ["mine/deep.toml"]
+    assert options == ["--watch"]
+    assert values == ["dopri5"]
 
 
 def test_the_shell_is_found_and_told(home: Path) -> None:
