@@ -140,10 +140,6 @@ CASES: dict[str, tuple[Callable[[], object], str]] = {
         lambda: cast("Any", cdcr.Simulator)(),
         "Simulator(): missing a required argument: 'model'",
     ),
-    "tolerance": (
-        lambda: MODEL.inverse_kinematics([0.1, 0.0, 0.7], tolerance=cast("Any", "1")),
-        "tolerance must be a number, got '1' (str)",
-    ),
     "another self": (
         lambda: cast("Any", cdcr.Model).tip(5, ZERO),
         "tip() takes arguments of other kinds than q list",
