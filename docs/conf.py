@@ -56,6 +56,7 @@ nb_execution_raise_on_error = True
 nb_execution_timeout = 120
 nb_merge_streams = True
 
+default_role = "py:obj"  # `simulate` in a docstring leads to its place
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"  # numpydoc says the types, with shapes and units
 autosummary_generate = False
