@@ -22,8 +22,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Runs glued at the break points: the same steps, but for how times are rounded.
 constexpr double glued = 1e-12;
-/// Slope of a run by differences over 1e-4 s, which divide its error.
-constexpr double slope_of_run = 1e-8;
+constexpr double slope_of_run = 1e-8;  // differences over 1e-4 s divide its error
 
 const std::vector<Method> both_methods = {Method::rk4, Method::dopri5};
 

@@ -4,7 +4,6 @@ import csv
 import io
 import json
 import os
-import shutil
 import signal
 import subprocess
 import sys
@@ -292,43 +291,6 @@ def test_quiet_prints_nothing_but_errors(tmp_path: Path) -> None:
     )
     loud = cdcr_(*args, "--overwrite", "--json")
     assert json.loads(loud.stdout)["t_end"] == 0.1
-
-
-@pytest.mark.usefixtures("quick")
-@pytest.mark.parametrize("film", ["gif", "html", "mp4"])
-def test_a_film_is_written_too(tmp_path: Path, film: str) -> None:
-    if film == "mp4" and not shutil.which("ffmpeg"):
-        pytest.skip("needs ffmpeg")
-    args = ("run", "step-tension", "--out", tmp_path, "--t-end", 0.1, "--film")
-    assert cdcr_(*args, film).exit_code == 0
-    assert everything_in(tmp_path) == sorted([*FILES, f"step-tension.{film}"])
-    begin = {"gif": b"GIF89a", "html": b"<!doctype html>", "mp4": b"ftyp"}[film]
-    assert begin in (tmp_path / f"step-tension.{film}").read_bytes()[:20]
-
-
-@pytest.mark.usefixtures("quick")
-def test_films_of_long_runs_are_played_faster(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    from PIL import Image
-
-    monkeypatch.setattr(cli_run, "LONGEST_FILM", 0.1)
-    args = ("run", "step-tension", "--out", tmp_path, "--t-end", 1.0, "--film", "gif")
-    assert cdcr_(*args).exit_code == 0
-    with Image.open(tmp_path / "step-tension.gif") as film:
-        assert getattr(film, "n_frames", 0) == 4  # of 0.1 s, 30 a second, both ends
-
-
-def test_films_that_cannot_be_written_are_refused(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    told = refused(cdcr_("run", "pid", "--out", tmp_path, "--film", "avi"))
-    assert told == "--film must be one of mp4, gif, html, got 'avi'"
-    monkeypatch.setattr(shutil, "which", lambda name: None)
-    told = refused(cdcr_("run", "pid", "--out", tmp_path, "--film", "mp4"))
-    assert told.startswith("--film mp4 needs the program ffmpeg, which is not on the PATH")
-    assert refused(cdcr_("run", "gravity-ratio", "--film", "gif")).endswith("takes no --film")
-    assert everything_in(tmp_path) == []
 
 
 def test_wrong_options_are_told_before_files_that_exist(tmp_path: Path) -> None:

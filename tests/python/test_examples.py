@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import ast
-import re
 import runpy
 import sys
 from collections.abc import Iterator
@@ -20,7 +18,6 @@ from scipy.optimize import brentq, minimize_scalar, root  # type: ignore[import-
 import cdcr
 
 FOLDER = Path(__file__).parents[2] / "examples"
-SCRIPTS = sorted(FOLDER.glob("[0-9][0-9]_*.py"))
 FEWEST_BYTES = 10_000  # of a picture with something on it
 GRAVITY = 9.81
 
@@ -57,33 +54,6 @@ def example(
 
 def rotated(phi: Any) -> Any:
     return np.stack([np.cos(phi), np.sin(phi)], axis=-1)
-
-
-# Form
-
-
-def test_the_table_has_every_example() -> None:
-    rows = re.findall(r"^\| (\d\d) \|", (FOLDER / "README.md").read_text(), re.MULTILINE)
-    assert rows == [script.name[:2] for script in SCRIPTS]
-
-
-@pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.stem)
-def test_an_example_is_a_page_and_uses_public_names_alone(script: Path) -> None:
-    text = script.read_text()
-    tree = ast.parse(text)
-    title, line, *paragraphs = (ast.get_docstring(tree) or "").splitlines()
-    assert line == "=" * len(title)
-    assert any(paragraph.startswith("Look at ") for paragraph in paragraphs)
-    assert text.count("\n# %%\n") >= 3
-    assert len(text.splitlines()) <= 100
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Attribute):
-            assert not node.attr.startswith("_") or node.attr == "__init__"
-        if isinstance(node, ast.ImportFrom):
-            assert not str(node.module).startswith("cdcr")
-
-
-# Findings
 
 
 def test_own_robot(example: Example) -> None:

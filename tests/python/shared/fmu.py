@@ -16,6 +16,8 @@ fmpy: Any = pytest.importorskip("fmpy", reason="FMUs are tested by fmpy")
 fmi2: Any = pytest.importorskip("fmpy.fmi2")
 fmi3: Any = pytest.importorskip("fmpy.fmi3")
 
+GRAVITY = (0.3, -0.2, -9.81)
+
 
 class Fmu:
     """An instance; what it logs is in `messages`."""
@@ -83,3 +85,7 @@ class Fmu:
             self.slave.getDirectionalDerivative(rows, [column], [1.0]) for column in columns
         ]
         return np.transpose(np.array(by_known, dtype=np.float64))
+
+
+def upright() -> cdcr.Robot:
+    return cdcr.robots.three_sections(gravity=GRAVITY, payload=0.005)
