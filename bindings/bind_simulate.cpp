@@ -156,6 +156,7 @@ void bind_simulate(py::module_& m) {
       .value("dopri5", Method::dopri5)
       .value("bdf", Method::bdf)
       .value("adams", Method::adams)
+      .value("dop853", Method::dop853)
       .finalize();
 
   const Options defaults;

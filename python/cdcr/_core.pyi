@@ -48,6 +48,7 @@ class Method(enum.Enum):
     dopri5 = 1
     bdf = 2
     adams = 3
+    dop853 = 4
 
 class Formulation(enum.Enum):
     """Which inertia functions to use."""

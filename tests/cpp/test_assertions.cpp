@@ -196,7 +196,7 @@ TEST_CASE("set up refuses what does not fit by a sentence") {
   CHECK_THROWS_SENTENCE((void)cable_name(a.model, -1),
                         "cable must be an index from 0 to 5, got -1");
   const auto input = CommandInput::constant(a.F);
-  for (const Method method : {Method::rk4, Method::dopri5}) {
+  for (const Method method : {Method::rk4, Method::dopri5, Method::dop853}) {
     RobotOde ode(a.model, input);
     const auto integrator = make_integrator(ode, method, Options());
     CHECK_THROWS_SENTENCE((void)integrator->restart(0.0, a.q, 1.0),

@@ -73,7 +73,7 @@ TEST_CASE("tensions are held from the first time on, and renewed at each period"
 
 TEST_CASE("a controlled run is the run under the table of its tensions") {
   const Model model(heavily_damped());
-  for (const Method method : {Method::rk4, Method::dopri5}) {
+  for (const Method method : {Method::rk4, Method::dopri5, Method::dop853}) {
     // The period divides neither the output grid nor the step.
     const double period = 0.0137;
     Pid pid(model, gains(0.8, 1.5, 0.02, period));
@@ -176,7 +176,7 @@ TEST_CASE("two runs with one controller are the same, to the last bit") {
   Pid pid(model, gains(0.8, 1.5, 0.02));
   pid.set_reference(Eigen::Vector2d(-0.4, 0.2));
   const VectorXd times = even_times(0.0, 1.0, 77);
-  for (const Method method : {Method::rk4, Method::dopri5}) {
+  for (const Method method : {Method::rk4, Method::dopri5, Method::dop853}) {
     const Trajectory first = run(model, pid, times, method);
     CHECK(pid.integral().norm() > 0.0);
     const Trajectory second = run(model, pid, times, method);

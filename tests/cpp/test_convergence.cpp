@@ -121,19 +121,34 @@ TEST_CASE("Dormand-Prince between its steps is of order 4 at least") {
   CHECK(fitted > 4.0);
 }
 
+TEST_CASE("Dormand-Prince of order 8, at its steps and between them") {
+  const Model model = damped_upright();
+  for (const int samples : {2, 1234}) {
+    const double fitted = order(0.1, 3, [&](double step) {
+      return error_of(model, no_tension(model), even_times(0.0, end, samples), Method::dop853,
+                      held_to(step));
+    });
+    MESSAGE("fitted order of dop853: ", fitted, ", samples: ", samples);
+    CHECK(fitted > 7.5);
+    CHECK(fitted < 8.6);
+  }
+}
+
 TEST_CASE("the error of Dormand-Prince follows its tolerance") {
   const Model model = damped_upright();
-  for (const CommandInput& input : {no_tension(model), pulse(), ramp()}) {
-    std::vector<double> tolerance, error;
-    for (const double rtol : {1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11}) {
-      tolerance.push_back(rtol);
-      error.push_back(error_of(model, input, even_times(0.0, end, 101), Method::dopri5,
-                               tolerances(rtol, rtol)));
-      CHECK(error.back() < 50.0 * rtol);
+  for (const Method method : {Method::dopri5, Method::dop853}) {
+    for (const CommandInput& input : {no_tension(model), pulse(), ramp()}) {
+      std::vector<double> tolerance, error;
+      for (const double rtol : {1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11}) {
+        tolerance.push_back(rtol);
+        error.push_back(
+            error_of(model, input, even_times(0.0, end, 101), method, tolerances(rtol, rtol)));
+        CHECK(error.back() < 50.0 * rtol);
+      }
+      const double slope = fitted_order(tolerance, error);
+      CHECK(slope > 0.85);
+      CHECK(slope < 1.15);
     }
-    const double slope = fitted_order(tolerance, error);
-    CHECK(slope > 0.85);
-    CHECK(slope < 1.15);
   }
 }
 

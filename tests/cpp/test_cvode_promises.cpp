@@ -245,7 +245,8 @@ TEST_CASE("makes every method, and refuses bad options and restarts") {
   const Model model(amouri2020());
   const CommandInput input = pull(5.0);
   RobotOde ode(model, input);
-  for (const Method method : {Method::rk4, Method::dopri5, Method::bdf, Method::adams}) {
+  for (const Method method :
+       {Method::rk4, Method::dopri5, Method::dop853, Method::bdf, Method::adams}) {
     const auto integrator = make_cvode_integrator(ode, method, {});
     REQUIRE(integrator->restart(0.0, state(0.2, 0.0), 0.1) == Status::ok);
     CHECK(run(*integrator, 0.1) == Status::ok);

@@ -16,8 +16,7 @@
 namespace cdcr::test {
 namespace {
 
-/// Energy over 10 s and hundreds of swings of the cables, each error adding up; bdf damps by
-/// itself.
+/// Energy over 10 s and hundreds of swings of the cables, errors added up; bdf damps by itself.
 constexpr double kept_by_dopri5 = 4e-8, kept_by_adams = 1e-7, kept_by_bdf = 4e-6;
 /// Times of slack events [s] at rtol 1e-12.
 constexpr double event_time = 1e-8;
@@ -28,10 +27,11 @@ constexpr double slope_off = 0.05;
 /// States [rad] of stiff runs at rtol 1e-8, or by fixed steps just below the limit of stability.
 constexpr double stiff_states = 1e-6;
 
-const std::vector<Method> every_method = {Method::rk4, Method::dopri5, Method::bdf, Method::adams};
+const std::vector<Method> every_method = {Method::rk4, Method::dopri5, Method::bdf, Method::adams,
+                                          Method::dop853};
 
 std::string label(Method method) {
-  const char* const names[] = {"rk4", "dopri5", "bdf", "adams"};
+  const char* const names[] = {"rk4", "dopri5", "bdf", "adams", "dop853"};
   return names[static_cast<int>(method)];
 }
 

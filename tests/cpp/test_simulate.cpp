@@ -17,7 +17,7 @@ namespace {
 using Interpolation = CommandInput::Interpolation;
 
 const Eigen::Vector2d q_start(0.5, -0.2), qd_start(0.0, 1.0);
-const std::vector<Method> own_methods = {Method::dopri5, Method::rk4};
+const std::vector<Method> own_methods = {Method::dopri5, Method::dop853, Method::rk4};
 
 Model upright() {
   Robot robot = amouri2020();
@@ -60,7 +60,11 @@ TEST_CASE("a run does not depend on where it is sampled, to the last bit") {
     const Trajectory coarse = run_of(model, even_times(0.0, 2.0, 5), table, method);
     const Trajectory fine = run_of(model, even_times(0.0, 2.0, 4001), table, method);
     CHECK(coarse.stats.steps == fine.stats.steps);
-    CHECK(coarse.stats.evaluations == fine.stats.evaluations);
+    if (method == Method::dop853) {  // three more in each step that is sampled
+      CHECK(coarse.stats.evaluations < fine.stats.evaluations);
+    } else {
+      CHECK(coarse.stats.evaluations == fine.stats.evaluations);
+    }
     for (Index i = 0; i < 5; ++i) {
       CHECK(coarse.q.row(i) == fine.q.row(1000 * i));
       CHECK(coarse.qd.row(i) == fine.qd.row(1000 * i));
@@ -214,7 +218,7 @@ TEST_CASE("progress is told times that grow, and the steps do not depend on it")
                                       return true;
                                     });
     REQUIRE(run.status == Status::ok);
-    CHECK(told.size() > 3);
+    CHECK(told.size() > 2);
     for (std::size_t i = 1; i < told.size(); ++i) CHECK(told[i] > told[i - 1]);
     CHECK(run.q == run_of(model, times, no_tension(model), method).q);
   }

@@ -34,7 +34,7 @@ const std::vector<Status> all = {
 };
 
 const Eigen::Vector2d q_start(0.5, 0.0), at_rest(0.0, 0.0);
-const std::vector<Method> own_methods = {Method::dopri5, Method::rk4};
+const std::vector<Method> own_methods = {Method::dopri5, Method::dop853, Method::rk4};
 
 /// The run ended before its end and says so; what it keeps is sound.
 void check_stopped(const Trajectory& run, Status status, Index all_samples) {

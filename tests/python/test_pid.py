@@ -69,7 +69,7 @@ def test_proportional_action_alone_falls_short(model: cdcr.Model) -> None:
     np.testing.assert_allclose(run.q[-1], [kp / (K + kp) * 0.6, 0.0], atol=SETTLED)
 
 
-@pytest.mark.parametrize("method", ["bdf", "adams", "dopri5", "rk4"])
+@pytest.mark.parametrize("method", ["bdf", "adams", "dopri5", "dop853", "rk4"])
 def test_tensions_are_held_over_each_period(model: cdcr.Model, method: Any) -> None:
     pid = cdcr.Pid(model, kp=0.8, ki=0.5, period=1.0 / 16.0)
     pid.reference = [0.3, -0.4]

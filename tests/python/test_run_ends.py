@@ -9,7 +9,7 @@ import pytest
 
 import cdcr
 
-METHODS = ("bdf", "adams", "dopri5", "rk4")
+METHODS = ("bdf", "adams", "dopri5", "dop853", "rk4")
 ADAPTIVE = METHODS[:3]
 ZEROS = [0.0, 0.0]
 

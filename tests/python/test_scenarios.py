@@ -112,7 +112,7 @@ def test_mean_of_theta_over_whole_periods(scenario: Scenario, run: cdcr.Trajecto
     assert found["theta_mean_deg"] == pytest.approx(found["theta_static_deg"], rel=0.01)
 
 
-@pytest.mark.parametrize("method", ["bdf", "adams", "dopri5", "rk4"])
+@pytest.mark.parametrize("method", ["bdf", "adams", "dopri5", "dop853", "rk4"])
 def test_overrides_reach_the_integrator(scenario: Scenario, method: Any) -> None:
     assert isinstance(scenario.tension, tuple)
     assert isinstance(scenario.q0, tuple)

@@ -13,13 +13,14 @@ import cdcr
 from cdcr.runs.simulate import DEFAULT_METHOD
 from interruption import interrupt_soon
 
-METHODS = ["bdf", "adams", "dopri5", "rk4"]
+METHODS = ["bdf", "adams", "dopri5", "dop853", "rk4"]
 # Error of q [rad] over a second or two at the tight tolerances below; CVODE's steps add up.
-TIGHT = {"bdf": 3e-10, "adams": 3e-10, "dopri5": 1e-11, "rk4": 1e-10}
+TIGHT = {"bdf": 3e-10, "adams": 3e-10, "dopri5": 1e-11, "dop853": 1e-11, "rk4": 1e-10}
 OPTIONS: dict[str, dict[str, float]] = {
     "bdf": {"rtol": 1e-12, "atol": 1e-14},
     "adams": {"rtol": 1e-12, "atol": 1e-14},
     "dopri5": {"rtol": 1e-12, "atol": 1e-14},
+    "dop853": {"rtol": 1e-12, "atol": 1e-14},
     "rk4": {"step": 2e-4},
 }
 # What the default tolerances promise of the paper's step of tension over 10 s [rad].

@@ -46,7 +46,7 @@ def refuses(sentence: str) -> Any:
             "t must be finite and strictly increasing, got 0.5 s at index 2 after 0.5 s",
         ),
         ({"t": "soon"}, "t must be numbers of shape (any,), got str"),
-        ({"method": "euler"}, "method must be one of 'rk4', 'dopri5', 'bdf', 'adams', got 'euler'"),
+        ({"method": "euler"}, "method must be one of 'rk4', 'dopri5', 'bdf', 'adams', 'dop853', got 'euler'"),
         ({"rtol": 0.0}, "rtol must be at least 1e-14 and below 1, got 0"),
         ({"rtol": 1.0}, "rtol must be at least 1e-14 and below 1, got 1"),
         ({"rtol": NAN}, "rtol must be at least 1e-14 and below 1, got nan"),
@@ -147,7 +147,7 @@ def test_tensions(model: cdcr.Model, tension: Any, sentence: str) -> None:
         run(model, tension=tension)
 
 
-@pytest.mark.parametrize("method", ["bdf", "adams", "dopri5", "rk4"])
+@pytest.mark.parametrize("method", ["bdf", "adams", "dopri5", "dop853", "rk4"])
 def test_a_function_that_goes_wrong_on_the_way(model: cdcr.Model, method: str) -> None:
     def tension(t: float) -> list[float]:
         return [1.0 if t < 0.1 else -1.0, 0.0, 0.0]

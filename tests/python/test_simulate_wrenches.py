@@ -9,10 +9,10 @@ import pytest
 
 import cdcr
 
-METHODS = ("rk4", "dopri5", "bdf", "adams")
+METHODS = ("rk4", "dopri5", "dop853", "bdf", "adams")
 Q, QD = np.array([0.3, -0.2]), np.array([1.0, 0.5])
 # bdf and adams: errors of thousands of steps at rtol 1e-12 add up; the others repeat their steps.
-GLUED = {"rk4": 1e-12, "dopri5": 1e-12, "bdf": 1e-9, "adams": 1e-9}
+GLUED = {"rk4": 1e-12, "dopri5": 1e-12, "dop853": 1e-12, "bdf": 1e-9, "adams": 1e-9}
 OPTIONS: dict[str, Any] = {"rtol": 1e-12, "atol": 1e-14, "step": 2.0**-11}
 SIDE = cdcr.Wrench(section=0, fraction=0.7, force=(0.3, -0.1, 0.2), moment=(0.02, 0.05, 0.0))
 

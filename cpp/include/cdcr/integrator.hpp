@@ -10,8 +10,9 @@
 
 namespace CDCR_EXPORT cdcr {
 
-/// rk4: fixed step. dopri5: Dormand-Prince 5(4), adaptive. bdf, adams: CVODE (cdcr/cvode.hpp).
-enum class Method { rk4, dopri5, bdf, adams };
+/// rk4: fixed step. dopri5, dop853: Dormand-Prince 5(4) and 8(5,3), adaptive. bdf, adams: CVODE
+/// (cdcr/cvode.hpp).
+enum class Method { rk4, dopri5, bdf, adams, dop853 };
 
 /// How to integrate. The defaults put theta(t) of the scenario step-tension within 1e-6 rad of
 /// the truth over 10 s with bdf; bench/README.md has the figure of each method.
@@ -62,7 +63,7 @@ class Integrator {
 /// Makes the integrator for a method; the equation must outlive it.
 using IntegratorFactory = std::unique_ptr<Integrator> (*)(RobotOde&, Method, const Options&);
 
-/// rk4 and dopri5. Throws std::invalid_argument for other methods and for bad options.
+/// rk4, dopri5 and dop853. Throws std::invalid_argument for other methods and for bad options.
 [[nodiscard]] std::unique_ptr<Integrator> make_integrator(RobotOde& ode, Method method,
                                                           const Options& options);
 

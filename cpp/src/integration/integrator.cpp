@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/arguments.hpp"
+#include "integration/dop853.hpp"
 #include "integration/dopri5.hpp"
 #include "integration/rk4.hpp"
 
@@ -45,6 +46,8 @@ std::unique_ptr<Integrator> make_integrator(RobotOde& ode, Method method, const 
       return std::make_unique<detail::Rk4>(ode, options);
     case Method::dopri5:
       return std::make_unique<detail::Dopri5>(ode, options);
+    case Method::dop853:
+      return std::make_unique<detail::Dop853>(ode, options);
     case Method::bdf:
     case Method::adams:
       break;

@@ -98,7 +98,7 @@ def run_command(
         str | None,
         typer.Option(
             metavar="METHOD",
-            help="Integrator: bdf, adams, dopri5 or rk4.",
+            help="Integrator: bdf, adams, dopri5, dop853 or rk4.",
             autocompletion=complete.methods,
         ),
     ] = None,

@@ -89,7 +89,7 @@ class Scenario:
     formulation : str
         Of the model's equations.
     method : str
-        Integration method: "bdf", "adams", "dopri5" or "rk4".
+        Integration method: "bdf", "adams", "dopri5", "dop853" or "rk4".
     rtol, atol, step, max_step, max_steps : optional
         Tolerances of the adaptive methods, step of rk4 [s], largest step [s] and number of steps.
     summarize : callable

@@ -5,7 +5,7 @@
     tension = [5.0, 0.0, 0.0]       # of each cable [N]; or tables, see `cdcr new`
 
     [integrator]
-    method = "dopri5"               # or "bdf", "adams", "rk4"
+    method = "dopri5"               # or "dop853", "bdf", "adams", "rk4"
 
     [initial]                       # straight and at rest without it
     theta_deg = [45.0]              # of each section; or theta [rad], or q [rad]

@@ -90,9 +90,9 @@ class IntegratorTable(BaseModel):
 
     model_config = STRICT
 
-    method: Literal["bdf", "adams", "dopri5", "rk4"] = optional(
-        '"bdf", "adams", "dopri5" or "rk4"',
-        "bdf, adams and dopri5 choose their steps, rk4 does not",
+    method: Literal["bdf", "adams", "dopri5", "dop853", "rk4"] = optional(
+        '"bdf", "adams", "dopri5", "dop853" or "rk4"',
+        "all but rk4 choose their steps",
     )
     rtol: float = _positive("a number > 0 [1]", "relative tolerance of a step")
     atol: float = _positive("a number > 0 [rad], [rad/s]", "absolute tolerance of a step")

@@ -1,0 +1,125 @@
+#include "integration/embedded_pair.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cdcr::detail {
+namespace {
+
+constexpr double safety = 0.9;
+
+double weighted_norm(const VectorXd& v, const VectorXd& y, double rtol, double atol) {
+  double sum = 0.0;
+  for (Index i = 0; i < v.size(); ++i) {
+    const double scaled = v[i] / (atol + rtol * std::abs(y[i]));
+    sum += scaled * scaled;
+  }
+  return std::sqrt(sum / static_cast<double>(v.size()));
+}
+
+}  // namespace
+
+EmbeddedPair::EmbeddedPair(RobotOde& ode, const Options& options, const Control& control)
+    : ode_(ode), options_(options), control_(control) {
+  for (VectorXd* v : {&y_, &trial_, &y_before_, &slope_, &new_slope_, &slope_before_}) {
+    v->setZero(ode.num_states());
+  }
+}
+
+void EmbeddedPair::derivative(double t, const VectorXd& y, VectorXd& dydt) {
+  ode_.derivative(t, y.data(), dydt.data());
+  ++stats_.evaluations;
+}
+
+double EmbeddedPair::tolerance(Index i) const {
+  return options_.atol + options_.rtol * std::max(std::abs(y_[i]), std::abs(trial_[i]));
+}
+
+Status EmbeddedPair::restart(double t, const VectorXd& y, double t_stop) {
+  ode_.require_stretch(t, y, t_stop);
+  t_ = t_before_ = t;
+  stop_ = t_stop;
+  y_ = y_before_ = y;
+  h_before_ = 0.0;
+  last_error_ = 1e-4;
+  const Status status = ode_.check(y_.data());
+  if (status != Status::ok) return status;
+  derivative(t_, y_, slope_);
+  if (!slope_.allFinite()) return Status::non_finite_state;
+  h_ = first_step();
+  return Status::ok;
+}
+
+/// Starting step: one that makes an explicit Euler step small, refined by the second derivative.
+/// Depends on the problem and the tolerances alone.
+double EmbeddedPair::first_step() {
+  const double rtol = options_.rtol, atol = options_.atol;
+  const double d0 = weighted_norm(y_, y_, rtol, atol), d1 = weighted_norm(slope_, y_, rtol, atol);
+  const double h0 = d0 < 1e-5 || d1 < 1e-5 ? 1e-6 : 0.01 * d0 / d1;
+  trial_ = y_ + h0 * slope_;
+  derivative(t_ + h0, trial_, new_slope_);
+  trial_ = new_slope_ - slope_;
+  const double d2 = weighted_norm(trial_, y_, rtol, atol) / h0;
+  const double largest = std::max(d1, d2);
+  double h1 = largest <= 1e-15 ? std::max(1e-6, 1e-3 * h0)
+                               : std::pow(0.01 / largest, control_.inverse_order);
+  h1 = std::isfinite(h1) ? std::min(100.0 * h0, h1) : h0;
+  return options_.max_step > 0.0 ? std::min(h1, options_.max_step) : h1;
+}
+
+Status EmbeddedPair::failure_status() const {
+  if (trial_.allFinite() && new_slope_.allFinite()) return Status::step_too_small;
+  const VectorXd beyond = 1.001 * y_;
+  return ode_.check(beyond.data()) == Status::bending_limit ? Status::bending_limit
+                                                            : Status::non_finite_state;
+}
+
+Status EmbeddedPair::step() {
+  const double smallest =
+      4.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(t_), std::abs(stop_));
+  for (bool rejected = false;; rejected = true) {
+    double h = options_.max_step > 0.0 ? std::min(h_, options_.max_step) : h_;
+    const double left = stop_ - t_;
+    const bool last = 1.01 * h >= left;  // rather a slightly longer step than a tiny one after it
+    if (last) h = left;
+    if (!last && h < smallest) return failure_status();
+
+    make_stages(h);
+    const double error = error_norm(h);
+    if (!(error <= 1.0)) {  // also for NaN
+      ++stats_.rejected;
+      const double cut = safety * std::pow(error, -control_.inverse_order);
+      h_ = h * (std::isfinite(error) ? std::max(control_.largest_cut, cut) : control_.largest_cut);
+      if (h_ < smallest) return failure_status();
+      continue;
+    }
+    const Status status = ode_.check(trial_.data());
+    if (status != Status::ok) return status;
+
+    const double wanted = safety * std::pow(std::max(error, 1e-16), -control_.exponent) *
+                          std::pow(last_error_, control_.beta);
+    const double growth =
+        std::clamp(wanted, control_.largest_cut, rejected ? 1.0 : control_.largest_growth);
+    last_error_ = std::max(error, 1e-4);
+    h_ = h * growth;
+    t_before_ = t_;
+    h_before_ = h;
+    t_ = last ? stop_ : t_ + h;
+    y_before_.swap(y_);
+    y_.swap(trial_);
+    slope_before_.swap(slope_);
+    slope_.swap(new_slope_);
+    dense_ready_ = false;
+    ++stats_.steps;
+    return Status::ok;
+  }
+}
+
+void EmbeddedPair::interpolate(double t, VectorXd& y) {
+  if (!dense_ready_) prepare_interpolation(h_before_);
+  dense_ready_ = true;
+  interpolate_in_step((t - t_before_) / h_before_, y);
+}
+
+}  // namespace cdcr::detail

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "cdcr/integrator.hpp"
+
+namespace cdcr::detail {
+
+/// An explicit Runge-Kutta method with an error estimate, PI step control and dense output, after
+/// Hairer, Norsett, Wanner, "Solving Ordinary Differential Equations I", section II.4 to II.6.
+class EmbeddedPair : public Integrator {
+ public:
+  Status restart(double t, const VectorXd& y, double t_stop) final;
+  Status step() final;
+  void interpolate(double t, VectorXd& y) final;
+  [[nodiscard]] double time() const noexcept final { return t_; }
+  [[nodiscard]] const VectorXd& state() const noexcept final { return y_; }
+  [[nodiscard]] Stats stats() const noexcept final { return stats_; }
+
+ protected:
+  /// How steps follow the error: the constants of the reference codes.
+  struct Control {
+    double inverse_order;  // of the error over the step
+    double beta;           // of the error before, in the PI controller
+    double exponent;       // of this one
+    double largest_growth, largest_cut;
+  };
+  EmbeddedPair(RobotOde& ode, const Options& options, const Control& control);
+
+  /// All slopes of a step from y_ and slope_: trial_ and new_slope_, its own slope.
+  virtual void make_stages(double h) = 0;
+  /// Size of the error of that step over the tolerances.
+  [[nodiscard]] virtual double error_norm(double h) = 0;
+  /// What interpolate_in_step needs, once for the step from y_before_ to y_.
+  virtual void prepare_interpolation(double h) = 0;
+  /// State at a share of that step, 0 to 1.
+  virtual void interpolate_in_step(double share, VectorXd& y) const = 0;
+
+  void derivative(double t, const VectorXd& y, VectorXd& dydt);
+  [[nodiscard]] double tolerance(Index i) const;  // of coordinate i of the step
+
+  double t_ = 0.0, t_before_ = 0.0;
+  VectorXd y_, trial_, y_before_;
+  VectorXd slope_, new_slope_, slope_before_;
+
+ private:
+  [[nodiscard]] double first_step();
+  [[nodiscard]] Status failure_status() const;
+
+  RobotOde& ode_;
+  Options options_;
+  Control control_;
+  double stop_ = 0.0, h_ = 0.0;  // h_: the next step wanted
+  double h_before_ = 0.0;        // the last step made
+  double last_error_ = 1e-4;     // of the step before, for the PI controller
+  bool dense_ready_ = false;
+  Stats stats_;
+};
+
+}  // namespace cdcr::detail
