@@ -12,7 +12,16 @@ struct Setup {
   std::string token;  ///< of modelDescription.xml
   Robot robot;
   Method method = Method::dopri5;  ///< within a communication step
-  Options options;
+  Options options = tight();
+
+ private:
+  /// Each communication step begins anew, and what beginnings lose adds up.
+  static Options tight() {
+    Options options;
+    options.rtol = 1e-12;
+    options.atol = 1e-14;
+    return options;
+  }
 };
 
 /// Throws std::invalid_argument with a sentence that names the line it cannot read.

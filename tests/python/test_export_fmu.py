@@ -102,6 +102,44 @@ def test_runs_as_cdcr_does(tmp_path: Path, fmi: int) -> None:
     assert np.abs(theirs - ours).max() < SAME_RUN
 
 
+def test_cables_that_rub_and_are_driven_by_length(tmp_path: Path) -> None:
+    section = dataclasses.replace(
+        cdcr.robots.amouri2020(damping=0.01).sections[0],
+        length=0.5,
+        cable_stiffness=2e4,
+        cable_damping=20.0,
+        cable_friction=0.2,
+    )
+    robot = cdcr.Robot(
+        sections=[section], cables=[cdcr.Cable(radius=0.015, angle=0.4, end_section=0)]
+    )
+    command, file = [0.498, 0.5, 0.5, 1.0], tmp_path / "arm.fmu"
+    cdcr.export.write_fmu(robot, file)
+    outputs = ["q[1]", "q[2]", "qd[1]", "qd[2]"]
+    inputs = Fmu(robot, tmp_path)
+    start = dict(zip(input_names(inputs), command, strict=True))
+    found = fmpy.simulate_fmu(
+        str(file),
+        stop_time=1.0,
+        output_interval=0.02,
+        output=outputs,
+        start_values={**start, "q_start[1]": 0.2, "q_start[2]": 0.1},
+        use_event_mode=False,
+    )
+    run = cdcr.simulate(
+        cdcr.Model(robot),
+        [0.2, 0.1],
+        [0.0, 0.0],
+        t=np.linspace(0.0, 1.0, 51),
+        tension=command,
+        method="dopri5",
+        rtol=1e-12,
+        atol=1e-14,
+    )
+    theirs = np.array([found[name] for name in outputs]).T
+    assert np.abs(theirs - np.hstack([run.q, run.qd])).max() < SAME_RUN
+
+
 @BOTH
 def test_runge_kutta_is_that_of_the_simulator(tmp_path: Path, fmi: int) -> None:
     robot = upright()
