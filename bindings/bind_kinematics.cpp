@@ -29,10 +29,7 @@ py::tuple poses(const States<1>& states, F&& place) {
 }
 
 void check_place(const Model& model, Index section, double fraction) {
-  if (section < 0 || section >= model.num_sections()) {
-    throw py::value_error("section must be 0 to " + std::to_string(model.num_sections() - 1) +
-                          ", got " + std::to_string(section));
-  }
+  check_section(model, section);
   if (!(fraction >= 0.0 && fraction <= 1.0)) {
     std::ostringstream text;
     text << "fraction must be 0 to 1, got " << fraction;

@@ -1,4 +1,5 @@
 #include <pybind11/native_enum.h>
+#include <pybind11/stl.h>
 
 #include "arrays.hpp"
 #include "bind.hpp"
@@ -33,6 +34,20 @@ void bind_model(py::module_& m) {
       .def_property_readonly("num_sections", &Model::num_sections, "Number n of sections.")
       .def_property_readonly("num_coordinates", &Model::num_coordinates,
                              "Number d of coordinates q, two for each section.")
+      .def_property_readonly(
+          "coordinate_names",
+          [](const Model& self) { return py::tuple(py::cast(self.coordinate_names())); },
+          "Names of the coordinates in the order of q, sections from 1: q1_x, q1_y, q2_x, ...")
+      .def(
+          "section_slice",
+          [](const Model& self, Index section) {
+            check_section(self, section);
+            const py::int_ first(self.first_coordinate(section));
+            return py::slice(first, py::int_(self.first_coordinate(section + 1)), py::none());
+          },
+          "section"_a,
+          Doc("Where the coordinates of a section stand in q.", {docs::section},
+              "slice\n    Of the last axis of q, qd and what is like them.", docs::bad_argument))
       .def_property_readonly("num_cables", &Model::num_cables, "Number of all cables.")
       .def_property_readonly("has_inertia", &Model::has_inertia,
                              "Whether the robot has dynamics: every motion moves some mass.")

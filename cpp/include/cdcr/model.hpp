@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "cdcr/export.hpp"
@@ -33,6 +34,8 @@ class Model {
     assert(section >= 0 && section <= num_sections());
     return first_[section];
   }
+  /// Names of the coordinates, in the order of q: q1_x, q1_y, q2_x, ..., sections from 1.
+  [[nodiscard]] std::vector<std::string> coordinate_names() const;
   [[nodiscard]] Index num_cables() const noexcept { return actuation_.cols(); }
 
   /// Every cable, in the order of tensions (num_cables).

@@ -99,6 +99,16 @@ Model Model::with_gravity(const Vector3d& gravity) const {
   return model;
 }
 
+std::vector<std::string> Model::coordinate_names() const {
+  std::vector<std::string> names;
+  for (Index i = 1; i <= num_sections(); ++i) {
+    for (const char* component : detail::ConstantCurvature<double>::component_names) {
+      names.push_back("q" + std::to_string(i) + "_" + component);
+    }
+  }
+  return names;
+}
+
 void require_inertia(const Model& model) {
   if (model.has_inertia()) return;
   throw std::invalid_argument(
