@@ -108,6 +108,15 @@ void bind_robot(py::module_& m) {
       .def(
           "violations", [](const Robot& robot) { return violations(robot); },
           Doc("One sentence for each field out of its range.", {}, sentences))
+      .def(
+          "locate",
+          [](const Robot& robot, double s) {
+            const Place place = robot.locate(s);
+            return py::make_tuple(place.section, place.fraction);
+          },
+          "s"_a,
+          Doc("The place at an arc length from the base.", {"s : float\n    Arc length [m].\n"},
+              "section : int\nfraction : float", docs::bad_argument))
       .def("all_cables", &Robot::all_cables,
            Doc("Every cable, in the order of the commands.", {},
                "list of Cable\n    Those of the sections, then those of the robot."));

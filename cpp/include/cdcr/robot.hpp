@@ -66,6 +66,12 @@ struct Cable {
   [[nodiscard]] bool length_driven() const noexcept { return stiffness > 0.0; }
 };
 
+/// A place on the backbone.
+struct Place {
+  Index section = 0;
+  double fraction = 0.0;  ///< of the section's length, 0 to 1
+};
+
 /// Sections from base to tip, and what acts on all of them.
 ///
 /// The base frame is fixed, its origin at the base. The straight robot points along its Z, or along
@@ -83,6 +89,9 @@ struct Robot {
 
   /// Every cable: section by section those at cable_angles, then `cables`.
   [[nodiscard]] std::vector<Cable> all_cables() const;
+  /// The place at an arc length from the base [m]; at a border the end of the section before it.
+  /// Throws std::invalid_argument where it is not 0 to the length of the robot.
+  [[nodiscard]] Place locate(double arc_length) const;
 };
 
 /// One sentence for each field that is out of its range, empty when all is sound. A robot's

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from itertools import accumulate, chain
-from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,6 +14,7 @@ from cdcr import _core
 from cdcr.base.check import Check
 from cdcr.base.quantity import quantity
 from cdcr.robot.cable import Cable
+from cdcr.robot.filed import Filed
 from cdcr.robot.parts import Parts, part_counts, parts_of
 from cdcr.robot.section import Section
 from cdcr.robot.units import ask_about_robot
@@ -31,7 +31,7 @@ _ZERO: Vector = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Robot:
+class Robot(Filed):
     """A cable-driven continuum robot: its sections from base to tip, and what acts on all of them.
 
     Parameters
@@ -180,6 +180,40 @@ class Robot:
             for cable in self._to_core().all_cables()
         )
 
+    def locate(self, s: float) -> tuple[int, float]:
+        """Return the place at an arc length from the base, as section and fraction.
+
+        What takes a place takes both: ``model.pose(q, *robot.locate(0.3))``.
+
+        Parameters
+        ----------
+        s : float
+            Arc length along the backbone [m], 0 to ``robot.length``.
+
+        Returns
+        -------
+        section : int
+            Index of the section; where two meet, of the one that ends there.
+        fraction : float
+            Of its length, 0 to 1.
+
+        Raises
+        ------
+        ValueError
+            For what is no number, and no place on the robot.
+
+        Examples
+        --------
+        >>> import cdcr
+        >>> robot = cdcr.robots.amouri2020().subdivide(2)
+        >>> robot.locate(0.6015)
+        (1, 0.5)
+        """
+        check = Check()
+        arc_length = check.number("s", s, "a number in m")
+        check.done()
+        return self._to_core().locate(arc_length)
+
     def subdivide(self, parts: Parts) -> Robot:
         """Return the same robot with every section cut into equal constant-curvature parts.
 
@@ -214,77 +248,6 @@ class Robot:
         last = [end - 1 for end in accumulate(counts)]
         cables = [replace(cable, end_section=last[cable.end_section]) for cable in self.cables]
         return replace(self, sections=tuple(chain.from_iterable(cut)), cables=tuple(cables))
-
-    @classmethod
-    def load(cls, path: str | PathLike[str]) -> Robot:
-        """Read a robot from a TOML file, as `save` writes it.
-
-        Parameters
-        ----------
-        path : str or path
-            The file. A section gives its cables either as ``cable_angles`` [rad] or as
-            ``cable_angles_deg`` [deg].
-
-        Returns
-        -------
-        Robot
-
-        Raises
-        ------
-        FileNotFoundError
-            Where there is no such file.
-        ValueError
-            Naming file, key and what is allowed, for broken TOML, unknown or missing keys, wrong
-            types and values out of range.
-
-        Examples
-        --------
-        >>> import tempfile
-        >>> from pathlib import Path
-        >>> import cdcr
-        >>> robot = cdcr.robots.amouri2020()
-        >>> with tempfile.TemporaryDirectory() as folder:
-        ...     robot.save(Path(folder) / "robot.toml")
-        ...     again = cdcr.Robot.load(Path(folder) / "robot.toml")
-        >>> again == robot
-        True
-        """
-        from cdcr.robot.file import load_robot
-
-        return load_robot(cls, path)
-
-    def save(self, path: str | PathLike[str], *, overwrite: bool = False) -> None:
-        """Write the robot to a TOML file; `load` gives back an equal robot.
-
-        Parameters
-        ----------
-        path : str or path
-            The file; it appears whole or not at all.
-        overwrite : bool, default False
-            Whether a file of that name may be replaced.
-
-        Raises
-        ------
-        FileExistsError
-            Where there is such a file and `overwrite` is False.
-        FileNotFoundError
-            Where there is no such folder.
-
-        Examples
-        --------
-        >>> import tempfile
-        >>> from pathlib import Path
-        >>> import cdcr
-        >>> with tempfile.TemporaryDirectory() as folder:
-        ...     file = Path(folder) / "robot.toml"
-        ...     cdcr.robots.amouri2020().save(file)
-        ...     lines = file.read_text().splitlines()
-        >>> lines[4]
-        'gravity = [0.0, 0.0, 0.0]  # in the base frame [m/s^2]'
-        """
-        from cdcr.robot.file import save_robot
-
-        save_robot(self, path, overwrite=overwrite)
 
     def view(self, *, port: int = 8080, browser: bool = True) -> View:
         """Simulate the robot in the browser, live. Needs the extra ``view``.
