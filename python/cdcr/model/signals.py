@@ -46,7 +46,7 @@ _OUTPUTS = {
     "tip": Output(
         lambda model: [f"tip_{axis}" for axis in "xyz"],
         lambda model, q, qd: model.tip(q)[1],
-        lambda model, q: _of_shape(model.jacobian(q, model.num_sections - 1, 1.0)[:3]),
+        lambda model, q: _of_shape(model.tip_jacobian(q)[:3]),
     ),
     "lengths": Output(
         lambda model: [f"length{j + 1}" for j in range(model.num_cables)],

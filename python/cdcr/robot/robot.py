@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 Vector = tuple[float, float, float]
 Matrix = tuple[Vector, Vector, Vector]  # three rows
+Row = tuple[float, float, float, float]
+Transform = tuple[Row, Row, Row, Row]
 
 SCREEN = 1600  # characters
 
@@ -47,12 +49,18 @@ class Robot(Filed):
     base_orientation : (3, 3) array_like, default identity
         Rotation matrix of the first section in the base frame, in which gravity and all results
         are expressed. The straight robot points along its third column.
+    base_position : sequence of float, default (0, 0, 0)
+        Where the first section begins, in the base frame [m].
     payload_position : sequence of float, default (0, 0, 0)
         Centre of mass of the payload in the frame of the tip [m].
     payload_inertia : (3, 3) array_like, default zero
         Of the payload about its centre of mass, in the frame of the tip [kg m^2].
     sliding_speed : float, default 1e-3
         Speed at which a cable counts as sliding, for friction [m/s], > 0.
+    tool : (4, 4) array_like, default identity
+        A frame without mass that the tip carries, in the frame at the end of the last section: its
+        rotation matrix, beside it its position [m], and 0, 0, 0, 1 below. It is what
+        ``Model.tip``, its Jacobian and ``Model.inverse_kinematics`` speak of.
 
     Raises
     ------
@@ -98,6 +106,15 @@ class Robot(Filed):
         default=((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
         advanced=True,
     )
+    base_position: Vector = quantity(
+        "where the first section begins",
+        "m",
+        "three numbers in m",
+        kind="vector",
+        each="a number in m",
+        default=_ZERO,
+        advanced=True,
+    )
     payload_position: Vector = quantity(
         "centre of mass, in the tip frame",
         "m",
@@ -118,6 +135,19 @@ class Robot(Filed):
     sliding_speed: float = quantity(
         "of a cable, for friction", "m/s", "> 0", default=1e-3, advanced=True
     )
+    tool: Transform = quantity(
+        "frame of the tool in that of the tip, by rows",
+        "",
+        "four rows of four numbers",
+        kind="transform",
+        default=(
+            (1.0, 0.0, 0.0, 0.0),
+            (0.0, 1.0, 0.0, 0.0),
+            (0.0, 0.0, 1.0, 0.0),
+            (0.0, 0.0, 0.0, 1.0),
+        ),
+        advanced=True,
+    )
 
     if TYPE_CHECKING:  # any sequence goes in, a tuple comes out
 
@@ -129,9 +159,11 @@ class Robot(Filed):
             payload: float = ...,
             cables: Sequence[Cable] = ...,
             base_orientation: ArrayLike = ...,
+            base_position: Sequence[float] | NDArray[np.floating[Any]] = ...,
             payload_position: Sequence[float] | NDArray[np.floating[Any]] = ...,
             payload_inertia: ArrayLike = ...,
             sliding_speed: float = ...,
+            tool: ArrayLike = ...,
         ) -> None: ...
 
     def __post_init__(self) -> None:
