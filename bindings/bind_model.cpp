@@ -1,9 +1,10 @@
 #include <pybind11/native_enum.h>
 #include <pybind11/stl.h>
 
-#include "arrays.hpp"
 #include "bind.hpp"
+#include "cdcr/cables.hpp"
 #include "docs.hpp"
+#include "states.hpp"
 
 namespace cdcr::python {
 
@@ -54,9 +55,19 @@ void bind_model(py::module_& m) {
       .def_property_readonly("has_friction", &Model::has_friction,
                              "Whether a cable rubs in its holes.")
       .def(
-          "actuation_matrix", [](const Model& self) { return to_rows(self.actuation_matrix()); },
-          Doc("Matrix B of Q = B F, tensions to generalised force: cpp/README.md eq. (6).", {},
-              "(d, num_cables) array\n    A copy [m]; the same for all shapes."));
+          "actuation_matrix",
+          [](const Model& self, const py::object& q) {
+            if (q.is_none()) return to_rows(self.actuation_matrix());
+            return States{read_bendings(self, q)}.matrices(
+                self.num_coordinates(), self.num_cables(),
+                [&](auto& x, auto& B) { actuation_matrix(self, x, B); });
+          },
+          "q"_a = py::none(),
+          Doc("Matrix B of Q = B F, tensions to generalised force: cpp/README.md eq. (6).",
+              {"q : (..., d) array_like, optional\n"
+               "    Bending vectors [rad], on which B does not depend where all sections are of\n"
+               "    constant curvature.\n"},
+              "(..., d, num_cables) array\n    A copy [m].", docs::bad_states));
   bind_cables(model);
   bind_kinematics(model);
   bind_dynamics(model);

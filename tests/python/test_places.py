@@ -219,3 +219,19 @@ def test_there_is_no_place_beyond_the_robot(s: float) -> None:
 def test_an_arc_length_is_a_number() -> None:
     said = ["s must be a number in m, got 'tip' (str)"]
     assert refusal(lambda s: cdcr.robots.amouri2020().locate(s), s="tip") == said
+
+
+# --- The actuation matrix at a shape --------------------------------------------------------------
+
+
+def test_the_actuation_matrix_takes_arrays_of_states() -> None:
+    model = cdcr.Model(robot())
+    states = np.stack([Q, 0.5 * Q, 0.0 * Q])[:, None]
+    B = model.actuation_matrix(states)
+    assert B.shape == (3, 1, 6, model.num_cables)
+    np.testing.assert_array_equal(B[1, 0], model.actuation_matrix())
+    for k, change in enumerate(STEP * np.eye(6)):
+        ahead, behind = model.cable_lengths(Q + change), model.cable_lengths(Q - change)
+        np.testing.assert_allclose(B[0, 0, k], (behind - ahead) / (2 * STEP), atol=DIFFERENCES)
+    with pytest.raises(ValueError, match=r"^q must have shape"):
+        model.actuation_matrix([0.0])
