@@ -47,8 +47,9 @@ void bind_model(py::module_& m) {
             return py::slice(first, py::int_(self.first_coordinate(section + 1)), py::none());
           },
           "section"_a,
-          Doc("Where the coordinates of a section stand in q.", {docs::section},
-              "slice\n    Of the last axis of q, qd and what is like them.", docs::bad_argument))
+          Doc("Where the coordinates of a section, cpp/README.md eq. (1), stand in q.",
+              {docs::section}, "slice\n    Of the last axis of q, qd and what is like them.",
+              docs::bad_argument))
       .def_property_readonly("num_cables", &Model::num_cables, "Number of all cables.")
       .def_property_readonly("has_inertia", &Model::has_inertia,
                              "Whether the robot has dynamics: every motion moves some mass.")
