@@ -9,8 +9,8 @@ namespace cdcr {
 namespace {
 
 /// Columns of the Jacobian of a point that the last of the arcs carries, p from the base, eq. (5).
-void jacobian_of(const Model& model, const detail::Arcs<double>& arcs, const Vector3d& p,
-                 MatrixRef J) noexcept {
+inline void jacobian_of(const Model& model, const detail::Arcs<double>& arcs, const Vector3d& p,
+                        MatrixRef& J) noexcept {
   J.setZero();
   for (Index i = 0; i <= arcs.last; ++i) {
     const auto& arc = arcs.arcs[i];
@@ -34,10 +34,13 @@ Pose pose(const Model& model, const ConstVectorRef& q, Index section, double fra
 }
 
 Pose tip(const Model& model, const ConstVectorRef& q) noexcept {
-  const Pose end = pose(model, q, model.num_sections() - 1, 1.0);
-  if (!model.has_tool()) return end;
-  const Transform& tool = model.robot().tool;
-  return {end.R * tool.topLeftCorner<3, 3>(), end.p + end.R * tool.topRightCorner<3, 1>()};
+  Pose at = pose(model, q, model.num_sections() - 1, 1.0);
+  if (model.has_tool()) {
+    const Transform& tool = model.robot().tool;
+    at.p += at.R * tool.topRightCorner<3, 1>();
+    at.R *= tool.topLeftCorner<3, 3>();
+  }
+  return at;
 }
 
 void jacobian(const Model& model, const ConstVectorRef& q, Index section, double fraction,
