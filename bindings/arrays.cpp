@@ -207,6 +207,12 @@ VectorArgument read_command(const py::handle& object, const char* name, Index si
   return VectorArgument(std::move(command));
 }
 
+void check_section(const Model& model, Index section) {
+  if (section >= 0 && section < model.num_sections()) return;
+  throw py::value_error("section must be 0 to " + std::to_string(model.num_sections() - 1) +
+                        ", got " + std::to_string(section));
+}
+
 const Model& read_model(const py::handle& object) {
   if (py::isinstance<Model>(object)) return object.cast<const Model&>();
   throw py::type_error("model must be a cdcr.Model, got " +

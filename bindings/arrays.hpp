@@ -66,6 +66,9 @@ struct StateArgument {
 /// What a user's function gives as commands (size): also refuses a negative one.
 [[nodiscard]] VectorArgument read_command(const py::handle& object, const char* name, Index size);
 
+/// Raises ValueError where a model has no section of that index.
+void check_section(const Model& model, Index section);
+
 /// A model, or TypeError.
 [[nodiscard]] const Model& read_model(const py::handle& object);
 

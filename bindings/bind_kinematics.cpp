@@ -29,10 +29,7 @@ py::tuple poses(const States<1>& states, F&& place) {
 }
 
 void check_place(const Model& model, Index section, double fraction) {
-  if (section < 0 || section >= model.num_sections()) {
-    throw py::value_error("section must be 0 to " + std::to_string(model.num_sections() - 1) +
-                          ", got " + std::to_string(section));
-  }
+  check_section(model, section);
   if (!(fraction >= 0.0 && fraction <= 1.0)) {
     std::ostringstream text;
     text << "fraction must be 0 to 1, got " << fraction;
@@ -103,8 +100,8 @@ void bind_kinematics(PyModel& model) {
             return poses(States{read_bendings(self, q)}, [&](auto& x) { return tip(self, x); });
           },
           "q"_a,
-          Doc("Frame at the end of the last section, in the base frame: cpp/README.md eqs. (2), "
-              "(3).",
+          Doc("Frame of the robot's tool in the base frame, of the end of the last section where\n"
+              "there is none: cpp/several-sections.md eq. (49).",
               {docs::q}, frame, docs::bad_states))
       .def(
           "tips",
@@ -128,6 +125,19 @@ void bind_kinematics(PyModel& model) {
           Doc("Geometric Jacobian of a frame of the backbone, in the base frame: cpp/README.md\n"
               "eqs. (4), (5).",
               {docs::q, docs::section, docs::fraction},
+              "(..., 6, d) array\n"
+              "    Rows of the linear velocity [m/rad], then of the angular velocity [rad/rad].",
+              docs::bad_states))
+      .def(
+          "tip_jacobian",
+          [](const Model& self, const py::object& q) {
+            return States{read_bendings(self, q)}.matrices(
+                6, self.num_coordinates(), [&](auto& x, auto& J) { tip_jacobian(self, x, J); });
+          },
+          "q"_a,
+          Doc("Geometric Jacobian of the frame that `tip` gives, in the base frame:\n"
+              "cpp/several-sections.md eq. (50).",
+              {docs::q},
               "(..., 6, d) array\n"
               "    Rows of the linear velocity [m/rad], then of the angular velocity [rad/rad].",
               docs::bad_states));

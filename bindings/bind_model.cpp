@@ -1,8 +1,10 @@
 #include <pybind11/native_enum.h>
+#include <pybind11/stl.h>
 
-#include "arrays.hpp"
 #include "bind.hpp"
+#include "cdcr/cables.hpp"
 #include "docs.hpp"
+#include "states.hpp"
 
 namespace cdcr::python {
 
@@ -33,15 +35,40 @@ void bind_model(py::module_& m) {
       .def_property_readonly("num_sections", &Model::num_sections, "Number n of sections.")
       .def_property_readonly("num_coordinates", &Model::num_coordinates,
                              "Number d of coordinates q, two for each section.")
+      .def_property_readonly(
+          "coordinate_names",
+          [](const Model& self) { return py::tuple(py::cast(self.coordinate_names())); },
+          "Names of the coordinates in the order of q, sections from 1: q1_x, q1_y, q2_x, ...")
+      .def(
+          "section_slice",
+          [](const Model& self, Index section) {
+            check_section(self, section);
+            const py::int_ first(self.first_coordinate(section));
+            return py::slice(first, py::int_(self.first_coordinate(section + 1)), py::none());
+          },
+          "section"_a,
+          Doc("Where the coordinates of a section, cpp/README.md eq. (1), stand in q.",
+              {docs::section}, "slice\n    Of the last axis of q, qd and what is like them.",
+              docs::bad_argument))
       .def_property_readonly("num_cables", &Model::num_cables, "Number of all cables.")
       .def_property_readonly("has_inertia", &Model::has_inertia,
                              "Whether the robot has dynamics: every motion moves some mass.")
       .def_property_readonly("has_friction", &Model::has_friction,
                              "Whether a cable rubs in its holes.")
       .def(
-          "actuation_matrix", [](const Model& self) { return to_rows(self.actuation_matrix()); },
-          Doc("Matrix B of Q = B F, tensions to generalised force: cpp/README.md eq. (6).", {},
-              "(d, num_cables) array\n    A copy [m]; the same for all shapes."));
+          "actuation_matrix",
+          [](const Model& self, const py::object& q) {
+            if (q.is_none()) return to_rows(self.actuation_matrix());
+            return States{read_bendings(self, q)}.matrices(
+                self.num_coordinates(), self.num_cables(),
+                [&](auto& x, auto& B) { actuation_matrix(self, x, B); });
+          },
+          "q"_a = py::none(),
+          Doc("Matrix B of Q = B F, tensions to generalised force: cpp/README.md eq. (6).",
+              {"q : (..., d) array_like, optional\n"
+               "    Bending vectors [rad], on which B does not depend where all sections are of\n"
+               "    constant curvature.\n"},
+              "(..., d, num_cables) array\n    A copy [m].", docs::bad_states));
   bind_cables(model);
   bind_kinematics(model);
   bind_dynamics(model);

@@ -97,17 +97,28 @@ void bind_robot(py::module_& m) {
   py::class_<Robot>(m, "Robot", "A robot as the core takes it, unchecked; see cdcr.Robot.")
       .def(py::init([](std::vector<Section> sections, const Vector3d& gravity, double payload,
                        std::vector<Cable> cables, const Matrix3d& base_orientation,
-                       const Vector3d& payload_position, const Matrix3d& payload_inertia,
-                       double sliding_speed) {
-             return Robot{std::move(sections), gravity,          payload,         std::move(cables),
-                          base_orientation,    payload_position, payload_inertia, sliding_speed};
+                       const Vector3d& base_position, const Vector3d& payload_position,
+                       const Matrix3d& payload_inertia, double sliding_speed,
+                       const Transform& tool) {
+             return Robot{std::move(sections), gravity,       payload,          std::move(cables),
+                          base_orientation,    base_position, payload_position, payload_inertia,
+                          sliding_speed,       tool};
            }),
            py::kw_only(), "sections"_a, "gravity"_a, "payload"_a, "cables"_a, "base_orientation"_a,
-           "payload_position"_a, "payload_inertia"_a, "sliding_speed"_a,
-           Doc("Take the fields.", {fields_of_robot}))
+           "base_position"_a, "payload_position"_a, "payload_inertia"_a, "sliding_speed"_a,
+           "tool"_a, Doc("Take the fields.", {fields_of_robot}))
       .def(
           "violations", [](const Robot& robot) { return violations(robot); },
           Doc("One sentence for each field out of its range.", {}, sentences))
+      .def(
+          "locate",
+          [](const Robot& robot, double s) {
+            const Place place = robot.locate(s);
+            return py::make_tuple(place.section, place.fraction);
+          },
+          "s"_a,
+          Doc("The place at an arc length from the base.", {"s : float\n    Arc length [m].\n"},
+              "section : int\nfraction : float", docs::bad_argument))
       .def("all_cables", &Robot::all_cables,
            Doc("Every cable, in the order of the commands.", {},
                "list of Cable\n    Those of the sections, then those of the robot."));

@@ -198,7 +198,7 @@ MatrixXd Instance::partials() {
   of(Kind::acceleration) << A.bottomRows(d), B.bottomRows(d);
 
   MatrixXd J(6, d);
-  jacobian(model_, q, model_.num_sections() - 1, 1.0, J);
+  tip_jacobian(model_, q, J);
   of(Kind::tip_position).leftCols(d) = J.topRows(3);
   const Matrix3d R = tip(model_, q).R;
   for (Index k = 0; k < d; ++k) {  // dR = omega x R, by rows

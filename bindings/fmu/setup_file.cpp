@@ -39,14 +39,15 @@ void put(const Values& values, Vector3d& item) {
   need(values, 3);
   item = Eigen::Map<const Vector3d>(values.data());
 }
-void put(const Values& values, Matrix3d& item) {  // by rows
-  need(values, 9);
-  item = Eigen::Map<const Matrix3d>(values.data()).transpose();
+template <int n, int options>
+void put(const Values& values, Eigen::Matrix<double, n, n, options>& item) {  // by rows
+  need(values, n * n);
+  item = Eigen::Map<const Eigen::Matrix<double, n, n>>(values.data()).transpose();
 }
 
 template <typename T>
 using Member = std::variant<double T::*, int T::*, std::optional<double> T::*,
-                            std::vector<double> T::*, Vector3d T::*, Matrix3d T::*>;
+                            std::vector<double> T::*, Vector3d T::*, Matrix3d T::*, Transform T::*>;
 template <typename T>
 using Fields = std::map<std::string, Member<T>>;
 
@@ -86,9 +87,11 @@ const Fields<Robot>& robot_fields() {
       {"gravity", &Robot::gravity},
       {"payload", &Robot::payload},
       {"base_orientation", &Robot::base_orientation},
+      {"base_position", &Robot::base_position},
       {"payload_position", &Robot::payload_position},
       {"payload_inertia", &Robot::payload_inertia},
       {"sliding_speed", &Robot::sliding_speed},
+      {"tool", &Robot::tool},
   };
   return fields;
 }

@@ -71,11 +71,14 @@ class Robot(metaclass=_Bound):
         payload: float,
         cables: Sequence[Cable],
         base_orientation: ArrayLike,
+        base_position: ArrayLike,
         payload_position: ArrayLike,
         payload_inertia: ArrayLike,
         sliding_speed: float,
+        tool: ArrayLike,
     ) -> None: ...
     def violations(self) -> list[str]: ...
+    def locate(self, s: float) -> tuple[int, float]: ...
     def all_cables(self) -> list[Cable]: ...
 
 @final

@@ -131,6 +131,8 @@ TEST_CASE("debug builds assert sizes and indices of cables, places and wrenches"
   CHECK(stops([&] { (void)pose(m, a.q, 0, 1.5); }));
   CHECK(stops([&] { (void)tip(m, a.short_q); }));
   CHECK(stops([&] { jacobian(m, a.q, 0, 0.5, a.small); }));
+  CHECK(stops([&] { tip_jacobian(m, a.q, a.small); }));
+  CHECK(stops([&] { actuation_matrix(m, a.q, a.small); }));
   for (const Wrenches& wrong : {a.beyond, a.before, a.outside}) {
     CHECK(stops([&] { add_wrench_force(m, a.q, wrong, a.out); }));
     CHECK(stops([&] { total_force(m, a.q, a.qd, a.F, wrong, a.out); }));

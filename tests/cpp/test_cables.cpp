@@ -7,6 +7,7 @@
 #include "cdcr/dynamics.hpp"
 #include "cdcr/linearization.hpp"
 #include "support/cable_robots.hpp"
+#include "support/differences.hpp"
 #include "support/residual.hpp"
 #include "support/tolerances.hpp"
 
@@ -94,6 +95,24 @@ TEST_CASE("without friction the cables' power is minus tension times rate of len
     const double power = cable_force_of(model, q, qd, command).dot(qd);
     CHECK(residual(power, -tension.dot(rate), scale) <= tolerance::rounding);
   });
+}
+
+TEST_CASE("the actuation matrix is minus the slope of the lengths") {
+  for_each_robot(
+      false, [&](const Model& model, const VectorXd& q, const VectorXd&, const VectorXd&) {
+        MatrixXd B(q.size(), model.num_cables());
+        actuation_matrix(model, q, B);
+        for (Index k = 0; k < q.size(); ++k) {
+          const VectorXd slope = difference(
+              [&](double s) {
+                VectorXd moved = q;
+                moved[k] += s;
+                return VectorXd(lengths_of(model, moved));
+              },
+              0.02);
+          CHECK(residual(B.row(k).transpose(), -slope, 1.0) <= tolerance::recursion_differences);
+        }
+      });
 }
 
 TEST_CASE("springs at rest pull down the slope of their energy") {

@@ -31,6 +31,8 @@ Robot everything() {
   robot.gravity = {1.0, 0.0, 9.81};
   robot.payload = 0.02;
   robot.payload_position = {0.0, 0.01, 0.02};
+  robot.base_position = {0.5, 0.0, 1.0};
+  robot.tool(2, 3) = 0.05;
   for (Section& section : robot.sections) section.cable_friction = 0.3;
   robot.cables.push_back({0.015, 0.3, 2, 2e3, 1.0, 0.1});
   robot.cables.push_back({0.015, 3.4, 1, 5e3, 2.0, std::nullopt});
@@ -105,6 +107,9 @@ TEST_CASE("cables, wrenches and kinematics of three sections allocate nothing") 
     CHECK(allocations_of([&] { cable_lengths(model, q, each); }) == 0);
     CHECK(allocations_of([&] { sink = tip(model, q).p[0]; }) == 0);
     CHECK(allocations_of([&] { jacobian(model, q, 2, 0.7, J); }) == 0);
+    CHECK(allocations_of([&] { tip_jacobian(model, q, J); }) == 0);
+    MatrixXd B(6, model.num_cables());
+    CHECK(allocations_of([&] { actuation_matrix(model, q, B); }) == 0);
   });
 }
 

@@ -211,6 +211,24 @@ TEST_CASE("base orientation") {
   CHECK(violations(robot).empty());
 }
 
+TEST_CASE("base position and tool") {
+  check_robot([](Robot& r) { r.base_position[1] = inf; },
+              "base_position[1] must be a finite number of m, got inf");
+  check_robot([](Robot& r) { r.tool(0, 3) = nan; }, "tool[0][3] must be a finite number, got nan");
+  const std::string sentence =
+      "tool must be a frame: a right-handed rotation matrix, to 1e-5, with a position beside it "
+      "and 0, 0, 0, 1 below, got ";
+  check_robot([](Robot& r) { r.tool(2, 2) = -1.0; },
+              sentence + "[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, -1, 0], [0, 0, 0, 1]]");
+  check_robot([](Robot& r) { r.tool(3, 2) = 0.5; },
+              sentence + "[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0.5, 1]]");
+  Robot robot = amouri2020();
+  robot.tool(2, 2) += 4e-6;
+  CHECK(violations(robot).empty());
+  const Matrix3d R = Model(robot).robot().tool.topLeftCorner<3, 3>();
+  CHECK((R.transpose() * R - Matrix3d::Identity()).norm() <= 1e-15);
+}
+
 TEST_CASE("payload with a body") {
   const auto check = [](const Vector3d& position, const Matrix3d& inertia,
                         const std::string& sentence) {

@@ -110,6 +110,8 @@ Robot Input::robot() {
   }
   if ((parts & 16) != 0) robot.base_orientation = vector(9, 1.0).reshaped(3, 3);
   if ((parts & 32) != 0) robot.sliding_speed = positive(1e-3);
+  if ((parts & 64) != 0) robot.base_position = vector3(1.0);
+  if ((parts & 128) != 0) robot.tool.topRightCorner<3, 1>() = vector3(0.1);
   return robot;
 }
 

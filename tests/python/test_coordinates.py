@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import cdcr
+from cdcr.model.signals import state_names
+from cdcr.runs.export import columns_of
 
 # One multiplication and one sine or hypotenuse.
 ROUNDING = 4e-16
@@ -29,6 +31,29 @@ def test_round_trip_of_a_batch_of_sections() -> None:
     found_theta, found_phi = cdcr.polar(q)
     np.testing.assert_allclose(found_theta, theta, rtol=2 * ROUNDING)
     np.testing.assert_allclose(found_phi, phi, rtol=0.0, atol=2 * ROUNDING * np.pi)
+
+
+def test_coordinates_are_named_as_in_files_and_systems() -> None:
+    model = cdcr.Model(cdcr.robots.three_sections())
+    names = model.coordinate_names
+    assert names == ("q1_x", "q1_y", "q2_x", "q2_y", "q3_x", "q3_y")
+    rates = tuple(f"qd{name[1:]}" for name in names)
+    assert columns_of(model, "q") == [f"{name} [rad]" for name in names]
+    assert columns_of(model, "qd") == [f"{name} [rad/s]" for name in rates]
+    assert tuple(state_names(model)) == names + rates
+
+
+def test_the_slice_of_a_section_holds_what_bends_it_alone() -> None:
+    model = cdcr.Model(cdcr.robots.three_sections())
+    for i in range(3):
+        q = np.zeros(6)
+        q[model.section_slice(i)] = 0.3, -0.2
+        theta, _ = cdcr.polar(q)
+        assert np.flatnonzero(theta).tolist() == [i]
+        assert len(model.coordinate_names[model.section_slice(i)]) == 2
+    for wrong in (-1, 3):
+        with pytest.raises(ValueError, match=f"^section must be 0 to 2, got {wrong}$"):
+            model.section_slice(wrong)
 
 
 def test_the_last_axis_counts_sections() -> None:

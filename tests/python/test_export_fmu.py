@@ -39,6 +39,8 @@ def by_length() -> cdcr.Robot:
         cables=[free],
         gravity=(0.0, 0.0, -3.0),
         base_orientation=turn,
+        base_position=(0.1, -0.2, 0.3),
+        tool=((0, 0, 1, 0.02), (1, 0, 0, 0), (0, 1, 0, 0.05), (0, 0, 0, 1)),
         payload=0.01,
         payload_position=(0.0, 0.01, 0.02),
         payload_inertia=np.diag([1e-5, 1e-5, 2e-5]),

@@ -89,6 +89,8 @@ def sideways() -> tuple[cdcr.Robot, list[float]]:
     robot = dataclasses.replace(
         robot,
         base_orientation=((0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
+        base_position=(0.1, -0.2, 0.3),
+        tool=((0, 0, 1, 0.02), (1, 0, 0, 0), (0, 1, 0, 0.05), (0, 0, 0, 1)),
         payload_position=(0.03, 0.02, 0.05),
         payload_inertia=((2e-5, 1e-6, 0.0), (1e-6, 3e-5, 0.0), (0.0, 0.0, 2e-5)),
         cables=(cdcr.Cable(radius=0.01, angle=1.0, end_section=0),),
@@ -204,6 +206,7 @@ def test_links_have_the_mass_of_the_robot(case: Case) -> None:
         straight = np.zeros(2 * len(robot.sections))
         weight = [cdcr.Model(robot).with_gravity(-e).potential_energy(straight) for e in np.eye(3)]
         turned = np.array(robot.base_orientation) @ moment
+        turned += robot.mass * np.array(robot.base_position)
         assert turned == pytest.approx(weight, abs=1e-12)
 
 

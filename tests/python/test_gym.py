@@ -134,6 +134,17 @@ def test_steps_are_those_of_a_run() -> None:
         np.testing.assert_allclose(observation[15:], away, rtol=0.0, atol=FLOAT32)
 
 
+def test_a_robot_elsewhere_is_seen_as_at_the_origin() -> None:
+    tool = ((1.0, 0.0, 0.0, 0.2), (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.3), (0.0, 0.0, 0.0, 1.0))
+    arm = replace(cdcr.robots.amouri2020(damping=0.01), tool=tool)
+    here, there = (RobotEnv(robot=one) for one in (arm, replace(arm, base_position=(0, 0, 9.0))))
+    (seen, _), (same, _) = here.reset(seed=3), there.reset(seed=3)
+    np.testing.assert_allclose(same, seen, rtol=0.0, atol=FLOAT32)
+    tip = here.model.tip(here.q)[1] / arm.length
+    np.testing.assert_allclose(seen[4:7], tip, rtol=0.0, atol=FLOAT32)  # nothing is cut off
+    assert here.observation_space.contains(seen)
+
+
 @pytest.mark.parametrize(
     ("action", "ends"), [("tension", [0.0, 6.0, 12.0]), ("length", [0.01, 0.0, -0.01])]
 )

@@ -60,6 +60,7 @@ def rotation(quaternion: tuple[int, int, int, int]) -> NDArray[np.float64]:
 
 
 whole = st.integers(-9, 9)
+at = st.tuples(finite, finite, finite)
 rotations = st.tuples(whole, whole, whole, whole).filter(any).map(rotation)
 
 
@@ -82,14 +83,16 @@ def robots(draw: st.DrawFn) -> cdcr.Robot:
         inertia = turn @ np.diag([y + z, z + x, x + y]) @ turn.T
         body = {
             "payload": draw(positive),
-            "payload_position": draw(st.tuples(finite, finite, finite)),
+            "payload_position": draw(at),
             "payload_inertia": inertia,
         }
     return cdcr.Robot(
         sections=several,
-        gravity=draw(st.tuples(finite, finite, finite)),
+        gravity=draw(at),
         cables=draw(st.lists(cable, max_size=3)),
         base_orientation=draw(rotations),
+        base_position=draw(at),
+        tool=np.vstack([np.column_stack([draw(rotations), draw(at)]), [0.0, 0.0, 0.0, 1.0]]),
         sliding_speed=draw(positive),
         **body,
     )
@@ -120,6 +123,8 @@ FULL = cdcr.Robot(
     payload_position=[0, 0, 0.02],
     payload_inertia=[[2e-5, 0, 0], [0, 2e-5, 0], [0, 0, 3e-5]],
     sliding_speed=2e-3,
+    base_position=[0.1, 0, 1],
+    tool=np.array([[0, 0, 1, 0], [1, 0, 0, 0], [0, 1, 0, 0.05], [0, 0, 0, 1]]),
 )
 
 

@@ -126,6 +126,11 @@ def test_sections_are_missed(tmp_path: Path) -> None:
         ),
         (
             "payload = 0.1",
+            "tool = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1]]",
+            "tool must be an array of 4 rows of 4 numbers, got [0, 0, 1] (array) at tool[2]",
+        ),
+        (
+            "payload = 0.1",
             "payload_inertia = [1, 1, 1]",
             "payload_inertia must be an array of 3 rows of 3 numbers [kg m^2], got 1 (integer) "
             "at payload_inertia[0]",

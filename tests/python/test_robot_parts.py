@@ -242,6 +242,24 @@ def test_the_base_turns_the_whole_robot() -> None:
             "payload_inertia must be zero where the payload is zero, "
             "got [[1, 0, 0], [0, 1, 0], [0, 0, 1]]",
         ),
+        (
+            {"base_position": [0, 0]},
+            "base_position must be three numbers in m, got [0, 0] (list)",
+        ),
+        (
+            {"tool": 0.1},
+            "tool must be four rows of four numbers, got 0.1 (float)",
+        ),
+        (
+            {"tool": np.eye(3)[:1]},
+            "tool[0] must be four numbers, got array([1., 0., 0.]) (ndarray)",
+        ),
+        (
+            {"tool": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 2]]},
+            "tool must be a frame: a right-handed rotation matrix, to 1e-5, with a position "
+            "beside it and 0, 0, 0, 1 below, "
+            "got [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 2]]",
+        ),
         ({"cables": [1]}, "cable 1 of cables must be a cdcr.Cable, got 1 (int)"),
         ({"cables": None}, "cables must be a sequence of 0 to 64 cdcr.Cable, got None (NoneType)"),
     ],

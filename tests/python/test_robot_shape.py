@@ -73,6 +73,32 @@ def test_a_tilted_base_tilts_the_picture() -> None:
     assert plot_robot(tilted, Q, tension=[1.0, 0.0, 2.0, 0.0]).lines
 
 
+def test_base_and_tool_stand_in_the_picture_where_they_are() -> None:
+    upright, base = cdcr.Model(ROBOT), (0.3, -0.2, 0.5)
+    tool = (
+        (1.0, 0.0, 0.0, 0.01),
+        (0.0, 1.0, 0.0, 0.0),
+        (0.0, 0.0, 1.0, 0.04),
+        (0.0, 0.0, 0.0, 1.0),
+    )
+    other = cdcr.Model(dataclasses.replace(ROBOT, base_position=base, tool=tool))
+    shape = robot_shape(other, Q)
+    (line,) = shape.tool
+    np.testing.assert_allclose(line[1], other.tip(Q)[1], rtol=0.0, atol=ROUNDING)
+    np.testing.assert_array_equal(line[0], shape.backbone[-1])
+    expected = robot_shape(upright, Q).points + base
+    np.testing.assert_allclose(shape.points[:-2], expected, rtol=0.0, atol=ROUNDING)
+    moved = base_plate(upright) + base
+    np.testing.assert_allclose(base_plate(other), moved, rtol=0.0, atol=ROUNDING)
+    axes = plot_robot(other, Q)
+    assert len(axes.lines) == len(plot_robot(upright, Q).lines) + 1
+    limits = [axes.get_xlim(), axes.get_ylim(), axes.get_zlim()]
+    assert all(
+        low - ROUNDING <= x <= high + ROUNDING
+        for (low, high), x in zip(limits, line[1], strict=True)
+    )
+
+
 @pytest.mark.parametrize("parts", [2, [3, 1]])
 def test_a_subdivided_robot_has_the_same_picture(parts: int | list[int]) -> None:
     whole = cdcr.Model(ROBOT)

@@ -39,9 +39,11 @@ def test_table_1() -> None:
         "payload": 0.0,
         "cables": (),
         "base_orientation": ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
+        "base_position": (0.0, 0.0, 0.0),
         "payload_position": (0.0, 0.0, 0.0),
         "payload_inertia": ((0.0, 0.0, 0.0),) * 3,
         "sliding_speed": 1e-3,
+        "tool": tuple(tuple(row) for row in np.eye(4).tolist()),
     }
 
 

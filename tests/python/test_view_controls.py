@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -58,6 +59,21 @@ def desk(run: cdcr.Trajectory) -> Iterator[Desk]:
     desk = Desk(Session(ROBOT, run=run, reference=run))
     yield desk
     close_server(desk.server)
+
+
+def test_a_tool_is_drawn_and_moves() -> None:
+    tool = ((1.0, 0.0, 0.0, 0.05), (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+    desk = Desk(Session(replace(ROBOT, tool=tool, base_position=(1.0, 0.0, 0.0))))
+    try:
+        desk.session.advance(0.1)
+        desk.move(desk.panel.cables[0], 3.0)
+        desk.session.advance(0.2)
+        desk.look()
+        model, q = desk.session.model, desk.session.moment().q
+        expected = [[model.pose(q, 2, 1.0)[1], model.tip(q)[1]]]
+        np.testing.assert_allclose(desk.drawing.tool.points, expected, rtol=0.0, atol=1e-6)
+    finally:
+        close_server(desk.server)
 
 
 def test_a_slider_leaves_the_run_where_it_is(desk: Desk, run: cdcr.Trajectory) -> None:

@@ -69,6 +69,26 @@ def test_everything_stands_where_the_model_has_it() -> None:
     np.testing.assert_allclose(ends[-1], at.tip, atol=1e-4 * ROBOT.length)
 
 
+def test_base_and_tool_stand_where_they_are() -> None:
+    base = (0.4, -0.1, 1.2)
+    tool = (
+        (0.0, 0.0, 1.0, 0.05),
+        (1.0, 0.0, 0.0, 0.0),
+        (0.0, 1.0, 0.0, 0.02),
+        (0.0, 0.0, 0.0, 1.0),
+    )
+    live = LiveModel(replace(ROBOT, base_position=base, tool=tool))
+    at, before = place(live, Q), place(LiveModel(ROBOT), Q)
+    R, p = live.tip(Q)
+    np.testing.assert_array_equal(at.tip, p)
+    np.testing.assert_array_equal(at.frames.position[[0, -1]], [base, p])
+    np.testing.assert_allclose(turned(at.frames.wxyz[-1], np.eye(3)[2]), R[:, 2], atol=1e-12)
+    np.testing.assert_array_equal(at.tool, [[live.pose(Q, 2, 1.0)[1], p]])
+    moved = at.backbone.position - before.backbone.position
+    np.testing.assert_allclose(moved, np.tile(base, (len(moved), 1)), atol=ROUNDING)
+    assert before.tool.shape == (0, 2, 3)
+
+
 def test_cables_are_pieces_in_their_order() -> None:
     live, q = LiveModel(ROBOT), Q
     at, size = place(live, q), sizes(live)

@@ -12,6 +12,10 @@
 
 namespace CDCR_EXPORT cdcr {
 
+/// B of Q = B F at q (d, num_cables) [m], eq. (6); the same at all q for straight cables and
+/// sections of constant curvature.
+void actuation_matrix(const Model& model, const ConstVectorRef& q, MatrixRef B) noexcept;
+
 /// Generalised force Q = B F (d) [N m] of the tensions, were there no friction.
 void actuation_force(const Model& model, const ConstVectorRef& tension, VectorRef force) noexcept;
 

@@ -55,9 +55,9 @@ struct InverseKinematics {
 
 /// Searches for bending vectors by damped least squares from several starts.
 ///
-/// One section without an orientation has a closed form, eq. (7), which looks at all shapes. Set
-/// up: the constructor allocates and throws std::invalid_argument. Run: solve is real-time safe;
-/// it takes at most seeds x iterations steps.
+/// One section without an orientation or a tool has a closed form, eq. (7), which looks at all
+/// shapes. Set up: the constructor allocates and throws std::invalid_argument. Run: solve is
+/// real-time safe; it takes at most seeds x iterations steps.
 class InverseSolver {
  public:
   explicit InverseSolver(const Model& model, const InverseKinematicsOptions& options = {});
@@ -76,6 +76,7 @@ class InverseSolver {
 
   void set_target(const Vector3d& p, const std::optional<Matrix3d>& R) noexcept;
   void conclude() noexcept;
+  [[nodiscard]] double distance_from_base() const noexcept;
   [[nodiscard]] IkStatus why() const noexcept;
   bool stopped() noexcept;
 
@@ -95,6 +96,7 @@ class InverseSolver {
   InverseKinematicsOptions options_;
   double tolerance_ = 0.0;              // [m]
   double length_ = 0.0;                 // of the robot [m], the unit of everything below
+  double tool_reach_ = 0.0;             // of the tool's origin from the end of the robot [m]
   double weight_ = 0.0;                 // of the orientation
   double goal_ = 0.0, accepted_ = 0.0;  // costs: where a descent ends, and the search
   VectorXd max_theta_;                  // (n) [rad]

@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "cdcr/export.hpp"
@@ -33,6 +34,8 @@ class Model {
     assert(section >= 0 && section <= num_sections());
     return first_[section];
   }
+  /// Names of the coordinates, in the order of q: q1_x, q1_y, q2_x, ..., sections from 1.
+  [[nodiscard]] std::vector<std::string> coordinate_names() const;
   [[nodiscard]] Index num_cables() const noexcept { return actuation_.cols(); }
 
   /// Every cable, in the order of tensions (num_cables).
@@ -64,6 +67,12 @@ class Model {
   [[nodiscard]] const Vector3d& root_gravity() const noexcept { return root_gravity_; }
   [[nodiscard]] bool has_gravity() const noexcept { return has_gravity_; }
 
+  /// Weight of the whole robot at base_position [J], where the energy of a robot that stands at the
+  /// origin is zero.
+  [[nodiscard]] double base_energy() const noexcept { return base_energy_; }
+  /// Whether the frame of the tip is another one than that at the end of the last section.
+  [[nodiscard]] bool has_tool() const noexcept { return has_tool_; }
+
   /// One section with nothing but a point on its tip.
   [[nodiscard]] bool has_closed_form() const noexcept { return has_closed_form_; }
 
@@ -84,7 +93,8 @@ class Model {
   MatrixXd actuation_, friction_;
   Vector3d root_gravity_ = Vector3d::Zero();
   Index singular_section_ = -1;
-  bool has_gravity_ = false, has_friction_ = false, has_plain_cables_ = true,
+  double base_energy_ = 0.0;
+  bool has_gravity_ = false, has_friction_ = false, has_plain_cables_ = true, has_tool_ = false,
        has_closed_form_ = false;
 };
 

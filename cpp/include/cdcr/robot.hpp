@@ -66,23 +66,35 @@ struct Cable {
   [[nodiscard]] bool length_driven() const noexcept { return stiffness > 0.0; }
 };
 
+/// A place on the backbone.
+struct Place {
+  Index section = 0;
+  double fraction = 0.0;  ///< of the section's length, 0 to 1
+};
+
 /// Sections from base to tip, and what acts on all of them.
 ///
-/// The base frame is fixed, its origin at the base. The straight robot points along its Z, or along
-/// the third column of base_orientation.
+/// The base frame is fixed. The first section begins at its origin and the straight robot points
+/// along its Z, or at base_position along the third column of base_orientation.
 struct Robot {
   std::vector<Section> sections;        ///< 1 to 32
   Vector3d gravity = Vector3d::Zero();  ///< in the base frame [m/s^2]
   double payload = 0.0;                 ///< mass carried by the tip [kg], >= 0
   std::vector<Cable> cables;            ///< beside those of the sections, after them in order
   Matrix3d base_orientation =
-      Matrix3d::Identity();  ///< of the first section, in the base frame, to 1e-5
+      Matrix3d::Identity();                   ///< of the first section, in the base frame, to 1e-5
+  Vector3d base_position = Vector3d::Zero();  ///< where it begins, in the base frame [m]
   Vector3d payload_position = Vector3d::Zero();  ///< its centre of mass, in the tip frame [m]
   Matrix3d payload_inertia = Matrix3d::Zero();   ///< about that, in the tip frame [kg m^2]
   double sliding_speed = 1e-3;  ///< cable speed that friction takes for sliding [m/s], > 0
+  /// A frame without mass that the tip carries, in the frame at the end of the last section.
+  Transform tool = Transform::Identity();
 
   /// Every cable: section by section those at cable_angles, then `cables`.
   [[nodiscard]] std::vector<Cable> all_cables() const;
+  /// The place at an arc length from the base [m]; at a border the end of the section before it.
+  /// Throws std::invalid_argument where it is not 0 to the length of the robot.
+  [[nodiscard]] Place locate(double arc_length) const;
 };
 
 /// One sentence for each field that is out of its range, empty when all is sound. A robot's

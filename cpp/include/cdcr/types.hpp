@@ -13,6 +13,10 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
+/// A frame in another one: rotation matrix and position [m], and 0, 0, 0, 1 below. Not aligned, so
+/// that what holds it is laid out alike under all flags.
+using Transform = Eigen::Matrix<double, 4, 4, Eigen::DontAlign>;
+
 /// Largest bending angle of a section [rad]: one and a half turns. The section's polynomials end
 /// there, and functions of the shape return NaN beyond it.
 inline constexpr double max_bending = 3.0 * 3.14159265358979323846;

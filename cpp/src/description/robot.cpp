@@ -1,5 +1,9 @@
 #include "cdcr/robot.hpp"
 
+#include <cmath>
+#include <limits>
+
+#include "base/arguments.hpp"
 #include "base/constants.hpp"
 
 namespace cdcr {
@@ -38,6 +42,24 @@ std::vector<Cable> Robot::all_cables() const {
   }
   all.insert(all.end(), cables.begin(), cables.end());
   return all;
+}
+
+Place Robot::locate(double arc_length) const {
+  double length = 0.0;
+  for (const Section& section : sections) length += section.length;
+  // Whoever adds up the lengths in another order misses this sum by rounding.
+  const double rounding =
+      length * std::numeric_limits<double>::epsilon() * static_cast<double>(sections.size());
+  detail::require(!sections.empty() && arc_length >= 0.0 && arc_length <= length + rounding,
+                  "s must be 0 to ", length, " m, the length of the robot, got ", arc_length);
+  double begin = 0.0;
+  for (Index i = 0;; ++i) {
+    const double end = begin + sections[i].length;
+    const bool is_last = i + 1 == static_cast<Index>(sections.size());
+    if (arc_length < end) return {i, std::fmin((arc_length - begin) / sections[i].length, 1.0)};
+    if (arc_length == end || is_last) return {i, 1.0};
+    begin = end;
+  }
 }
 
 Robot amouri2020() {

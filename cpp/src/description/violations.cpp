@@ -138,17 +138,31 @@ void check_vector(const std::string& item, const Vector3d& v, const char* unit, 
 }
 
 /// Whether all entries are finite; each that is not has its sentence.
-bool check_matrix(const std::string& item, const Matrix3d& m, const char* unit, Check& check) {
-  for (Index i = 0; i < 3; ++i) check_vector(indexed(item, i), m.row(i), unit, check);
+template <class Matrix>
+bool check_matrix(const std::string& item, const Matrix& m, const char* unit, Check& check) {
+  for (Index i = 0; i < m.rows(); ++i) {
+    for (Index k = 0; k < m.cols(); ++k) check.finite(indexed(indexed(item, i), k), m(i, k), unit);
+  }
   return m.allFinite();
 }
 
+bool is_rotation(const Matrix3d& R) {
+  return detail::skew_of(R) <= detail::rotation_digits && R.determinant() > 0.0;
+}
+
 void check_base_orientation(const Matrix3d& R, Check& check) {
-  if (!check_matrix("base_orientation", R, "", check)) return;
-  const bool orthonormal = detail::skew_of(R) <= detail::rotation_digits;
-  if (!orthonormal || R.determinant() < 0.0) {
-    check.refuse("base_orientation", "a right-handed rotation matrix, to 1e-5", R.format(rows()));
-  }
+  if (!check_matrix("base_orientation", R, "", check) || is_rotation(R)) return;
+  check.refuse("base_orientation", "a right-handed rotation matrix, to 1e-5", R.format(rows()));
+}
+
+void check_tool(const Transform& tool, Check& check) {
+  if (!check_matrix("tool", tool, "", check)) return;
+  const bool ends = tool.row(3) == Eigen::RowVector4d::UnitW();
+  if (ends && is_rotation(tool.topLeftCorner<3, 3>())) return;
+  check.refuse("tool",
+               "a frame: a right-handed rotation matrix, to 1e-5, with a position beside it and "
+               "0, 0, 0, 1 below",
+               tool.format(rows()));
 }
 
 void check_payload_inertia(const Matrix3d& inertia, Check& check) {
@@ -208,6 +222,8 @@ std::vector<std::string> violations(const Robot& robot) {
   check_vector("gravity", robot.gravity, "m/s^2", check);
   check_payload(robot, check);
   check_base_orientation(robot.base_orientation, check);
+  check_vector("base_position", robot.base_position, "m", check);
+  check_tool(robot.tool, check);
   check.positive("sliding_speed", robot.sliding_speed, "m/s");
   return check.found;
 }

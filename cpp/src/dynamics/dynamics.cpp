@@ -92,10 +92,14 @@ double kinetic_energy(const Model& model, Data& data, const ConstVectorRef& q,
   return detail::kinetic_energy(chain_of(model), state, qd.data());
 }
 
-double potential_energy(const Model& model, Data& data, const ConstVectorRef& q) noexcept {
+double detail::energy_from_base(const Model& model, Data& data, const ConstVectorRef& q) noexcept {
   assert(data.belongs_to(model) && of_coordinates(model, q));
   if (model.has_closed_form()) return closed_form::potential_energy(single_of(model), q);
-  return detail::potential_energy(chain_of(model), data.kept()->at(model, q.data()), q.data());
+  return potential_energy(chain_of(model), data.kept()->at(model, q.data()), q.data());
+}
+
+double potential_energy(const Model& model, Data& data, const ConstVectorRef& q) noexcept {
+  return detail::energy_from_base(model, data, q) + model.base_energy();
 }
 
 void potential_gradient(const Model& model, Data& data, const ConstVectorRef& q,

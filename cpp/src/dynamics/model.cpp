@@ -26,6 +26,8 @@ detail::SectionSeries series_of(const Section& section, double payload, Formulat
 Model::Model(Robot robot, Formulation formulation) : formulation_(formulation) {
   validate(robot);
   robot.base_orientation = detail::nearest_rotation(robot.base_orientation);
+  has_tool_ = robot.tool != Transform::Identity();
+  robot.tool.topLeftCorner<3, 3>() = detail::nearest_rotation(robot.tool.topLeftCorner<3, 3>());
   robot_ = std::make_shared<const Robot>(std::move(robot));
   const auto n = static_cast<Index>(robot_->sections.size());
   cables_ = robot_->all_cables();
@@ -81,6 +83,9 @@ Model::Model(Robot robot, Formulation formulation) : formulation_(formulation) {
 void Model::set_gravity(const Vector3d& gravity, const std::shared_ptr<Parts>& parts) {
   root_gravity_ = robot_->base_orientation.transpose() * gravity;
   has_gravity_ = gravity != Vector3d::Zero();
+  double mass = parts->chain.payload.mass;
+  for (const detail::SectionParameters& section : parts->chain.sections) mass += section.mass;
+  base_energy_ = -mass * gravity.dot(robot_->base_position);
   parts->chain.gravity = gravity;
   if (parts->single) {
     parts->single->gravity = root_gravity_;
@@ -97,6 +102,16 @@ Model Model::with_gravity(const Vector3d& gravity) const {
   model.robot_ = robot;
   model.set_gravity(gravity, std::make_shared<Parts>(*parts_));
   return model;
+}
+
+std::vector<std::string> Model::coordinate_names() const {
+  std::vector<std::string> names;
+  for (Index i = 1; i <= num_sections(); ++i) {
+    for (const char* component : detail::ConstantCurvature<double>::component_names) {
+      names.push_back("q" + std::to_string(i) + "_" + component);
+    }
+  }
+  return names;
 }
 
 void require_inertia(const Model& model) {

@@ -110,6 +110,7 @@ InverseSolver::InverseSolver(const Model& model, const InverseKinematicsOptions&
   check_count(options.seeds, "seeds");
   check_count(options.iterations, "iterations");
   for (const Section& section : model.robot().sections) length_ += section.length;
+  tool_reach_ = model.robot().tool.topRightCorner<3, 1>().norm();
   weight_ = options.orientation_weight.value_or(length_ / pi) / length_;
   // Targets have as many digits as single precision or a printed one; a search goes on to rounding.
   tolerance_ = options.tolerance.value_or(1e-6 * length_);
@@ -131,7 +132,8 @@ const InverseKinematics& InverseSolver::solve(const Vector3d& p, const std::opti
   const bool fits = q0.size() == 0 || q0.size() == q_.size();
   const bool finite = p.allFinite() && R_.allFinite() && q0.allFinite();
   asked_ = !fits ? IkStatus::wrong_size : finite ? IkStatus::reached : IkStatus::not_finite;
-  if (asked_ == IkStatus::reached && model_->num_sections() == 1 && !with_rotation_) {
+  const bool on_arc = model_->num_sections() == 1 && tool_reach_ == 0.0;
+  if (asked_ == IkStatus::reached && on_arc && !with_rotation_) {
     best_ = one_section_angle(rho_, z_, max_theta_[0]) * towards_;
     keep_within_limits(best_);
   } else if (asked_ == IkStatus::reached) {
@@ -146,7 +148,8 @@ void InverseSolver::set_target(const Vector3d& p, const std::optional<Matrix3d>&
   with_rotation_ = R.has_value();
   R_ = R.value_or(Matrix3d::Identity());
   target_.setZero();
-  target_.head<3>() = p / std::fmax(length_, (p / farthest).stableNorm());
+  const Vector3d from_base = p - model_->robot().base_position;
+  target_.head<3>() = from_base / std::fmax(length_, (from_base / farthest).stableNorm());
   const Vector3d seen = model_->robot().base_orientation.transpose() * target_.head<3>();
   rho_ = std::hypot(seen[0], seen[1]);
   z_ = seen[2];
@@ -168,10 +171,14 @@ void InverseSolver::conclude() noexcept {
   answer_.reach = why();
 }
 
+double InverseSolver::distance_from_base() const noexcept {
+  return (p_ - model_->robot().base_position).stableNorm();
+}
+
 IkStatus InverseSolver::why() const noexcept {
   if (asked_ != IkStatus::reached) return asked_;
   if (answer_.reachable) return IkStatus::reached;
-  if (p_.stableNorm() > length_ + tolerance_) return IkStatus::too_far;
+  if (distance_from_base() > length_ + tool_reach_ + tolerance_) return IkStatus::too_far;
   for (Index i = 0; i < max_theta_.size(); ++i) {
     if (stands_at_limit(best_, i)) return IkStatus::at_limit;
   }
@@ -192,8 +199,9 @@ std::string InverseSolver::message() const {
       return "q0 must have a value for each of the " + std::to_string(q_.size()) +
              " coordinates, or none at all";
     case IkStatus::too_far:
-      text << "p is " << p_.stableNorm() << " m from the base, farther than the robot's " << length_
-           << " m";
+      text << "p is " << distance_from_base() << " m from the base, farther than the robot's "
+           << length_ << " m";
+      if (tool_reach_ > 0.0) text << " and its tool's " << tool_reach_ << " m";
       break;
     case IkStatus::at_limit:
       for (Index i = 0; i < n; ++i) {

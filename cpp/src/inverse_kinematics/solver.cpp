@@ -44,7 +44,7 @@ Matrix3d inverse_left_jacobian(const Vector3d& u) noexcept {
 InverseSolver::Residual InverseSolver::reached(const VectorXd& q) const noexcept {
   const Pose at = tip(*model_, q);
   Residual x = Residual::Zero();
-  x.head<3>() = at.p / length_;
+  x.head<3>() = (at.p - model_->robot().base_position) / length_;
   if (with_rotation_) {
     const Eigen::AngleAxisd turn(Matrix3d(at.R * R_.transpose()));
     x.tail<3>() = weight_ * turn.angle() * turn.axis();
@@ -54,7 +54,7 @@ InverseSolver::Residual InverseSolver::reached(const VectorXd& q) const noexcept
 
 /// J^T r at q, where x = reached(q).
 void InverseSolver::gradient(const VectorXd& q, const Residual& x, VectorXd& g) noexcept {
-  jacobian(*model_, q, model_->num_sections() - 1, 1.0, J_);
+  tip_jacobian(*model_, q, J_);
   const Matrix3d turn = with_rotation_
                             ? Matrix3d(weight_ * inverse_left_jacobian(x.tail<3>() / weight_))
                             : Matrix3d(Matrix3d::Zero());

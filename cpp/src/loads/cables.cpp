@@ -7,6 +7,13 @@ namespace cdcr {
 
 using detail::of_cables, detail::of_coordinates;
 
+void actuation_matrix(const Model& model, [[maybe_unused]] const ConstVectorRef& q,
+                      MatrixRef B) noexcept {
+  assert(of_coordinates(model, q));
+  assert(detail::has_size(B, model.num_coordinates(), model.num_cables()));
+  B = model.actuation_matrix();
+}
+
 void actuation_force(const Model& model, const ConstVectorRef& tension, VectorRef force) noexcept {
   assert(of_cables(model, tension) && of_coordinates(model, force));
   detail::actuation_force(model, tension.data(), force.data());

@@ -12,6 +12,7 @@ template <class S>
 struct ConstantCurvature : Arc<S> {
   using Scalar = S;
   static constexpr int m = 2;
+  static constexpr const char* component_names[] = {"x", "y"};  // of the coordinates
   using Matrix3m = typename Arc<S>::Matrix3m;
   using Matrixm = Eigen::Matrix<S, m, m>;
   using Vectorm = Eigen::Matrix<S, m, 1>;

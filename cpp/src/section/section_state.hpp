@@ -11,6 +11,7 @@
 // the robot; omega and v are those of the section's own base, "tip" is its other end.
 //
 //   m                                          number of coordinates q of the section
+//   component_names                            what they are called after its number
 //   update_position(parameters, base, q)       everything below that q alone decides
 //   update_velocity<turns>(parameters, omega, qd)   the rest; where the base does not turn
 //                                              (turns = false) moment and force may stay unset

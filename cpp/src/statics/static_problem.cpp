@@ -82,7 +82,7 @@ void StaticProblem::stiffness(const ConstVectorRef& q, MatrixRef K) noexcept {
 }
 
 double StaticProblem::energy(const ConstVectorRef& q) noexcept {
-  double U = potential_energy(model_, data_, q) - constant_force_.dot(q);
+  double U = energy_from_base(model_, data_, q) - constant_force_.dot(q);
   if (has_springs_) U += cable_energy(model_, q, command_);
   for (const Wrench& w : wrenches_) U -= w.force.dot(pose(model_, q, w.section, w.fraction).p);
   if (load_factor_ == 1.0) return U;

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 _C_INT = 2**31 - 1  # largest count that the core can be told
+_IN_WORDS = {3: "three", 4: "four"}
 _NO_NUMBERS = (bool, np.timedelta64)  # although Python and NumPy count them among these
 
 
@@ -121,23 +122,28 @@ class Check:
         values = self.items(item, value, requirement)
         return tuple(self.number(f"{item}[{i}]", one, each) for i, one in enumerate(values))
 
-    def vector(self, item: str, value: object, requirement: str, each: str) -> tuple[float, ...]:
-        """Return any sequence of three numbers as a tuple."""
+    def vector(
+        self, item: str, value: object, requirement: str, each: str, size: int = 3
+    ) -> tuple[float, ...]:
+        """Return any sequence of so many numbers as a tuple."""
         before = len(self.sentences)
         found = self.numbers(item, value, requirement, each)
-        if len(found) != 3 and len(self.sentences) == before:
+        if len(found) != size and len(self.sentences) == before:
             self.refuse(item, requirement, value)
         return found
 
-    def matrix(self, item: str, value: object, requirement: str) -> tuple[tuple[float, ...], ...]:
-        """Return three rows of three numbers, in sequences of any kind or an array, as tuples."""
+    def matrix(
+        self, item: str, value: object, requirement: str, size: int = 3
+    ) -> tuple[tuple[float, ...], ...]:
+        """Return so many rows of so many numbers, in sequences or an array, as tuples."""
         rows = list(value) if isinstance(value, np.ndarray) and value.ndim == 2 else value
         before = len(self.sentences)
+        row_requirement = f"{_IN_WORDS[size]} numbers"
         found = tuple(
-            self.vector(f"{item}[{i}]", row, "three numbers", "a number")
+            self.vector(f"{item}[{i}]", row, row_requirement, "a number", size)
             for i, row in enumerate(self.items(item, rows, requirement))
         )
-        if len(found) != 3 and len(self.sentences) == before:
+        if len(found) != size and len(self.sentences) == before:
             self.refuse(item, requirement, value)
         return found
 
@@ -168,6 +174,8 @@ class Check:
             return self.vector(item, value, requirement, about["each"])
         if kind == "matrix":
             return self.matrix(item, value, requirement)
+        if kind == "transform":
+            return self.matrix(item, value, requirement, size=4)
         if kind == "number or none" and value is None:
             return None
         return self.number(item, value, requirement)

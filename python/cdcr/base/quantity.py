@@ -24,8 +24,8 @@ def quantity(
         What it is, in which unit, and what it must be; "> 0" and ">= 0" are numbers, and finite.
     kind : str or type, optional
         How `Check.keep` makes it plain: "number", "number or none", "whole", "section" (an index,
-        which files count from 1), "numbers", "vector" or "matrix"; a type is that of every thing
-        in a sequence.
+        which files count from 1), "numbers", "vector", "matrix" or "transform" (4 rows of 4); a
+        type is that of every thing in a sequence.
     each : str, optional
         What every number in a sequence must be.
     default : optional

@@ -167,6 +167,12 @@ def _whole(robot: Robot, rest: Rest | None) -> Table:
     table = new_table("Robot", "", "value")
     _add_row(table, "length", "m", [_text(robot.length)])
     _add_row(table, "gravity", "m/s^2", [", ".join(map(_text, robot.gravity))])
+    for name, place in (
+        ("base", robot.base_position),
+        ("tool", [row[3] for row in robot.tool[:3]]),
+    ):
+        if any(place):
+            _add_row(table, f"{name} at", "m", [", ".join(map(_text, place))])
     if rest is None:
         return table
     if not rest.is_nondegenerate:

@@ -141,7 +141,7 @@ def _require_mass(chain: Chain) -> None:
 def _add_looks(root: ElementTree.Element, chain: Chain) -> None:
     """Add a light, a white background, and what a camera looks at."""
     axis = np.array(chain.robot.base_orientation)[:, 2]
-    middle = _numbers(0.5 * chain.ends[-1] * axis)
+    middle = _numbers(np.array(chain.robot.base_position) + 0.5 * chain.ends[-1] * axis)
     ElementTree.SubElement(root, "statistic", center=middle, extent=repr(chain.ends[-1]))
     visual = ElementTree.SubElement(root, "visual")
     ElementTree.SubElement(visual, "headlight", ambient="0.5 0.5 0.5", diffuse="0.5 0.5 0.5")
@@ -157,7 +157,10 @@ def _add_bodies(
 ) -> None:
     world = ElementTree.SubElement(root, "worldbody")
     axes = np.array(chain.robot.base_orientation).T[:2].ravel()
-    body = ElementTree.SubElement(world, "body", name="base", xyaxes=_numbers(axes))
+    base = {"xyaxes": _numbers(axes)}
+    if any(chain.robot.base_position):
+        base["pos"] = _numbers(chain.robot.base_position)
+    body = ElementTree.SubElement(world, "body", base, name="base")
     _add_geoms(body, chain, chain.links[0])
     _add_sites(body, sites[0])
     for joint, (below, link), holes in zip(
@@ -177,13 +180,21 @@ def _add_bodies(
         _add_hinges(body, joint, bends[joint.section])
         _add_geoms(body, chain, link)
         _add_sites(body, holes)
-    tip = Site("tip", (0.0, 0.0, chain.links[-1].end - chain.links[-1].start))
-    _add_sites(body, [tip])
+    _add_tip(body, chain)
 
 
 def _add_sites(body: ElementTree.Element, sites: Sequence[Site]) -> None:
     for name, place in sites:
         ElementTree.SubElement(body, "site", name=name, pos=_numbers(place), size="0.0005")
+
+
+def _add_tip(body: ElementTree.Element, chain: Chain) -> None:
+    """Add a site where the tool is; it is turned as the tool is."""
+    tool, last = np.array(chain.robot.tool), chain.links[-1]
+    place = tool[:3, 3] + np.array([0.0, 0.0, last.end - last.start])
+    _add_sites(body, [Site("tip", (place[0], place[1], place[2]))])
+    if not np.array_equal(tool[:3, :3], np.eye(3)):
+        body[-1].set("xyaxes", _numbers(tool[:3, :2].T.ravel()))
 
 
 def _add_hinges(body: ElementTree.Element, joint: Joint, bend: float) -> None:

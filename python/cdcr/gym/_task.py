@@ -66,6 +66,9 @@ class Task:
         self._ranges = checked_ranges(randomization)
         self.model = Model(self.drive.robot)  # not randomised; its geometry is that of all
         self._length = self.drive.robot.length
+        self._base: FloatArray = np.array(self.drive.robot.base_position, dtype=np.float64)
+        tool = np.linalg.norm(np.array(self.drive.robot.tool)[:3, 3])
+        self._reach = 1.0 + float(tool) / self._length
         substeps = self._substeps(self.model)
         self._simulators = [self._simulator(self.model, substeps) for _ in range(count)]
         self._bounds = self.bounds
@@ -82,7 +85,12 @@ class Task:
     def bounds(self) -> FloatArray:
         """Largest magnitudes of the numbers of an observation."""
         size = self.model.num_coordinates
-        parts = [(size, _core.max_bending), (size, MAX_RATE), (3, 1.0), (3, 2.0)]
+        parts = [
+            (size, _core.max_bending),
+            (size, MAX_RATE),
+            (3, self._reach),
+            (3, 2.0 * self._reach),
+        ]
         parts += [(3, MAX_RATE)] if self.moving else []
         return np.concatenate([np.full(*part) for part in parts])
 
@@ -147,7 +155,8 @@ class Task:
 
     def observe(self) -> NDArray[np.float32]:
         """Return what is seen of each robot (count, k)."""
-        parts = [self.q, self.qd, self.tip / self._length, self._away / self._length]
+        from_base = (self.tip - self._base) / self._length
+        parts = [self.q, self.qd, from_base, self._away / self._length]
         parts += [self._velocity / self._length] if self.moving else []
         seen = np.concatenate(parts, axis=1)
         return np.maximum(np.minimum(seen, self._bounds), -self._bounds).astype(np.float32)

@@ -303,12 +303,13 @@ class Model(StateSpaceModel):
 
         Damped least squares from several starts, until one leads there; otherwise the nearest that
         was found, with its distance and why. One section without an orientation has a closed form,
-        which needs no start. cpp/README.md eq. (7), cpp/several-sections.md eqs. (47), (48).
+        which needs no start, unless a tool is away from the tip. cpp/README.md eq. (7),
+        cpp/several-sections.md eqs. (47) to (49).
 
         Parameters
         ----------
         p : (3,) array_like
-            Tip position in the base frame [m].
+            Tip position, that of the robot's tool, in the base frame [m].
         R : (3, 3) array_like, optional
             Tip orientation in the base frame, a rotation matrix.
         q0 : (2n,) array_like, optional

@@ -87,7 +87,7 @@ class Rest:
     def _tip(self) -> tuple[FloatArray, FloatArray]:
         """Jacobian of the tip in its own frame (3, 2n) and K^-1 of the robot (2n, 2n)."""
         R, _ = self.model.tip(self.q)
-        J = self.model.jacobian(self.q, self.model.num_sections - 1, 1.0)[:3]
+        J = self.model.tip_jacobian(self.q)[:3]
         return R.T @ J, np.asarray(np.linalg.inv(self._stiffness), dtype=np.float64)
 
     @property

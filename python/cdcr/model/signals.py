@@ -22,10 +22,9 @@ class Output(NamedTuple):
     derivative: Callable[[Model, FloatArray], FloatArray]  # (k, 4n)
 
 
-def _components(name: str) -> Callable[[Model], list[str]]:
-    return lambda model: [
-        f"{name}{i + 1}_{axis}" for i in range(model.num_sections) for axis in "xy"
-    ]
+def _rate_names(model: Model) -> list[str]:
+    """q1_x -> qd1_x."""
+    return [name.replace("q", "qd", 1) for name in model.coordinate_names]
 
 
 def _of_shape(derivative: FloatArray) -> FloatArray:
@@ -35,19 +34,19 @@ def _of_shape(derivative: FloatArray) -> FloatArray:
 
 _OUTPUTS = {
     "q": Output(
-        _components("q"),
+        lambda model: list(model.coordinate_names),
         lambda model, q, qd: q,
         lambda model, q: np.eye(len(q), 2 * len(q)),
     ),
     "qd": Output(
-        _components("qd"),
+        _rate_names,
         lambda model, q, qd: qd,
         lambda model, q: np.eye(len(q), 2 * len(q), len(q)),
     ),
     "tip": Output(
         lambda model: [f"tip_{axis}" for axis in "xyz"],
         lambda model, q, qd: model.tip(q)[1],
-        lambda model, q: _of_shape(model.jacobian(q, model.num_sections - 1, 1.0)[:3]),
+        lambda model, q: _of_shape(model.tip_jacobian(q)[:3]),
     ),
     "lengths": Output(
         lambda model: [f"length{j + 1}" for j in range(model.num_cables)],

@@ -57,11 +57,14 @@ class RobotShape:
     cables : list of ndarray, shape (M, 3)
         From the base through the holes of the disks to the end of the section it ends on, in the
         order of the tensions.
+    tool : list of ndarray, shape (2, 3)
+        A line from the tip of the backbone to the tool; none where they are in one place.
     """
 
     backbone: FloatArray
     disks: list[FloatArray]
     cables: list[FloatArray]
+    tool: list[FloatArray]
 
     @property
     def sections(self) -> list[FloatArray]:
@@ -72,7 +75,7 @@ class RobotShape:
     @property
     def points(self) -> FloatArray:
         """All of them (P, 3)."""
-        return np.concatenate([self.backbone, *self.disks, *self.cables])
+        return np.concatenate([self.backbone, *self.disks, *self.cables, *self.tool])
 
 
 def robot_shape(model: Posed, q: FloatArray) -> RobotShape:
@@ -81,9 +84,10 @@ def robot_shape(model: Posed, q: FloatArray) -> RobotShape:
     A section without disks leads its cables parallel to the backbone, as the model takes them.
     """
     robot = model.robot
-    backbone, disks = [np.zeros(3)], []
+    R_base, base = base_frame(robot)
+    backbone, disks = [base], []
     # Frames whose holes the cables run through, up to the end of each section.
-    guides = [(np.array(robot.base_orientation), np.zeros(3))]
+    guides = [(R_base, base)]
     runs = []
     for i, section in enumerate(robot.sections):
         fine = [model.pose(q, i, k / PIECES) for k in range(1, PIECES + 1)]
@@ -100,7 +104,18 @@ def robot_shape(model: Posed, q: FloatArray) -> RobotShape:
         np.array([p + R @ _hole(cable) for R, p in runs[cable.end_section]])
         for cable in robot.all_cables
     ]
-    return RobotShape(np.array(backbone), disks, cables)
+    return RobotShape(np.array(backbone), disks, cables, _tool(robot, *fine[-1]))
+
+
+def base_frame(robot: Robot) -> tuple[FloatArray, FloatArray]:
+    """Return R (3, 3) and p (3,) [m] of the frame in which the first section begins."""
+    return np.array(robot.base_orientation), np.array(robot.base_position)
+
+
+def _tool(robot: Robot, R: FloatArray, p: FloatArray) -> list[FloatArray]:
+    """Return the line to the tool from the end of the backbone, whose frame is given, or none."""
+    position = np.array(robot.tool)[:3, 3]
+    return [np.array([p, p + R @ position])] if position.any() else []
 
 
 def _hole(cable: Cable) -> FloatArray:
@@ -116,7 +131,7 @@ def base_plate(model: Posed) -> FloatArray:
         + [disk.diameter / 2 for section in robot.sections for disk in section.disks]
         + [cable.radius for cable in robot.all_cables]
     )
-    return _circle(1.5 * widest, np.array(robot.base_orientation), np.zeros(3))
+    return _circle(1.5 * widest, *base_frame(robot))
 
 
 def _circle(radius: float, R: FloatArray, p: FloatArray) -> FloatArray:

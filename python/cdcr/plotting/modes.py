@@ -135,7 +135,7 @@ def _label(modes: Modes, k: int) -> str:
 
 def _backbone(model: Model, q: FloatArray) -> FloatArray:
     """Points (P, 3) of the backbone at q [m]."""
-    points = [np.zeros(3)]
+    points = [np.array(model.robot.base_position)]
     for i in range(model.num_sections):
         points += [model.pose(q, i, k / PIECES)[1] for k in range(1, PIECES + 1)]
     return np.array(points)

@@ -51,7 +51,8 @@ class RobotArtists:
             for line, color in zip(shape.sections, section_colors(model), strict=True)
         ]
         # Matplotlib sorts by depth only what does not interlace. Here the base settles the order.
-        front = [cable[0] @ space.towards_viewer(axes) > 0.0 for cable in shape.cables]
+        outward = [cable[0] - shape.backbone[0] for cable in shape.cables]
+        front = [arm @ space.towards_viewer(axes) > 0.0 for arm in outward]
         self.cables = [
             axes.plot(
                 *cable.T,
@@ -65,16 +66,23 @@ class RobotArtists:
             )
         ]
 
+        self.tool = [
+            axes.plot(*line.T, color=GREY, linewidth=1.8, alpha=alpha, zorder=layer + 0.2)[0]
+            for line in shape.tool
+        ]
+
     @property
     def lines(self) -> list[Any]:
-        """Backbone of each section, then cables."""
-        return [*self.backbones, *self.cables]
+        """Backbone of each section, then cables, then the tool."""
+        return [*self.backbones, *self.cables, *self.tool]
 
     def update(self, q: FloatArray) -> None:
         """Move everything to q (2n,) [rad]."""
         shape = robot_shape(self._model, q)
         self.disks.set_verts(shape.disks)
-        for line, points in zip(self.lines, (*shape.sections, *shape.cables), strict=True):
+        for line, points in zip(
+            self.lines, (*shape.sections, *shape.cables, *shape.tool), strict=True
+        ):
             line.set_data_3d(*points.T)
 
     def show_tension(self, tension: FloatArray, largest: float) -> None:

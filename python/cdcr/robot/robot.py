@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from itertools import accumulate, chain
-from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,6 +14,7 @@ from cdcr import _core
 from cdcr.base.check import Check
 from cdcr.base.quantity import quantity
 from cdcr.robot.cable import Cable
+from cdcr.robot.filed import Filed
 from cdcr.robot.parts import Parts, part_counts, parts_of
 from cdcr.robot.section import Section
 from cdcr.robot.units import ask_about_robot
@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 Vector = tuple[float, float, float]
 Matrix = tuple[Vector, Vector, Vector]  # three rows
+Row = tuple[float, float, float, float]
+Transform = tuple[Row, Row, Row, Row]
 
 SCREEN = 1600  # characters
 
@@ -31,7 +33,7 @@ _ZERO: Vector = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Robot:
+class Robot(Filed):
     """A cable-driven continuum robot: its sections from base to tip, and what acts on all of them.
 
     Parameters
@@ -47,12 +49,18 @@ class Robot:
     base_orientation : (3, 3) array_like, default identity
         Rotation matrix of the first section in the base frame, in which gravity and all results
         are expressed. The straight robot points along its third column.
+    base_position : sequence of float, default (0, 0, 0)
+        Where the first section begins, in the base frame [m].
     payload_position : sequence of float, default (0, 0, 0)
         Centre of mass of the payload in the frame of the tip [m].
     payload_inertia : (3, 3) array_like, default zero
         Of the payload about its centre of mass, in the frame of the tip [kg m^2].
     sliding_speed : float, default 1e-3
         Speed at which a cable counts as sliding, for friction [m/s], > 0.
+    tool : (4, 4) array_like, default identity
+        A frame without mass that the tip carries, in the frame at the end of the last section: its
+        rotation matrix, beside it its position [m], and 0, 0, 0, 1 below. It is what
+        ``Model.tip``, its Jacobian and ``Model.inverse_kinematics`` speak of.
 
     Raises
     ------
@@ -98,6 +106,15 @@ class Robot:
         default=((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
         advanced=True,
     )
+    base_position: Vector = quantity(
+        "where the first section begins",
+        "m",
+        "three numbers in m",
+        kind="vector",
+        each="a number in m",
+        default=_ZERO,
+        advanced=True,
+    )
     payload_position: Vector = quantity(
         "centre of mass, in the tip frame",
         "m",
@@ -118,6 +135,19 @@ class Robot:
     sliding_speed: float = quantity(
         "of a cable, for friction", "m/s", "> 0", default=1e-3, advanced=True
     )
+    tool: Transform = quantity(
+        "frame of the tool in that of the tip, by rows",
+        "",
+        "four rows of four numbers",
+        kind="transform",
+        default=(
+            (1.0, 0.0, 0.0, 0.0),
+            (0.0, 1.0, 0.0, 0.0),
+            (0.0, 0.0, 1.0, 0.0),
+            (0.0, 0.0, 0.0, 1.0),
+        ),
+        advanced=True,
+    )
 
     if TYPE_CHECKING:  # any sequence goes in, a tuple comes out
 
@@ -129,9 +159,11 @@ class Robot:
             payload: float = ...,
             cables: Sequence[Cable] = ...,
             base_orientation: ArrayLike = ...,
+            base_position: Sequence[float] | NDArray[np.floating[Any]] = ...,
             payload_position: Sequence[float] | NDArray[np.floating[Any]] = ...,
             payload_inertia: ArrayLike = ...,
             sliding_speed: float = ...,
+            tool: ArrayLike = ...,
         ) -> None: ...
 
     def __post_init__(self) -> None:
@@ -180,6 +212,40 @@ class Robot:
             for cable in self._to_core().all_cables()
         )
 
+    def locate(self, s: float) -> tuple[int, float]:
+        """Return the place at an arc length from the base, as section and fraction.
+
+        What takes a place takes both: ``model.pose(q, *robot.locate(0.3))``.
+
+        Parameters
+        ----------
+        s : float
+            Arc length along the backbone [m], 0 to ``robot.length``.
+
+        Returns
+        -------
+        section : int
+            Index of the section; where two meet, of the one that ends there.
+        fraction : float
+            Of its length, 0 to 1.
+
+        Raises
+        ------
+        ValueError
+            For what is no number, and no place on the robot.
+
+        Examples
+        --------
+        >>> import cdcr
+        >>> robot = cdcr.robots.amouri2020().subdivide(2)
+        >>> robot.locate(0.6015)
+        (1, 0.5)
+        """
+        check = Check()
+        arc_length = check.number("s", s, "a number in m")
+        check.done()
+        return self._to_core().locate(arc_length)
+
     def subdivide(self, parts: Parts) -> Robot:
         """Return the same robot with every section cut into equal constant-curvature parts.
 
@@ -214,77 +280,6 @@ class Robot:
         last = [end - 1 for end in accumulate(counts)]
         cables = [replace(cable, end_section=last[cable.end_section]) for cable in self.cables]
         return replace(self, sections=tuple(chain.from_iterable(cut)), cables=tuple(cables))
-
-    @classmethod
-    def load(cls, path: str | PathLike[str]) -> Robot:
-        """Read a robot from a TOML file, as `save` writes it.
-
-        Parameters
-        ----------
-        path : str or path
-            The file. A section gives its cables either as ``cable_angles`` [rad] or as
-            ``cable_angles_deg`` [deg].
-
-        Returns
-        -------
-        Robot
-
-        Raises
-        ------
-        FileNotFoundError
-            Where there is no such file.
-        ValueError
-            Naming file, key and what is allowed, for broken TOML, unknown or missing keys, wrong
-            types and values out of range.
-
-        Examples
-        --------
-        >>> import tempfile
-        >>> from pathlib import Path
-        >>> import cdcr
-        >>> robot = cdcr.robots.amouri2020()
-        >>> with tempfile.TemporaryDirectory() as folder:
-        ...     robot.save(Path(folder) / "robot.toml")
-        ...     again = cdcr.Robot.load(Path(folder) / "robot.toml")
-        >>> again == robot
-        True
-        """
-        from cdcr.robot.file import load_robot
-
-        return load_robot(cls, path)
-
-    def save(self, path: str | PathLike[str], *, overwrite: bool = False) -> None:
-        """Write the robot to a TOML file; `load` gives back an equal robot.
-
-        Parameters
-        ----------
-        path : str or path
-            The file; it appears whole or not at all.
-        overwrite : bool, default False
-            Whether a file of that name may be replaced.
-
-        Raises
-        ------
-        FileExistsError
-            Where there is such a file and `overwrite` is False.
-        FileNotFoundError
-            Where there is no such folder.
-
-        Examples
-        --------
-        >>> import tempfile
-        >>> from pathlib import Path
-        >>> import cdcr
-        >>> with tempfile.TemporaryDirectory() as folder:
-        ...     file = Path(folder) / "robot.toml"
-        ...     cdcr.robots.amouri2020().save(file)
-        ...     lines = file.read_text().splitlines()
-        >>> lines[4]
-        'gravity = [0.0, 0.0, 0.0]  # in the base frame [m/s^2]'
-        """
-        from cdcr.robot.file import save_robot
-
-        save_robot(self, path, overwrite=overwrite)
 
     def view(self, *, port: int = 8080, browser: bool = True) -> View:
         """Simulate the robot in the browser, live. Needs the extra ``view``.

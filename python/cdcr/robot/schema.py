@@ -16,6 +16,8 @@ import pydantic
 _Int = Annotated[int, pydantic.Field(ge=-(2**31), lt=2**31)]  # what the core can be told
 _Three = Annotated[list[float], pydantic.Field(min_length=3, max_length=3)]
 _Rows = Annotated[list[_Three], pydantic.Field(min_length=3, max_length=3)]
+_Four = Annotated[list[float], pydantic.Field(min_length=4, max_length=4)]
+_FourRows = Annotated[list[_Four], pydantic.Field(min_length=4, max_length=4)]
 _TYPES: dict[str, Any] = {
     "number": float,
     "number or none": float,
@@ -24,6 +26,12 @@ _TYPES: dict[str, Any] = {
     "numbers": list[float],
     "vector": _Three,
     "matrix": _Rows,
+    "transform": _FourRows,
+}
+_ARRAYS = {
+    "vector": "3 numbers",
+    "matrix": "3 rows of 3 numbers",
+    "transform": "4 rows of 4 numbers",
 }
 
 
@@ -61,9 +69,8 @@ def _about(item: Field[Any]) -> str:
 
 def _requirement(item: Field[Any], unit: str) -> str:
     """Return what a value must be, in the words of TOML."""
-    if item.metadata["kind"] in ("vector", "matrix"):
-        rows = "3 rows of " if item.metadata["kind"] == "matrix" else ""
-        return f"an array of {rows}3 numbers" + (f" [{unit}]" if unit else "")
+    if item.metadata["kind"] in _ARRAYS:
+        return f"an array of {_ARRAYS[item.metadata['kind']]}" + (f" [{unit}]" if unit else "")
     if item.metadata["kind"] == "section":
         return "the number of a section, from 1"
     words = str(item.metadata["requirement"]).removesuffix(", or None")

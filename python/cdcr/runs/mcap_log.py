@@ -127,7 +127,7 @@ def _channels(run: Trajectory, stamps: list[Json]) -> Iterator[Channel]:
     for topic, names in _NUMBERS.items():
         yield _numbers(run, topic, [item for item in quantities(run) if item.name in names])
     model, last = run.model, run.model.num_sections - 1
-    ends = [model.pose(run.q, i, 1.0) for i in range(last + 1)]
+    ends = [*(model.pose(run.q, i, 1.0) for i in range(last)), model.tip(run.q)]
     frames = [f"section{i + 1}" for i in range(last)] + [TIP]
     poses = [[_pose(*one) for one in zip(*end, strict=True)] for end in ends]
     yield Channel(
@@ -168,7 +168,8 @@ def _numbers(run: Trajectory, topic: str, items: list[Quantity]) -> Channel:
 
 def _scenes(run: Trajectory, stamps: list[Json]) -> Iterator[Json]:
     """Yield the backbone as a line, for the 3D panel."""
-    robot, line = run.model.robot, [np.zeros((len(run), 3))]
+    robot = run.model.robot
+    line = [np.tile(robot.base_position, (len(run), 1))]
     for i in range(len(robot.sections)):
         line += [run.model.pose(run.q, i, k / PIECES)[1] for k in range(1, PIECES + 1)]
     look = {

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from cdcr.base.arrays import FloatArray
-from cdcr.plotting.geometry import base_plate
+from cdcr.plotting.geometry import base_frame, base_plate
 from cdcr.plotting.style import BLACK, DISK, GREY, LIGHT_GREY
 from cdcr.view.colors import rgb, section_rgb, shaded, tension_colors
 from cdcr.view.live import LiveModel, round_up
@@ -58,6 +58,12 @@ class Drawing:
                 thickness=LINE,
                 thickness_units="screen",
             )
+        self.tool: Any = None
+        if len(at.tool):
+            color = shaded(np.tile(rgb(GREY), (1, 2, 1)))
+            self.tool = scene.add_line_segments(
+                "/robot/tool", at.tool, color, thickness=LINE, thickness_units="screen"
+            )
         self.frames = scene.add_batched_axes(
             "/robot/frames",
             at.frames.wxyz,
@@ -105,6 +111,8 @@ class Drawing:
         _move(self.backbone, at.backbone)
         _move(self.disks, at.disks)
         _move(self.frames, at.frames)
+        if self.tool is not None:
+            self.tool.points = at.tool.astype(np.float32)
         if self.cables is not None:
             largest = float(moment.tension.max())
             if largest > self.scale:
@@ -127,7 +135,7 @@ class Drawing:
 
     def _floor(self, scene: Any, model: LiveModel) -> None:
         """Draw what stands still: a grid in the plane of the base, and the base plate."""
-        length, orientation = model.robot.length, np.array(model.robot.base_orientation)
+        length, (orientation, base) = model.robot.length, base_frame(model.robot)
         cell = round_up(length / CELLS)
         side = 2 * cell * round(0.8 * length / cell)
         scene.add_grid(
@@ -140,13 +148,14 @@ class Drawing:
             section_color=rgb(LIGHT_GREY),
             shadow_opacity=0.0,
             wxyz=quaternion(orientation),
+            position=base,
         )
         rim = base_plate(model)
         radius, thick = float(np.linalg.norm(rim[0])), length / 60
         _cylinders(
             scene,
             "/base",
-            Poses(quaternion(orientation)[None], -thick / 2 * orientation[:, 2][None]),
+            Poses(quaternion(orientation)[None], (base - thick / 2 * orientation[:, 2])[None]),
             np.array([[radius, radius, thick]]),
             rgb(GREY),
             cast_shadow=False,

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cdcr.base.arrays import FloatArray
-from cdcr.plotting.geometry import PIECES, RobotShape, robot_shape
+from cdcr.plotting.geometry import PIECES, RobotShape, base_frame, robot_shape
 from cdcr.view.live import LiveModel
 
 STRIDE = 2  # pieces of the backbone's outline that one cylinder spans
@@ -29,7 +29,8 @@ class Placement(NamedTuple):
     backbone: Poses  # of cylinders along z, centred
     disks: Poses
     cables: FloatArray  # (S, 2, 3) straight pieces [m]
-    frames: Poses  # of the base and of the end of each section
+    frames: Poses  # of the base, of the end of each section, and of the tool in place of the last
+    tool: FloatArray  # (0 or 1, 2, 3) line from the backbone to the tool [m]
     tip: FloatArray  # (3,) [m]
 
 
@@ -71,15 +72,16 @@ def place(model: LiveModel, q: FloatArray) -> Placement:
     """Return where everything is at q (2n,) [rad]."""
     shape = robot_shape(model, q)
     line = shape.backbone[::STRIDE]
-    ends = [model.pose(q, i, 1.0) for i in range(model.num_sections)]
-    frames = [(np.array(model.robot.base_orientation), np.zeros(3)), *ends]
+    ends = [model.pose(q, i, 1.0) for i in range(model.num_sections - 1)]
+    frames = [base_frame(model.robot), *ends, model.tip(q)]
     pieces = [np.stack([cable[:-1], cable[1:]], axis=1) for cable in shape.cables]
     return Placement(
         Poses(along(np.diff(line, axis=0)), (line[:-1] + line[1:]) / 2),
         _disks(shape),
         np.concatenate(pieces) if pieces else np.zeros((0, 2, 3)),
         Poses(np.array([quaternion(R) for R, _ in frames]), np.array([p for _, p in frames])),
-        shape.backbone[-1],
+        np.array(shape.tool).reshape(-1, 2, 3),
+        frames[-1][1],
     )
 
 

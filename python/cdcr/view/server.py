@@ -61,7 +61,8 @@ def look_at(server: Any, model: LiveModel) -> None:
     across = across - (across @ up) * up
     across /= np.linalg.norm(across)
     aside = np.cross(up, across)
-    center = robot.length * (0.48 * axis + 0.13 * across)  # to the right stands the panel
+    # To the right stands the panel.
+    center = np.array(robot.base_position) + robot.length * (0.48 * axis + 0.13 * across)
     server.scene.set_up_direction(tuple(up))
     server.initial_camera.look_at = tuple(center)
     server.initial_camera.up = tuple(up)

@@ -14,6 +14,8 @@ OF_Q: dict[str, Callable[[cdcr.Model, Any], Any]] = {
     "pose": lambda m, q: m.pose(q, 0, 0.5),
     "tip": lambda m, q: m.tip(q),
     "jacobian": lambda m, q: m.jacobian(q, 0, 1.0),
+    "tip_jacobian": lambda m, q: m.tip_jacobian(q),
+    "actuation_matrix": lambda m, q: m.actuation_matrix(q),
     "cable_lengths": lambda m, q: m.cable_lengths(q),
     "mass_matrix": lambda m, q: m.mass_matrix(q),
     "potential_energy": lambda m, q: m.potential_energy(q),

@@ -32,7 +32,7 @@ def lift(run: Trajectory) -> float:
     """Return the first acceleration of the tip upwards [m/s^2]."""
     model = run.model
     start = model.forward_dynamics(run.q[0], run.qd[0], run.tension[0])
-    return float((model.jacobian(run.q[0], model.num_sections - 1, 1.0) @ start)[2])
+    return float((model.tip_jacobian(run.q[0]) @ start)[2])
 
 
 def summarize(scenario: Scenario, run: Trajectory) -> tuple[Metric, ...]:
