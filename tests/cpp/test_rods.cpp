@@ -12,6 +12,9 @@
 #include "chain/gradient.hpp"
 #include "chain/inverse.hpp"
 #include "chain/mass_matrix.hpp"
+#include "section/rod_cable.hpp"
+#include "support/cases.hpp"
+#include "support/differences.hpp"
 #include "support/residual.hpp"
 #include "support/rods.hpp"
 #include "support/tolerances.hpp"
@@ -21,6 +24,7 @@ namespace {
 
 using detail::Chain;
 using detail::Rod;
+using detail::RodCable;
 using RodChain = detail::ChainState<Rod<double>>;
 
 // What the reference cases ask for, in the accelerations: with the default number of nodes, and
@@ -31,8 +35,30 @@ constexpr double pose_by_default = 2e-8;
 
 /// Largest relative errors over all reference cases.
 struct Errors {
-  double acceleration = 0.0, force = 0.0, mass_matrix = 0.0, energy = 0.0, pose = 0.0;
+  double acceleration = 0.0, force = 0.0, mass_matrix = 0.0, energy = 0.0, pose = 0.0, cable = 0.0;
 };
+
+/// Lengths of all cables, and what they do at the tensions of the case.
+struct CablePull {
+  VectorXd lengths, force;
+};
+
+CablePull pull_of(const Chain& chain, const Json& reference, const VectorXd& q) {
+  const VectorXd tension = reference["tension"].vector();
+  CablePull pull{VectorXd::Zero(tension.size()), VectorXd::Zero(q.size())};
+  for (Index j = 0; j < tension.size(); ++j) {
+    const Json& cable = reference["cables"].items()[static_cast<std::size_t>(j)];
+    const MatrixXd radius = cable["radius"].matrix(), angle = cable["angle"].matrix();
+    for (Index i = 0; i < radius.rows(); ++i) {
+      const auto& rod = *chain.sections[static_cast<std::size_t>(i)].rod;
+      const Index first = chain.first[static_cast<std::size_t>(i)];
+      const RodCable path(rod, {radius(i, 0), radius(i, 1), angle(i, 0), angle(i, 1)});
+      pull.lengths[j] +=
+          path.length(rod, q.data() + first, double{tension[j]}, pull.force.data() + first);
+    }
+  }
+  return pull;
+}
 
 void add(double& worst, const Residual& residual) {
   worst = std::max(worst, residual.value);
@@ -68,6 +94,10 @@ Errors errors_with(int num_nodes) {
     }
     add(worst.pose, residual(tip, reference["tip_position"].vector(), length));
     add(worst.pose, residual(state->tip.rotation(), reference["tip_rotation"].matrix()));
+
+    const CablePull pull = pull_of(chain, reference, q);
+    add(worst.cable, residual(pull.lengths, reference["cable_lengths"].vector()));
+    add(worst.cable, residual(pull.force, force, largest(force)));
   }
   return worst;
 }
@@ -77,18 +107,20 @@ TEST_SUITE_BEGIN("rods");
 TEST_CASE("reference cases, over the number of nodes") {
   const int default_nodes = detail::RodDescription().num_nodes;
   std::ostringstream table;
-  table << "nodes  accelerations  forces  mass matrix  energies  pose";
+  table << "nodes  accelerations  forces  mass matrix  energies  pose  cables";
   for (const int num_nodes : {6, 8, 10, default_nodes, 16, 24, detail::max_rod_nodes}) {
     const Errors errors = errors_with(num_nodes);
     table << "\n"
           << num_nodes << "  " << errors.acceleration << "  " << errors.force << "  "
-          << errors.mass_matrix << "  " << errors.energy << "  " << errors.pose;
+          << errors.mass_matrix << "  " << errors.energy << "  " << errors.pose << "  "
+          << errors.cable;
     if (num_nodes == default_nodes) {
       CHECK(Residual{errors.acceleration} <= by_default);
       CHECK(Residual{errors.force} <= by_default);
       CHECK(Residual{errors.mass_matrix} <= by_default);
       CHECK(Residual{errors.energy} <= by_default);
       CHECK(Residual{errors.pose} <= pose_by_default);
+      CHECK(Residual{errors.cable} <= by_default);
     }
     if (num_nodes == detail::max_rod_nodes) {
       CHECK(Residual{errors.acceleration} <= with_all_nodes);
@@ -96,6 +128,7 @@ TEST_CASE("reference cases, over the number of nodes") {
       CHECK(Residual{errors.mass_matrix} <= with_all_nodes);
       CHECK(Residual{errors.energy} <= with_all_nodes);
       CHECK(Residual{errors.pose} <= with_all_nodes);
+      CHECK(Residual{errors.cable} <= with_all_nodes);
     }
   }
   MESSAGE(table.str());
@@ -176,6 +209,42 @@ TEST_CASE("on dual numbers, the gradient of the potential energy is its derivati
                             U[0] = detail::potential_energy_of(chain, *duals, at);
                           });
     CHECK(residual(slope.transpose(), gradient) <= tolerance::recursion);
+  }
+}
+
+TEST_CASE("cables pull with the slope of their length, and straight ones as on an arc") {
+  Random random;
+  for (int i = 0; i < test_count(); ++i) {
+    const bool straight = i % 2 == 0;
+    INFO(random, ", cable ", i);
+    Section section = amouri2020().sections[0];
+    const detail::RodParameters rod(described_rod(section, 2, straight ? -1 : 1, 1));
+    const double radius = random.uniform(0.01, 0.05), angle = random.uniform(-pi, pi);
+    const double converging = random.uniform(0.5, 1.0), winding = random.uniform(-pi, pi);
+    const RodCable cable(
+        rod, straight ? detail::CableRoute{radius, radius, angle, angle}
+                      : detail::CableRoute{radius, converging * radius, angle, angle + winding});
+    VectorXd q = random.vector(rod.size(), 1.0), force = VectorXd::Zero(rod.size());
+    q.tail(2) *= 0.1 * rod.length;
+    const double tension = random.uniform(1.0, 10.0);
+    const double length = cable.length(rod, q.data(), tension, force.data());
+    for (Index k = 0; k < q.size(); ++k) {
+      const double slope = difference(
+          [&](double step) {
+            VectorXd at = q, unused = q;
+            at[k] += step;
+            return cable.length(rod, at.data(), 0.0, unused.data());
+          },
+          1e-3);
+      CHECK(residual(force[k], -tension * slope, tension) <= tolerance::recursion_differences);
+    }
+    if (!straight) continue;
+    const double x = radius * std::cos(angle), y = radius * std::sin(angle);
+    CHECK(residual(length, rod.length + q[6] - x * q[0] - y * q[1]) <= tolerance::rounding);
+    VectorXd expected = VectorXd::Zero(rod.size());
+    expected.head(2) << tension * x, tension * y;
+    expected[6] = -tension;
+    CHECK(residual(force, expected) <= tolerance::rounding);
   }
 }
 

@@ -16,7 +16,7 @@ struct Rod : RodFrames<S> {
   using Vectorm = Eigen::Matrix<S, m, 1, Eigen::ColMajor, max_m, 1>;
 
   using RodFrames<S>::base, RodFrames<S>::points, RodFrames<S>::axes, RodFrames<S>::rod,
-      RodFrames<S>::num_points, RodFrames<S>::move;
+      RodFrames<S>::move;
   using Point = typename RodFrames<S>::Point;
 
   Vector3<S> r;
@@ -27,7 +27,7 @@ struct Rod : RodFrames<S> {
 
   void update_position(const SectionParameters& section, const FrameState<S>& at, const S* q) {
     RodFrames<S>::update_position(section, at, q);
-    const int n = num_points();
+    const int n = rod->num_nodes();
     r = points[n - 1].r;
     J_omega = points[n - 1].J_omega;
     J_v = points[n - 1].J_v;
@@ -40,13 +40,13 @@ struct Rod : RodFrames<S> {
   }
   /// omega of the tip.
   [[nodiscard]] Vector3<S> turning_rate() const {
-    return base.omega + points[num_points() - 1].omega;
+    return base.omega + points[rod->num_nodes() - 1].omega;
   }
 
   template <bool turns>
   void update_velocity(const SectionParameters&, const Vector3<S>& omega, const S* qd) {
     base.omega = omega;
-    const int n = num_points();
+    const int n = rod->num_nodes();
     move(qd);
     bias = elastic;
     for (int i = 0; i < rod->size(); ++i) bias[i] += rod->damping[i] * qd[i];
@@ -84,13 +84,13 @@ struct Rod : RodFrames<S> {
 
   [[nodiscard]] Vector3<S> first_moment() const {
     Vector3<S> h = Vector3<S>::Zero();
-    for (int k = 0; k < num_points(); ++k) h += rod->nodes[k + 1].mass * points[k].r;
+    for (int k = 0; k < rod->num_nodes(); ++k) h += rod->nodes[k + 1].mass * points[k].r;
     return h;
   }
   [[nodiscard]] Matrix3<S> second_moment() const {
     S round(rod->nodes[0].inertia);
     Matrix3<S> J = round * base.z * base.z.transpose();
-    for (int k = 0; k < num_points(); ++k) {
+    for (int k = 0; k < rod->num_nodes(); ++k) {
       const Point& point = points[k];
       const RodNode& node = rod->nodes[k + 1];
       round += node.mass * point.r.squaredNorm() + node.inertia;
@@ -101,12 +101,12 @@ struct Rod : RodFrames<S> {
   }
   [[nodiscard]] Matrix3m linear_coupling() const {
     Matrix3m H = Matrix3m::Zero(3, rod->size());
-    for (int k = 0; k < num_points(); ++k) H += rod->nodes[k + 1].mass * points[k].J_v;
+    for (int k = 0; k < rod->num_nodes(); ++k) H += rod->nodes[k + 1].mass * points[k].J_v;
     return H;
   }
   [[nodiscard]] Matrix3m angular_coupling() const {
     Matrix3m N = Matrix3m::Zero(3, rod->size());
-    for (int k = 0; k < num_points(); ++k) {
+    for (int k = 0; k < rod->num_nodes(); ++k) {
       const Point& point = points[k];
       const RodNode& node = rod->nodes[k + 1];
       const Vector3<S> lever = node.mass * point.r;
@@ -121,7 +121,7 @@ struct Rod : RodFrames<S> {
   [[nodiscard]] Matrixm own_mass() const {
     const int size = rod->size();
     Matrixm M = Matrixm::Zero(size, size);
-    for (int k = 0; k < num_points(); ++k) {
+    for (int k = 0; k < rod->num_nodes(); ++k) {
       const Point& point = points[k];
       const RodNode& node = rod->nodes[k + 1];
       const Vectorm spin = point.J_omega.transpose().lazyProduct(point.t);

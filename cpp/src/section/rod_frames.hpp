@@ -27,14 +27,11 @@ struct RodFrames {
   std::array<Point, max_rod_nodes> points;
   Matrix3<S> axes;  // at the tip
 
-  /// Points but the base.
-  [[nodiscard]] int num_points() const { return static_cast<int>(rod->nodes.size()) - 1; }
-
   /// Places, tangents and Jacobians of all points.
   void update_position(const SectionParameters& section, const FrameState<S>& at, const S* q) {
     rod = section.rod.get();
     base = at;
-    const int size = rod->size(), n = num_points();
+    const int size = rod->size(), n = rod->num_nodes();
     axes = base.rotation();
     // dr/dx and d2r/dx2 at the nodes, and how they change with q; the base does not turn.
     std::array<Vector3<S>, max_rod_nodes + 1> first, second;
@@ -83,7 +80,7 @@ struct RodFrames {
 
   /// Velocities of all points, and accelerations from velocities alone, on a base at rest.
   void move(const S* qd) {
-    const int n = num_points();
+    const int n = rod->num_nodes();
     Vector3<S> omega = Vector3<S>::Zero(), omega_dot = Vector3<S>::Zero();
     // First and second derivatives in time of dr/dx and d2r/dx2 at the nodes.
     std::array<Vector3<S>, max_rod_nodes + 1> first_1, first_2, second_1, second_2;

@@ -26,6 +26,8 @@ struct RodParameters {
   explicit RodParameters(const RodDescription& rod);
 
   [[nodiscard]] int size() const noexcept { return first_stretch + num_stretch; }
+  /// But the base.
+  [[nodiscard]] int num_nodes() const noexcept { return static_cast<int>(nodes.size()) - 1; }
 
   int num_bending, num_twist, num_stretch;  // coefficients of each, two coordinates for one bending
   int first_twist, first_stretch;           // coordinates

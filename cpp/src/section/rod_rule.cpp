@@ -3,6 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "base/constants.hpp"
+
 namespace cdcr::detail {
 namespace {
 
@@ -147,28 +149,27 @@ std::array<LegendreValues, 3> step_of(Real from, Real to) {
 
 }  // namespace
 
-const std::vector<GaussPoint>& gauss_legendre() {
-  static const std::vector<GaussPoint> points = [] {
-    // Jacobi matrix of Legendre's polynomials on [0, 1]; found by Newton's method, which rounds
-    // less than its eigenvalues.
-    constexpr int count = 40;
-    Points all;
-    for (int k = 1; k <= count; ++k) {
-      Real s = -std::cos(3.14159265358979323846L * (k - 0.25L) / (count + 0.5L)), slope = 1.0L;
-      for (int iteration = 0; iteration < 20; ++iteration) {
-        Real before = 1.0L, p = s;
-        for (int j = 1; j < count; ++j) {
-          const Real next = ((2 * j + 1) * s * p - j * before) / (j + 1);
-          before = p;
-          p = next;
-        }
-        slope = count * (before - s * p) / (1.0L - s * s);
-        s -= p / slope;
+std::vector<GaussPoint> gauss_legendre(int count) {
+  std::vector<GaussPoint> all;
+  for (int k = 1; k <= count; ++k) {  // Newton's method, which rounds less than eigenvalues
+    Real s = -std::cos(pi * (k - 0.25L) / (count + 0.5L)), slope = 1.0L;
+    for (int iteration = 0; iteration < 20; ++iteration) {
+      Real before = 1.0L, p = s;
+      for (int j = 1; j < count; ++j) {
+        const Real next = ((2 * j + 1) * s * p - j * before) / (j + 1);
+        before = p;
+        p = next;
       }
-      all.push_back({(1.0L + s) / 2.0L, 1.0L / ((1.0L - s * s) * slope * slope)});
+      slope = count * (before - s * p) / (1.0L - s * s);
+      s -= p / slope;
     }
-    return all;
-  }();
+    all.push_back({(1.0L + s) / 2.0L, 1.0L / ((1.0L - s * s) * slope * slope)});
+  }
+  return all;
+}
+
+const std::vector<GaussPoint>& gauss_legendre() {
+  static const std::vector<GaussPoint> points = gauss_legendre(40);
   return points;
 }
 

@@ -46,10 +46,12 @@ struct RodNode {
 /// inertia up to degree num_nodes, integrals up to 2 num_nodes + 1. The base is not counted.
 [[nodiscard]] std::vector<RodNode> rod_nodes(const RodMass& rod, int num_nodes);
 
-/// Gauss-Legendre on [0, 1]: exact up to degree 79.
+/// Gauss-Legendre on [0, 1]: exact up to degree 2 count - 1.
 struct GaussPoint {
   long double x, weight;
 };
+[[nodiscard]] std::vector<GaussPoint> gauss_legendre(int count);
+/// The same of 40 points, more than anything here needs.
 [[nodiscard]] const std::vector<GaussPoint>& gauss_legendre();
 
 /// P_j(2x - 1) of all orders, and their derivatives with respect to x.
