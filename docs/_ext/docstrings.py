@@ -16,6 +16,7 @@ from sphinx.application import Sphinx
 PAPERS = {
     "cpp/README.md": ":doc:`the model on paper </explanation/model>`",
     "cpp/several-sections.md": ":doc:`several sections </explanation/several-sections>`",
+    "cpp/rods.md": ":doc:`rods </explanation/rods>`",
 }
 FILE = Path(__file__).parents[1] / "reference" / "examples.txt"
 

@@ -1,5 +1,5 @@
 // Laws of motion that hold for any robot in any state, for every kind of section: by the public
-// functions, and by the recursions over arcs and over the kinds of support/kinds.hpp.
+// functions, and by the recursions over arcs, rods and the kinds of support/kinds.hpp.
 #include <doctest/doctest.h>
 
 #include <Eigen/Eigenvalues>
@@ -103,11 +103,7 @@ TEST_CASE("bias is Lagrange's") {
       h[k] -= difference([&](double by) { return robot.kinetic(moved(s.q, k, by), s.qd); }, 0.02);
     }
     h += robot.gradient(s.q);
-    VectorXd damped(s.whole.qd.size());
-    for (Index i = 0; i < model.num_sections(); ++i) {
-      damped.segment(2 * i, 2) = model.damping()[i] * s.whole.qd.segment(2 * i, 2);
-    }
-    h += robot.select(damped);
+    h += robot.damped(model, s.whole.qd);
     const VectorXd found = robot.bias(s.q, s.qd);
     const double scale = largest(inertial_scale(M, s.qd)) + largest(found) + s.weight;
     CHECK(residual(found, h, scale) <= tolerance::lagrange);
@@ -116,6 +112,7 @@ TEST_CASE("bias is Lagrange's") {
 
 TEST_CASE("every kind moves as the robot of arcs that it stands for") {
   for_each_subject(all_numbers, [](Subject& robot, const Model& model, const LawState& s) {
+    if (!robot.moves_as_arcs()) return;
     Library arcs(model);
     const MatrixXd M = robot.mass_matrix(s.q), whole = arcs.mass_matrix(s.whole.q);
     MatrixXd rows(s.q.size(), whole.cols()), expected(s.q.size(), s.q.size());

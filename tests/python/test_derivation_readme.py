@@ -13,6 +13,7 @@ ROOT = Path(__file__).parents[2]
 CPP = ROOT / "cpp"
 README = (CPP / "README.md").read_text()
 SECTIONS = (CPP / "several-sections.md").read_text()
+RODS = (CPP / "rods.md").read_text()
 ORIGIN = (ROOT / "docs" / "origin-paper.md").read_text()
 
 
@@ -21,7 +22,7 @@ def blocks(document: str, language: str) -> list[str]:
     return re.findall(rf"^```{language}\n(.*?)^```", document, re.MULTILINE | re.DOTALL)
 
 
-FORMULAS = "".join(blocks(README, "text") + blocks(SECTIONS, "text"))
+FORMULAS = "".join(block for text in (README, SECTIONS, RODS) for block in blocks(text, "text"))
 EQUATIONS = [int(number) for number in re.findall(r" \((\d+)\)$", FORMULAS, re.MULTILINE)]
 
 
@@ -48,7 +49,7 @@ def quoted(text: str) -> list[int]:
 
 
 def test_equations_are_numbered_in_order() -> None:
-    assert list(range(1, 51)) == EQUATIONS
+    assert list(range(1, 65)) == EQUATIONS
 
 
 def test_equations_quoted_by_the_sources_exist() -> None:

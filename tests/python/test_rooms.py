@@ -19,7 +19,7 @@ SPINE = (
     *("description/*", "section/*", "chain/*", "dynamics/*", "loads/cable*"),
     *("integration/robot_ode.*", "integration/rk4.*", "integration/simulator.*"),
 )
-MOST_SPINE = 2580  # lines of code
+MOST_SPINE = 3480  # lines of code
 
 
 def folders_with_files() -> set[str]:

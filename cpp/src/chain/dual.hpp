@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <unsupported/Eigen/AutoDiff>
 
+#include "cdcr/robot.hpp"
 #include "section/polynomial_table.hpp"
 
 // Derivatives to rounding, without formulas: the recursions run on dual numbers.

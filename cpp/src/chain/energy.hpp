@@ -14,7 +14,8 @@ template <class Section, class S = typename Section::Scalar>
   S twice(0.0);
   for (Index i = 0; i < chain.num_sections(); ++i) {
     const Section& section = state.sections[i];
-    const Vectorm rate = Eigen::Map<const Vectorm>(qd + chain.first[i]);
+    const Index first = chain.first[i];
+    const Vectorm rate = Eigen::Map<const Vectorm>(qd + first, chain.first[i + 1] - first);
     const Vector3<S>& omega = section.base.omega;
     const Vector3<S> h_rate =
         omega.cross(section.first_moment()) + section.linear_coupling().lazyProduct(rate);

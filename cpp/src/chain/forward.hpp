@@ -9,10 +9,9 @@
 namespace cdcr::detail {
 
 /// Inverse of a symmetric positive definite matrix.
-template <class S, int m>
-[[nodiscard]] Eigen::Matrix<S, m, m> inverse_of(const Eigen::Matrix<S, m, m>& D) {
-  using Square = Eigen::Matrix<S, m, m>;
-  if constexpr (m == 2) {
+template <class Square, class S = typename Square::Scalar>
+[[nodiscard]] Square inverse_of(const Square& D) {
+  if constexpr (Square::RowsAtCompileTime == 2) {
     const S factor = 1.0 / (D(0, 0) * D(1, 1) - D(0, 1) * D(0, 1));
     const S across = -D(0, 1) * factor;
     Square inverse;
@@ -44,7 +43,7 @@ void forward_dynamics(const Chain& chain, const ChainState<Section>& state, cons
     const Section& section = state.sections[i];
     Solved& s = solved[i];
     Matrixm D = section.own_mass();
-    Vectorm b = section.bias - Eigen::Map<const Vectorm>(force + chain.first[i]);
+    Vectorm b = section.bias - Eigen::Map<const Vectorm>(force + chain.first[i], D.rows());
     Vector3<S> f_tip, m_tip;
     Matrix3m F, T;
     if constexpr (carries) {
@@ -62,7 +61,7 @@ void forward_dynamics(const Chain& chain, const ChainState<Section>& state, cons
     } else {
       s.U_v = section.linear_coupling();
     }
-    s.inverse = inverse_of<S, Section::m>(D);
+    s.inverse = inverse_of(D);
     s.u = s.inverse.lazyProduct(b);
     if (i == 0) return;  // its base neither turns nor passes anything on
 
@@ -99,7 +98,7 @@ void forward_dynamics(const Chain& chain, const ChainState<Section>& state, cons
     Vectorm w = s.U_v.transpose().lazyProduct(v);
     if (i > 0) w += s.U_omega.transpose().lazyProduct(omega);
     const Vectorm a = -s.u - s.inverse.lazyProduct(w);
-    Eigen::Map<Vectorm>(qdd + chain.first[i]) = a;
+    Eigen::Map<Vectorm>(qdd + chain.first[i], a.size()) = a;
     if (i + 1 == n) break;
     v += omega.cross(section.r) + section.J_v.lazyProduct(a) + section.tip_linear_bias;
     omega += section.J_omega.lazyProduct(a) + section.tip_angular_bias;

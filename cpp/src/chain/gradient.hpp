@@ -16,9 +16,9 @@ void potential_gradient(const Chain& chain, const ChainState<Section>& state, co
   for (Index i = chain.num_sections() - 1; i >= 0; --i) {
     const Section& section = state.sections[i];
     const SectionParameters& fixed = chain.sections[i];
-    const Index first = chain.first[i];
+    const Index first = chain.first[i], size = chain.first[i + 1] - first;
     const Vector3<S> weight = (mass * chain.gravity).template cast<S>();
-    Eigen::Map<typename Section::Vectorm>(gradient + first) =
+    Eigen::Map<typename Section::Vectorm>(gradient + first, size) =
         Section::elastic_force(fixed, q + first) -
         section.linear_coupling().transpose().lazyProduct(g) -
         section.J_omega.transpose().lazyProduct(moment) -

@@ -17,13 +17,13 @@ void inverse_dynamics(const Chain& chain, const ChainState<Section>& state, cons
   };
   const Index n = chain.num_sections();
   std::array<Inertial, max_sections> inertial;
-  Vectorm rate = Vectorm::Zero();
   // At a base at rest weight is an acceleration upwards.
   Vector3<S> alpha = Vector3<S>::Zero(), v = -chain.gravity.template cast<S>();
   for (Index i = 0; i < n; ++i) {
     const Section& section = state.sections[i];
-    const Index first = chain.first[i];
-    if (qdd != nullptr) rate = Eigen::Map<const Vectorm>(qdd + first);
+    const Index first = chain.first[i], size = chain.first[i + 1] - first;
+    Vectorm rate = Vectorm::Zero(size);
+    if (qdd != nullptr) rate = Eigen::Map<const Vectorm>(qdd + first, size);
     const Matrix3m H = section.linear_coupling();
     Vectorm own =
         section.bias + section.own_mass().lazyProduct(rate) + H.transpose().lazyProduct(v);
@@ -36,7 +36,7 @@ void inverse_dynamics(const Chain& chain, const ChainState<Section>& state, cons
                            h.cross(v) + N.lazyProduct(rate);
       own += N.transpose().lazyProduct(alpha);
     }
-    Eigen::Map<Vectorm>(force + first) = own;
+    Eigen::Map<Vectorm>(force + first, size) = own;
     v += alpha.cross(section.r) + section.J_v.lazyProduct(rate) + section.tip_linear_bias;
     alpha += section.J_omega.lazyProduct(rate) + section.tip_angular_bias;
   }
@@ -46,7 +46,8 @@ void inverse_dynamics(const Chain& chain, const ChainState<Section>& state, cons
   Vector3<S> pull = payload.force + payload.G.transpose() * alpha + payload.M * v;
   for (Index i = n - 1; i >= 0; --i) {
     const Section& section = state.sections[i];
-    Eigen::Map<Vectorm>(force + chain.first[i]) +=
+    const Index first = chain.first[i], size = chain.first[i + 1] - first;
+    Eigen::Map<Vectorm>(force + first, size) +=
         section.J_omega.transpose().lazyProduct(moment) + section.J_v.transpose().lazyProduct(pull);
     if (i == 0) break;
     moment += section.r.cross(pull) + inertial[i].moment;

@@ -12,11 +12,15 @@ void read(const PolynomialTable<N>& table, double sigma, Eigen::Array<double, N,
   table(sigma, f);
 }
 
-/// What is fixed about a constant-curvature section.
+struct RodParameters;
+
+/// What is fixed about a section, a constant-curvature one if it is no rod.
 struct SectionParameters {
   std::shared_ptr<const SectionTable> table;  // shared by sections that are equal
   const ArcTable* arcs;
   double length, mass, stiffness, damping;
+  std::shared_ptr<const RodParameters> rod =
+      nullptr;  // of a rod, which needs nothing else but mass
 };
 
 /// A circular arc from a section's base to a fraction of its length, cpp/several-sections.md

@@ -13,13 +13,14 @@
 #include "chain/mass_matrix.hpp"
 #include "chain_cases.hpp"
 #include "kinds.hpp"
+#include "rods.hpp"
 
 // What the battery of laws is tried on: the functions of motion of a robot, by the public functions
 // or by the recursions over sections of one kind.
 //
-// Every subject is made of a robot of arcs. adapted() is the robot that it can stand for, select()
-// its coordinates among those of that robot, and where the robot's other coordinates are zero both
-// move alike.
+// Every subject is made of a robot of arcs; but for those of more coordinates, adapted() is the
+// robot that it can stand for, select() its coordinates among those of that robot, and where the
+// robot's other coordinates are zero both move alike.
 
 namespace cdcr::test {
 
@@ -28,6 +29,17 @@ class Subject {
   virtual ~Subject() = default;
 
   [[nodiscard]] virtual VectorXd select(const VectorXd& whole) const { return whole; }
+  /// False of a subject that has more coordinates than its robot of arcs; select() then spreads
+  /// theirs over its own.
+  [[nodiscard]] virtual bool moves_as_arcs() const { return true; }
+  /// The force of damping at these rates, those of the robot of arcs being `whole`.
+  [[nodiscard]] virtual VectorXd damped(const Model& model, const VectorXd& whole) const {
+    VectorXd force(whole.size());
+    for (Index i = 0; i < model.num_sections(); ++i) {
+      force.segment(2 * i, 2) = model.damping()[i] * whole.segment(2 * i, 2);
+    }
+    return select(force);
+  }
 
   [[nodiscard]] virtual Index size() const = 0;
   virtual MatrixXd mass_matrix(const VectorXd& q) = 0;
@@ -91,6 +103,7 @@ class Recursion : public Subject {
 
   explicit Recursion(detail::Chain chain)
       : chain_(std::move(chain)), state_(std::make_unique<detail::ChainState<Section>>()) {
+    if (m == Eigen::Dynamic) return;  // the chain knows
     for (Index i = 0; i <= chain_.num_sections(); ++i) {
       chain_.first[static_cast<std::size_t>(i)] = i * m;
     }
@@ -184,6 +197,51 @@ struct Pairs final : Recursion<Pair<double>> {
   }
 };
 
+/// Rods of these orders in place of arcs; those of order 0 alone move as arcs.
+template <int bending_order, int twist_order, int stretch_order>
+struct Rods final : Recursion<detail::Rod<double>> {
+  static constexpr int m = 2 * (bending_order + 1) + twist_order + 1 + stretch_order + 1;
+  static Robot adapted(Robot robot) { return robot; }
+
+  explicit Rods(const Model& model)
+      : Recursion(chain_of_rods(detail::Chain(model.robot()), described(model.robot()))) {}
+
+  [[nodiscard]] bool moves_as_arcs() const override { return m == 2; }
+  [[nodiscard]] VectorXd select(const VectorXd& whole) const override {
+    VectorXd all = VectorXd::Zero(size());
+    for (Index i = 0; i < chain_.num_sections(); ++i) {
+      const double x = whole[2 * i], y = whole[2 * i + 1];
+      for (int k = 0; k < m; k += 2) {  // less of each order than of the one before
+        const double share = std::pow(0.5, k / 2);
+        all[m * i + k] = share * (k % 4 == 0 ? x : -y);
+        if (k + 1 < m) all[m * i + k + 1] = share * (k % 4 == 0 ? y : x);
+      }
+      for (int k = m - 1 - stretch_order; k < m; ++k) {
+        all[m * i + k] *= 0.1 * chain_.sections[static_cast<std::size_t>(i)].rod->length;
+      }
+    }
+    return all;
+  }
+  [[nodiscard]] VectorXd damped(const Model&, const VectorXd& whole) const override {
+    VectorXd force = select(whole);
+    for (Index i = 0; i < chain_.num_sections(); ++i) {
+      force.segment(m * i, m).array() *=
+          chain_.sections[static_cast<std::size_t>(i)].rod->damping.array();
+    }
+    return force;
+  }
+
+ private:
+  static std::vector<detail::RodDescription> described(const Robot& robot) {
+    std::vector<detail::RodDescription> rods;
+    for (const cdcr::Section& section : robot.sections) {
+      rods.push_back(described_rod(section, bending_order, twist_order, stretch_order));
+      if (m == 2) rods.back().num_nodes = 24;  // as exact as an arc, bent by a full turn
+    }
+    return rods;
+  }
+};
+
 /// A state of a subject, and the same of the robot of arcs that it is made of.
 struct LawState {
   ChainState whole;
@@ -224,6 +282,8 @@ inline void for_each_subject(const std::vector<int>& numbers, const LawBody& bod
   for_each_of<Arcs>("arcs", numbers, body);
   for_each_of<Planars>("planar sections", numbers, body);
   for_each_of<Pairs>("pairs of arcs", numbers, body);
+  for_each_of<Rods<0, -1, -1>>("rods of order 0", numbers, body);
+  for_each_of<Rods<2, 1, 0>>("rods", numbers, body);
 }
 
 }  // namespace cdcr::test

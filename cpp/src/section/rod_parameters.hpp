@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "section/rod_rule.hpp"
+
+namespace cdcr::detail {
+
+/// Largest number of coordinates of a rod: orders 4 of bending, twist and stretch.
+inline constexpr int max_rod_coordinates = 4 * (max_legendre_order + 1);
+
+/// A section whose bending, twist and stretch vary along it, cpp/rods.md eq. (51).
+struct RodDescription {
+  double length = 0.0;  // [m]
+  RodMass mass;
+  double youngs_modulus = 0.0, shear_modulus = 0.0;                  // [Pa]
+  double damping = 0.0, twist_damping = 0.0, stretch_damping = 0.0;  // of strain rates
+  int bending_order = 0, twist_order = -1, stretch_order = -1;       // -1: locked
+  int num_nodes = 12;
+};
+
+/// What is fixed about a rod. Its coordinates are the Legendre coefficients of the bending vector
+/// (x, y of each order), then of the twist, then of the stretch.
+struct RodParameters {
+  explicit RodParameters(const RodDescription& rod);
+
+  [[nodiscard]] int size() const noexcept { return first_stretch + num_stretch; }
+  /// But the base.
+  [[nodiscard]] int num_nodes() const noexcept { return static_cast<int>(nodes.size()) - 1; }
+
+  int num_bending, num_twist, num_stretch;  // coefficients of each, two coordinates for one bending
+  int first_twist, first_stretch;           // coordinates
+  double length, mass;
+  std::vector<RodNode> nodes;
+  MatrixXd stiffness;  // elastic energy q^T stiffness q/2
+  VectorXd damping;
+};
+
+}  // namespace cdcr::detail

@@ -1,0 +1,218 @@
+#include "section/rod_rule.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "base/constants.hpp"
+
+namespace cdcr::detail {
+namespace {
+
+using Real = long double;
+using RealVector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+
+// A backbone this light beside the whole is none: its rule would be that of the disks alone.
+constexpr Real least_backbone_share = 1e-6L;
+
+/// Points x with weights: a discrete measure on [0, 1].
+using Points = std::vector<GaussPoint>;
+
+/// Recursion coefficients of the polynomials orthogonal with respect to a measure, by Stieltjes'
+/// procedure, made into the Jacobi matrix of its Gauss or Gauss-Radau rule (Golub, Welsch).
+class JacobiMatrix {
+ public:
+  JacobiMatrix(const Points& measure, int size)
+      : diagonal_(RealVector::Zero(size)), next_(RealVector::Zero(size)) {
+    std::vector<Real> before(measure.size(), 0.0L), p(measure.size(), 1.0L);
+    Real norm_before = 1.0L, squared = 0.0L;  // squared: the next diagonal's, over that before
+    for (int k = 0; k < size; ++k) {
+      Real norm = 0.0L, first = 0.0L;
+      for (std::size_t i = 0; i < measure.size(); ++i) {
+        const Real w = measure[i].weight * p[i] * p[i];
+        norm += w;
+        first += w * measure[i].x;
+      }
+      if (k == 0) total_ = norm;
+      squared = k == 0 ? 0.0L : norm / norm_before;
+      diagonal_[k] = first / norm;
+      next_[k] = std::sqrt(squared);
+      norm_before = norm;
+      // The polynomial at x = 1 goes along, for the rule that has a node there.
+      const Real end = (1.0L - diagonal_[k]) * end_ - squared * end_before_;
+      if (k + 1 == size) break;
+      end_before_ = end_;
+      end_ = end;
+      for (std::size_t i = 0; i < measure.size(); ++i) {
+        const Real q = (measure[i].x - diagonal_[k]) * p[i] - squared * before[i];
+        before[i] = p[i];
+        p[i] = q;
+      }
+    }
+    last_squared_ = squared;
+  }
+
+  /// Makes x = 1 the last node.
+  void fix_end() { diagonal_[diagonal_.size() - 1] = 1.0L - last_squared_ * end_before_ / end_; }
+
+  [[nodiscard]] Points rule() const {
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>> solver;
+    solver.computeFromTridiagonal(diagonal_, next_.tail(next_.size() - 1));
+    Points points;
+    for (Index k = 0; k < diagonal_.size(); ++k) {
+      const Real v = solver.eigenvectors()(0, k);
+      points.push_back({solver.eigenvalues()[k], total_ * v * v});
+    }
+    return points;
+  }
+
+ private:
+  RealVector diagonal_, next_;
+  Real total_ = 0.0L, end_before_ = 0.0L, end_ = 1.0L, last_squared_ = 0.0L;
+};
+
+/// Cardinal function: 1 at node j, 0 at the others.
+Real cardinal(const std::vector<Real>& nodes, std::size_t j, Real x) {
+  Real value = 1.0L;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    if (k != j) value *= (x - nodes[k]) / (nodes[j] - nodes[k]);
+  }
+  return value;
+}
+
+/// Points whose weights are masses [kg], and the same of moments of inertia I_t [kg m^2].
+struct Measures {
+  Points mass, inertia;
+};
+
+Measures measures_of(const RodMass& rod) {
+  const Real inner = static_cast<Real>(rod.inner_diameter) * rod.inner_diameter;
+  const auto squared_diameter = [&](Real x) {
+    const Real d =
+        rod.base_diameter + x * (static_cast<Real>(rod.tip_diameter) - rod.base_diameter);
+    return d * d;
+  };
+  Real volume = 0.0L;
+  for (const auto& [x, weight] : gauss_legendre()) volume += weight * (squared_diameter(x) - inner);
+  Measures measures;
+  for (const auto& [x, weight] : gauss_legendre()) {
+    const Real d2 = squared_diameter(x);
+    const Real m = rod.backbone_mass * weight * (d2 - inner) / volume;
+    measures.mass.push_back({x, m});
+    measures.inertia.push_back({x, m * (d2 + inner) / 16.0L});
+  }
+  for (const Disk& disk : rod.disks) {
+    const Real d = disk.diameter;
+    measures.mass.push_back({disk.position, disk.mass});
+    measures.inertia.push_back({disk.position, disk.mass * d * d / 16.0L});
+  }
+  return measures;
+}
+
+/// Weights at the nodes that sum up polynomials as the measure does, as far as these are enough.
+std::vector<Real> interpolated(const Points& measure, const std::vector<Real>& nodes) {
+  std::vector<Real> weights(nodes.size(), 0.0L);
+  for (std::size_t j = 0; j < nodes.size(); ++j) {
+    for (const auto& [x, weight] : measure) weights[j] += weight * cardinal(nodes, j, x);
+  }
+  return weights;
+}
+
+/// Weights at node j of int_0^x f dx, by the polynomial that has f and df/dx at all nodes
+/// (Hermite).
+RodNode::Weight hermite_integral(const std::vector<Real>& nodes, std::size_t j, Real x) {
+  Real steepness = 0.0L;  // of the cardinal function at its node
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    if (k != j) steepness += 1.0L / (nodes[j] - nodes[k]);
+  }
+  Real value = 0.0L, slope = 0.0L;
+  for (const auto& [fraction, weight] : gauss_legendre()) {
+    const Real from = x * fraction - nodes[j], l = cardinal(nodes, j, x * fraction);
+    value += x * weight * (1.0L - 2.0L * steepness * from) * l * l;
+    slope += x * weight * from * l * l;
+  }
+  return {static_cast<double>(value), static_cast<double>(slope)};
+}
+
+/// The Magnus coefficients of a step, from three Gauss points in it.
+std::array<LegendreValues, 3> step_of(Real from, Real to) {
+  const Real h = to - from, centre = (from + to) / 2.0L, root = std::sqrt(15.0L);
+  const auto low = legendre(centre - h * root / 10.0L), middle = legendre(centre),
+             high = legendre(centre + h * root / 10.0L);
+  std::array<LegendreValues, 3> step{};
+  for (std::size_t j = 0; j <= max_legendre_order; ++j) {
+    step[0][j] = static_cast<double>(h * middle[j]);
+    step[1][j] = static_cast<double>(h * root / 3.0L * (high[j] - low[j]));
+    step[2][j] = static_cast<double>(h * 10.0L / 3.0L * (high[j] - 2.0L * middle[j] + low[j]));
+  }
+  return step;
+}
+
+}  // namespace
+
+std::vector<GaussPoint> gauss_legendre(int count) {
+  std::vector<GaussPoint> all;
+  for (int k = 1; k <= count; ++k) {  // Newton's method, which rounds less than eigenvalues
+    Real s = -std::cos(pi * (k - 0.25L) / (count + 0.5L)), slope = 1.0L;
+    for (int iteration = 0; iteration < 20; ++iteration) {
+      Real before = 1.0L, p = s;
+      for (int j = 1; j < count; ++j) {
+        const Real next = ((2 * j + 1) * s * p - j * before) / (j + 1);
+        before = p;
+        p = next;
+      }
+      slope = count * (before - s * p) / (1.0L - s * s);
+      s -= p / slope;
+    }
+    all.push_back({(1.0L + s) / 2.0L, 1.0L / ((1.0L - s * s) * slope * slope)});
+  }
+  return all;
+}
+
+const std::vector<GaussPoint>& gauss_legendre() {
+  static const std::vector<GaussPoint> points = gauss_legendre(40);
+  return points;
+}
+
+std::vector<RodNode> rod_nodes(const RodMass& rod, int num_nodes) {
+  const Measures measures = measures_of(rod);
+  Real total = 0.0L;
+  for (const GaussPoint& point : measures.mass) total += point.weight;
+  const bool light = !(rod.backbone_mass > least_backbone_share * total);
+  JacobiMatrix jacobi(light ? gauss_legendre() : measures.mass, num_nodes);
+  jacobi.fix_end();
+  const Points rule = jacobi.rule();
+
+  std::vector<Real> nodes{0.0L}, mass{0.0L};
+  for (const GaussPoint& point : rule) {
+    nodes.push_back(point.x);
+    mass.push_back(point.weight);
+  }
+  nodes.back() = 1.0L;
+  if (light) mass = interpolated(measures.mass, nodes);
+  const std::vector<Real> inertia = interpolated(measures.inertia, nodes);
+
+  std::vector<RodNode> all(nodes.size());
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const Real x = nodes[k];
+    RodNode& node = all[k];
+    node = {static_cast<double>(x),
+            static_cast<double>(mass[k]),
+            static_cast<double>(inertia[k]),
+            {},
+            {},
+            {},
+            {}};
+    const auto P = legendre(x), slope = legendre_slope(x);
+    for (std::size_t j = 0; j < P.size(); ++j) {
+      node.legendre[j] = static_cast<double>(P[j]);
+      node.legendre_slope[j] = static_cast<double>(slope[j]);
+    }
+    if (k > 0) node.step = step_of(nodes[k - 1], x);
+    for (std::size_t j = 0; j < nodes.size(); ++j) {
+      node.integral[j] = hermite_integral(nodes, j, x);
+    }
+  }
+  return all;
+}
+
+}  // namespace cdcr::detail

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "cdcr/robot.hpp"
+
+// Nodes along a rod: where its frames are computed and its mass is summed up
+// (cpp/rods.md eqs. (53), (54), (57)).
+
+namespace cdcr::detail {
+
+/// What a rod weighs, and where: a backbone uniform in volume, and disks.
+struct RodMass {
+  double backbone_mass;                // [kg]
+  double base_diameter, tip_diameter;  // linear in between [m]
+  double inner_diameter;               // of a tube, otherwise 0 [m]
+  std::vector<Disk> disks;
+};
+
+inline constexpr int min_rod_nodes = 3;
+inline constexpr int max_rod_nodes = 32;
+inline constexpr int max_legendre_order = 4;
+
+/// P_j(2x - 1), j = 0..max_legendre_order.
+using LegendreValues = std::array<double, max_legendre_order + 1>;
+
+/// A point of a rod; the first is the base, the last the tip.
+struct RodNode {
+  double x;        // fraction of the length
+  double mass;     // weight in sums over the rod's mass [kg]
+  double inertia;  // the same of I_t, about a diameter; 2 I_t about the axis [kg m^2]
+  LegendreValues legendre, legendre_slope;  // at x
+  // From the node before to this one: alpha_1, alpha_2, alpha_3 of the Magnus series (magnus.hpp)
+  // are sums over j of these times the coefficients u_j.
+  std::array<LegendreValues, 3> step;
+  // int_0^x f dx is the sum of value f + slope df/dx over all nodes.
+  struct Weight {
+    double value, slope;
+  };
+  std::array<Weight, max_rod_nodes + 1> integral;
+};
+
+/// Nodes at the base and at the Gauss-Radau rule of the rod's mass, whose last one is the tip: sums
+/// over the mass are exact for polynomials up to degree 2 num_nodes - 2, those over the moments of
+/// inertia up to degree num_nodes, integrals up to 2 num_nodes + 1. The base is not counted.
+[[nodiscard]] std::vector<RodNode> rod_nodes(const RodMass& rod, int num_nodes);
+
+/// Gauss-Legendre on [0, 1]: exact up to degree 2 count - 1.
+struct GaussPoint {
+  long double x, weight;
+};
+[[nodiscard]] std::vector<GaussPoint> gauss_legendre(int count);
+/// The same of 40 points, more than anything here needs.
+[[nodiscard]] const std::vector<GaussPoint>& gauss_legendre();
+
+/// P_j(2x - 1) of all orders, and their derivatives with respect to x.
+template <class Real>
+[[nodiscard]] std::array<Real, max_legendre_order + 1> legendre(Real x) {
+  const Real s = 2 * x - 1;
+  std::array<Real, max_legendre_order + 1> P{1, s};
+  for (int j = 1; j < max_legendre_order; ++j) {
+    P[j + 1] = ((2 * j + 1) * s * P[j] - j * P[j - 1]) / (j + 1);
+  }
+  return P;
+}
+template <class Real>
+[[nodiscard]] std::array<Real, max_legendre_order + 1> legendre_slope(Real x) {
+  const auto P = legendre(x);
+  std::array<Real, max_legendre_order + 1> slope{0, 2};
+  for (int j = 1; j < max_legendre_order; ++j) {
+    slope[j + 1] = slope[j - 1] + 2 * (2 * j + 1) * P[j];
+  }
+  return slope;
+}
+
+}  // namespace cdcr::detail
