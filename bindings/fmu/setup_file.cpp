@@ -41,7 +41,7 @@ void put(const Values& values, Vector3d& item) {
 }
 template <int n, int options>
 void put(const Values& values, Eigen::Matrix<double, n, n, options>& item) {  // by rows
-  need(values, n * n);
+  need(values, static_cast<std::size_t>(item.size()));
   item = Eigen::Map<const Eigen::Matrix<double, n, n>>(values.data()).transpose();
 }
 
