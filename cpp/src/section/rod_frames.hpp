@@ -61,9 +61,9 @@ struct RodFrames {
         J_second[k].col(2 * i + 1) += (node.legendre[i] * length) * y;
       }
       for (int i = 0; i < rod->num_stretch; ++i) {
-        const int at = rod->first_stretch + i;
-        J_first[k].col(at) = node.legendre[i] * z;
-        J_second[k].col(at) = node.legendre[i] * bent + node.legendre_slope[i] * z;
+        const int column = rod->first_stretch + i;
+        J_first[k].col(column) = node.legendre[i] * z;
+        J_second[k].col(column) = node.legendre[i] * bent + node.legendre_slope[i] * z;
       }
     }
     for (int k = 0; k < n; ++k) {
@@ -96,8 +96,8 @@ struct RodFrames {
         points[k - 1].omega = omega;
         points[k - 1].omega_dot = omega_dot;
       }
-      const Matrix3<S>& axes = k < n ? steps[k].from : this->axes;
-      const auto x = axes.col(0), y = axes.col(1), z = axes.col(2);
+      const Matrix3<S>& here = k < n ? steps[k].from : axes;
+      const auto x = here.col(0), y = here.col(1), z = here.col(2);
       const Strain &e = local[k], rate = strain_of(k, qd);
       const S length = rod->length + e.stretch;
       const Vector3<S> bent = e.q_x * x + e.q_y * y, bending = rate.q_x * x + rate.q_y * y;
