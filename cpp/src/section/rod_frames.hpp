@@ -61,19 +61,25 @@ struct RodFrames {
         J_second[k].col(2 * i + 1) += (node.legendre[i] * length) * y;
       }
       for (int i = 0; i < rod->num_stretch; ++i) {
-        const int at = rod->first_stretch + i;
-        J_first[k].col(at) = node.legendre[i] * z;
-        J_second[k].col(at) = node.legendre[i] * bent + node.legendre_slope[i] * z;
+        const int column = rod->first_stretch + i;
+        J_first[k].col(column) = node.legendre[i] * z;
+        J_second[k].col(column) = node.legendre[i] * bent + node.legendre_slope[i] * z;
       }
     }
     for (int k = 0; k < n; ++k) {
       Point& point = points[k];
-      point.r.setZero();
-      point.J_v.setZero(3, size);
-      for (int j = 0; j <= n; ++j) {
-        const RodNode::Weight& weight = rod->nodes[k + 1].integral[j];
+      if (k == 0) {
+        point.r.setZero();
+        point.J_v.setZero(3, size);
+      } else {
+        point.r = points[k - 1].r;
+        point.J_v = points[k - 1].J_v;
+      }
+      int j = rod->nodes[k + 1].first_neighbour;
+      for (const RodNode::Weight& weight : rod->nodes[k + 1].integral) {
         point.r += weight.value * first[j] + weight.slope * second[j];
         point.J_v += weight.value * J_first[j] + weight.slope * J_second[j];
+        ++j;
       }
     }
   }
@@ -90,8 +96,8 @@ struct RodFrames {
         points[k - 1].omega = omega;
         points[k - 1].omega_dot = omega_dot;
       }
-      const Matrix3<S>& axes = k < n ? steps[k].from : this->axes;
-      const auto x = axes.col(0), y = axes.col(1), z = axes.col(2);
+      const Matrix3<S>& here = k < n ? steps[k].from : axes;
+      const auto x = here.col(0), y = here.col(1), z = here.col(2);
       const Strain &e = local[k], rate = strain_of(k, qd);
       const S length = rod->length + e.stretch;
       const Vector3<S> bent = e.q_x * x + e.q_y * y, bending = rate.q_x * x + rate.q_y * y;
@@ -108,12 +114,18 @@ struct RodFrames {
     }
     for (int k = 0; k < n; ++k) {
       Point& point = points[k];
-      point.v.setZero();
-      point.v_dot.setZero();
-      for (int j = 0; j <= n; ++j) {
-        const RodNode::Weight& weight = rod->nodes[k + 1].integral[j];
+      if (k == 0) {
+        point.v.setZero();
+        point.v_dot.setZero();
+      } else {
+        point.v = points[k - 1].v;
+        point.v_dot = points[k - 1].v_dot;
+      }
+      int j = rod->nodes[k + 1].first_neighbour;
+      for (const RodNode::Weight& weight : rod->nodes[k + 1].integral) {
         point.v += weight.value * first_1[j] + weight.slope * second_1[j];
         point.v_dot += weight.value * first_2[j] + weight.slope * second_2[j];
+        ++j;
       }
     }
   }
@@ -187,15 +199,15 @@ struct RodFrames {
     } else {
       J = points[k - 1].J_omega;
     }
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < rod->num_bending; ++j) {
-        J.col(2 * j) += weight[i][j] * slope[i].col(1);
-        J.col(2 * j + 1) -= weight[i][j] * slope[i].col(0);
-      }
-      for (int j = 0; j < rod->num_twist; ++j) {
-        J.col(rod->first_twist + j) += weight[i][j] * slope[i].col(2);
-      }
+    const auto about = [&](int axis, int j) -> Vector3<S> {
+      return weight[0][j] * slope[0].col(axis) + weight[1][j] * slope[1].col(axis) +
+             weight[2][j] * slope[2].col(axis);
+    };
+    for (int j = 0; j < rod->num_bending; ++j) {
+      J.col(2 * j) += about(1, j);
+      J.col(2 * j + 1) -= about(0, j);
     }
+    for (int j = 0; j < rod->num_twist; ++j) J.col(rod->first_twist + j) += about(2, j);
   }
 
   /// From omega and its rate at the point before to those at point k.

@@ -1,6 +1,7 @@
 #include "section/rod_rule.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "base/constants.hpp"
@@ -117,20 +118,25 @@ std::vector<Real> interpolated(const Points& measure, const std::vector<Real>& n
   return weights;
 }
 
-/// Weights at node j of int_0^x f dx, by the polynomial that has f and df/dx at all nodes
-/// (Hermite).
-RodNode::Weight hermite_integral(const std::vector<Real>& nodes, std::size_t j, Real x) {
-  Real steepness = 0.0L;  // of the cardinal function at its node
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    if (k != j) steepness += 1.0L / (nodes[j] - nodes[k]);
+/// Weights of the integral from one place to another, by the polynomial that has f and df/dx at
+/// these nodes (Hermite).
+std::vector<RodNode::Weight> hermite_integral(const std::vector<Real>& nodes, Real from, Real to) {
+  std::vector<RodNode::Weight> weights;
+  for (std::size_t j = 0; j < nodes.size(); ++j) {
+    Real steepness = 0.0L;  // of the cardinal function at its node
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      if (k != j) steepness += 1.0L / (nodes[j] - nodes[k]);
+    }
+    Real value = 0.0L, slope = 0.0L;
+    for (const auto& [fraction, weight] : gauss_legendre()) {
+      const Real x = from + fraction * (to - from), beside = x - nodes[j];
+      const Real l = cardinal(nodes, j, x), share = (to - from) * weight * l * l;
+      value += share * (1.0L - 2.0L * steepness * beside);
+      slope += share * beside;
+    }
+    weights.push_back({static_cast<double>(value), static_cast<double>(slope)});
   }
-  Real value = 0.0L, slope = 0.0L;
-  for (const auto& [fraction, weight] : gauss_legendre()) {
-    const Real from = x * fraction - nodes[j], l = cardinal(nodes, j, x * fraction);
-    value += x * weight * (1.0L - 2.0L * steepness * from) * l * l;
-    slope += x * weight * from * l * l;
-  }
-  return {static_cast<double>(value), static_cast<double>(slope)};
+  return weights;
 }
 
 /// The Magnus coefficients of a step, from three Gauss points in it.
@@ -195,22 +201,20 @@ std::vector<RodNode> rod_nodes(const RodMass& rod, int num_nodes) {
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const Real x = nodes[k];
     RodNode& node = all[k];
-    node = {static_cast<double>(x),
-            static_cast<double>(mass[k]),
-            static_cast<double>(inertia[k]),
-            {},
-            {},
-            {},
-            {}};
+    node.x = static_cast<double>(x);
+    node.mass = static_cast<double>(mass[k]);
+    node.inertia = static_cast<double>(inertia[k]);
     const auto P = legendre(x), slope = legendre_slope(x);
     for (std::size_t j = 0; j < P.size(); ++j) {
       node.legendre[j] = static_cast<double>(P[j]);
       node.legendre_slope[j] = static_cast<double>(slope[j]);
     }
-    if (k > 0) node.step = step_of(nodes[k - 1], x);
-    for (std::size_t j = 0; j < nodes.size(); ++j) {
-      node.integral[j] = hermite_integral(nodes, j, x);
-    }
+    if (k == 0) continue;
+    node.step = step_of(nodes[k - 1], x);
+    const int count = std::min(num_neighbours, num_nodes + 1), middle = static_cast<int>(k);
+    node.first_neighbour = std::clamp(middle - count / 2, 0, num_nodes + 1 - count);
+    const auto first = nodes.begin() + node.first_neighbour;
+    node.integral = hermite_integral({first, first + count}, nodes[k - 1], x);
   }
   return all;
 }

@@ -20,6 +20,8 @@ struct RodMass {
 
 inline constexpr int min_rod_nodes = 3;
 inline constexpr int max_rod_nodes = 32;
+/// Nodes whose values and slopes an integral from one node to the next is made of.
+inline constexpr int num_neighbours = 6;
 inline constexpr int max_legendre_order = 4;
 
 /// P_j(2x - 1), j = 0..max_legendre_order.
@@ -34,16 +36,18 @@ struct RodNode {
   // From the node before to this one: alpha_1, alpha_2, alpha_3 of the Magnus series (magnus.hpp)
   // are sums over j of these times the coefficients u_j.
   std::array<LegendreValues, 3> step;
-  // int_0^x f dx is the sum of value f + slope df/dx over all nodes.
+  // The integral of f over the same is the sum of value f + slope df/dx over the nodes from this
+  // on.
   struct Weight {
     double value, slope;
   };
-  std::array<Weight, max_rod_nodes + 1> integral;
+  int first_neighbour;
+  std::vector<Weight> integral;
 };
 
 /// Nodes at the base and at the Gauss-Radau rule of the rod's mass, whose last one is the tip: sums
 /// over the mass are exact for polynomials up to degree 2 num_nodes - 2, those over the moments of
-/// inertia up to degree num_nodes, integrals up to 2 num_nodes + 1. The base is not counted.
+/// inertia up to degree num_nodes. The base is not counted.
 [[nodiscard]] std::vector<RodNode> rod_nodes(const RodMass& rod, int num_nodes);
 
 /// Gauss-Legendre on [0, 1]: exact up to degree 2 count - 1.

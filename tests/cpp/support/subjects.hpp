@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -236,7 +237,8 @@ struct Rods final : Recursion<detail::Rod<double>> {
     std::vector<detail::RodDescription> rods;
     for (const cdcr::Section& section : robot.sections) {
       rods.push_back(described_rod(section, bending_order, twist_order, stretch_order));
-      if (m == 2) rods.back().num_nodes = 24;  // as exact as an arc, bent by a full turn
+      // As exact as an arc, bent by a full turn.
+      if (m == 2) rods.back().num_nodes = detail::max_rod_nodes;
     }
     return rods;
   }
