@@ -51,7 +51,8 @@ def nonlinear_system(
     Raises
     ------
     ValueError
-        For unknown outputs, limits out of order and a robot without inertia; in a simulation, for a state that is none.
+        For unknown outputs, limits out of order and a robot without inertia; in a simulation, for
+        a state that is none.
     ImportError
         Where python-control is missing.
 
