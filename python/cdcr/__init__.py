@@ -16,7 +16,16 @@ except ImportError as error:  # pragma: no cover
     ) from error
 
 from cdcr import robots
-from cdcr._core import Controller, Equilibrium, Simulator, Stats, Status, max_bending, taylor_range
+from cdcr._core import (
+    Allocation,
+    Controller,
+    Equilibrium,
+    Simulator,
+    Stats,
+    Status,
+    max_bending,
+    taylor_range,
+)
 from cdcr.model.coordinates import bending, polar
 from cdcr.model.inverse_kinematics import InverseKinematics
 from cdcr.model.model import Model
@@ -45,6 +54,7 @@ if TYPE_CHECKING:
 __version__: str = _core.__version__
 
 __all__ = [
+    "Allocation",
     "Cable",
     "Controller",
     "ConvergenceError",

@@ -254,6 +254,29 @@ def test_what_no_gain_can_do_is_said() -> None:
         cdcr.control.lqr(None, [0.0], [0.0], 1.0, 1.0)  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize(
+    ("given", "sentence"),
+    [
+        ({"period": 100.0}, r"period must be shorter beside the 0\.8\d* s .*, got 100 s"),
+        ({"period": 1e3}, "period must be shorter"),
+        ({"period": 1e6}, r"period must be shorter .*, got 1e\+06 s"),
+        ({"R": 1e-300}, "although all motions decay by themselves: Q and R must be nearer"),
+        ({"Q": 1e300}, "Q and R must be nearer"),
+    ],
+)
+@pytest.mark.filterwarnings("error")
+def test_numbers_too_far_apart_are_said_to_be_so(given: dict[str, Any], sentence: str) -> None:
+    model = cdcr.Model(cdcr.robots.amouri2020(damping=0.01))
+    arguments: dict[str, Any] = {"Q": 1.0, "R": 0.01} | given
+    with pytest.raises(ValueError, match=sentence):
+        cdcr.control.lqr(model, model.equilibrium(PULL), PULL, **arguments)
+
+
+def test_no_equation_of_motion_without_inertia() -> None:
+    with pytest.raises(ValueError, match="no dynamics, because section 2 can bend without moving"):
+        cdcr.control.nonlinear_system(cdcr.Model(cdcr.robots.rao2021()))
+
+
 def test_refusals_of_systems(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(ValueError, match=r"there is no output 'tips'. Did you mean 'tip'\?"):
         ONE.to_statespace(outputs="tips")

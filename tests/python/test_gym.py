@@ -334,9 +334,9 @@ def test_more_refusals() -> None:
         env.reset(options={"q": [0.0, 0.0, 0.8]})
     env.reset(seed=0)
     for action in ([0.0], np.zeros(4), np.zeros((1, 3)), 0.0):
-        with pytest.raises(ValueError, match="action must be 3 numbers for each robot, got shape"):
+        with pytest.raises(ValueError, match=r"action must have shape \(3,\), got"):
             env.step(action)  # type: ignore[arg-type]
-    with pytest.raises(ValueError, match=r"tension\[0\] must be finite, got nan"):
+    with pytest.raises(ValueError, match=r"action\[0\] must be finite, got nan"):
         env.step(np.array([np.nan, 0.0, 0.0], dtype=np.float32))
     with pytest.raises(ValueError, match="num_envs must be a whole number >= 1, got 0"):
         RobotVectorEnv(0)
@@ -355,3 +355,20 @@ def test_the_extra_is_named_where_it_is_missing() -> None:
     assert 'gymnasium is needed for this and could not be imported: pip install "cdcr[gym]"' in (
         run.stderr
     )
+
+
+def test_a_step_before_the_first_reset() -> None:
+    for env in (RobotEnv(), RobotVectorEnv(2)):
+        with pytest.raises(RuntimeError, match=r"reset\(\) must be called before the first step"):
+            env.step(env.action_space.sample())
+
+
+def test_actions_and_ranges_that_are_none() -> None:
+    env = RobotEnv()
+    env.reset(seed=0)
+    with pytest.raises(ValueError, match="action must"):
+        env.step("a")  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match=r"action must have shape \(3,\), got \(2,\)"):
+        env.step(np.zeros(2, dtype=np.float32))
+    with pytest.raises(ValueError, match=r"randomization must be a mapping .*, got \[1\] \(list\)"):
+        RobotEnv(randomization=[1])  # type: ignore[arg-type]

@@ -77,33 +77,34 @@ ROWS = np.ones((2, 3))
         ("much", "tension must be numbers of shape (3,), got str"),
         (ROWS, "tension must have shape (3,), got (2, 3)"),
         (
-            cdcr.TensionTable([0.0, 1.0], ROWS[:, :2]),
+            ([0.0, 1.0], ROWS[:, :2]),
             "the table's tension must have shape (2, 3), got (2, 2)",
         ),
         (
-            cdcr.TensionTable([0.0, 1.0, 2.0], ROWS),
-            "the table's tension must have shape (3, 3), got (2, 3)",
+            ([0.0, 1.0, 2.0], ROWS),
+            "the table's tension must have shape (3, num_cables), got (2, 3)",
         ),
         (
-            cdcr.TensionTable([[0.0, 1.0]], ROWS),
+            ([[0.0, 1.0]], ROWS),
             "the table's t must have shape (any,), got (1, 2)",
         ),
-        (cdcr.TensionTable([0.0, INF], ROWS), "the table's t[1] must be finite, got inf"),
+        (([0.0, INF], ROWS), "the table's t[1] must be finite, got inf"),
         (
-            cdcr.TensionTable([1.0, 0.5], ROWS),
+            ([1.0, 0.5], ROWS),
             "the times of a tension table must be finite and strictly increasing, got 0.5 s at "
             "index 1 after 1 s",
         ),
         (
-            cdcr.TensionTable([0.0, 1.0], [[0.0, 0.0, 0.0], [0.0, -1.0, 0.0]]),
-            "tension[1, 1] must be finite and >= 0 N (a cable cannot push), got -1",
+            ([0.0, 1.0], [[0.0, 0.0, 0.0], [0.0, -1.0, 0.0]]),
+            "tension[1, 1] must be finite and >= 0 N (a cable cannot push), or >= 0 m where driven "
+            "by length, got -1",
         ),
         (
-            cdcr.TensionTable([0.0, 1.0], [[0.0, NAN, 0.0], [0.0, 0.0, 0.0]]),
+            ([0.0, 1.0], [[0.0, NAN, 0.0], [0.0, 0.0, 0.0]]),
             "the table's tension[0, 1] must be finite, got nan",
         ),
         (
-            cdcr.TensionTable([], np.zeros((0, 3))),
+            ([], np.zeros((0, 3))),
             "a tension table needs one row of values for each time, got 0 times and 0 rows",
         ),
         (
@@ -190,3 +191,10 @@ def test_messages_call_the_commands_what_the_caller_does(model: cdcr.Model) -> N
     simulator.reset([0.0, 0.0], [0.0, 0.0])
     with pytest.raises(ValueError, match=sentence):
         simulator.step(command=[0.0, -1.0, 0.0])
+
+
+def test_a_table_is_refused_where_it_is_made() -> None:
+    with refuses("the table's tension must have shape (2, num_cables), got (1, 3)"):
+        cdcr.TensionTable([0.0, 1.0], [[1.0, 2.0, 3.0]])
+    with pytest.raises(ValueError, match=r"tension\[0, 1\] must be finite and >= 0 N"):
+        cdcr.TensionTable([0.0], [[0.0, -1.0, 0.0]])

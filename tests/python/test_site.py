@@ -24,7 +24,7 @@ MODULES = (
     *(cdcr, cdcr.control, cdcr.export, cdcr.gym, cdcr.paper, cdcr.plotting, cdcr.robots),
     cdcr.scenarios,
 )
-RETURNED = {"cdcr._core.Allocation", "cdcr.view.View"}  # by public names
+RETURNED = {"cdcr.view.View"}  # by public names
 FLAGS = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS
 
 

@@ -118,6 +118,21 @@ def test_a_slider_moves_the_robot(browser: Window) -> None:
         until(lambda: "× real time" in browser.page.inner_text("#cdcr-status"), browser)
 
 
+def test_a_narrow_window_shows_the_whole_robot(browser: Window) -> None:
+    try:
+        browser.page.set_viewport_size({"width": 400, "height": 800})
+        with opened(ROBOT.view(port=0, browser=False), browser) as view:
+            assert browser.page.title() == "robot"
+            until(lambda: bool(np.mean(picture(browser)[:500] < WHITE) > 0.01), browser)
+            (client,) = view._server.get_clients().values()
+            until(lambda: client.camera.aspect < 1.0, browser)
+            columns = pixels(view, robot_shape(live(view).model, live(view).q).backbone)[:, 0]
+            # As in a window of 960 pixels, the middle of this one is at 200.
+            assert np.all(np.abs(columns - WIDTH / 2.0) < 200.0 * HEIGHT / 800.0)
+    finally:
+        browser.page.set_viewport_size({"width": WIDTH, "height": HEIGHT})
+
+
 def test_gravity_and_payload(browser: Window) -> None:
     with opened(cdcr.robots.amouri2020().view(port=0, browser=False), browser) as view:
         for label, value in (("gravity x [m/s²]", "3"), ("payload [kg]", "0.02")):

@@ -155,3 +155,42 @@ def test_the_scale_grows_with_the_tension() -> None:
         assert "<span>20</span>" in desk.panel._legend.content
     finally:
         close_server(desk.server)
+
+
+def test_a_number_typed_beyond_a_slider_goes_to_its_end(desk: Desk) -> None:
+    for control, low, high in (
+        (desk.panel.cables[0], 0.0, desk.session.ranges()[0][1]),
+        (desk.panel._payload, 0.0, desk.panel._payload.max),
+        (desk.panel._gravity[2], -10.0, 10.0),
+        (desk.panel._damping, 0.0, 1.0),
+    ):
+        for typed, taken in ((-1e9, low), (1e9, high)):
+            desk.move(control, typed)
+            assert control.value == taken
+    live = desk.session.live
+    assert live is not None
+    assert live.command[0] == desk.session.ranges()[0][1]
+    assert (live.robot.payload, live.robot.gravity[2]) == (desk.panel._payload.max, 10.0)
+    assert desk.session.advance(0.02) > 0.0
+
+
+def test_what_is_refused_stands_in_the_corner() -> None:
+    desk = Desk(Session(ROBOT))
+    try:
+        live = desk.session.live
+        assert live is not None
+        desk.session.attempt(lambda: live.change(payload=-1.0))
+        desk.look()
+        assert "payload must be &gt;= 0 kg" in desk.panel._status.content
+        assert live.robot.payload == 0.0
+        desk.session.attempt(lambda: desk.panel._command(0, 2.0))
+        desk.session.advance(0.02)
+        assert desk.session.refusal == ""
+        live.command[0] = -3.0
+        assert desk.session.advance(0.02) == 0.0
+        assert live.command[0] == 2.0  # the last good one
+        desk.look()
+        assert "must be &gt;= 0 N" in desk.panel._status.content
+        assert desk.session.advance(0.02) > 0.0
+    finally:
+        close_server(desk.server)

@@ -15,6 +15,7 @@ from urllib.request import urlopen
 
 import numpy as np
 import pytest
+from rich.console import Console
 
 import cdcr
 
@@ -98,6 +99,19 @@ def test_a_failure_of_the_drawing_is_told() -> None:
     assert view.url == ""
 
 
+def test_a_failure_nobody_waits_for_is_told_too(capfd: pytest.CaptureFixture[str]) -> None:
+    with ROBOT.view(port=0, browser=False) as view:
+
+        def fail() -> None:
+            raise RuntimeError("cannot draw")
+
+        view._tasks.put(fail)
+        view._thread.join(LONG)
+        assert "<b>stopped</b>: cannot draw" in view._panel._status.content
+    assert "stopped: cannot draw" in repr(view)
+    assert capfd.readouterr() == ("", "cdcr: the view of robot has stopped: cannot draw\n")
+
+
 def test_a_port_in_use(taken: int) -> None:
     with pytest.raises(OSError, match=f"^port {taken} is in use; give another one, or 0 for any"):
         ROBOT.view(port=taken, browser=False)
@@ -123,6 +137,7 @@ def test_the_page_holds_all_it_needs(run: cdcr.Trajectory, tmp_path: Path) -> No
     text = file.read_text(encoding="utf-8")
     assert "<title>run &lt;1&gt;</title>" in text
     assert "__VISER_EMBED_DATA__" in text
+    assert "@media (max-aspect-ratio: 1.1)" in text  # narrow windows
     assert "<span>5</span>" in text  # the legend, to the 5 N of the run
     for tag in re.findall(r"<(?:script|link|img|iframe)\b[^>]*>", text):
         source = re.search(r"\b(?:src|href)=[\"']?([^\"'\s>]*)", tag)
@@ -185,6 +200,25 @@ def test_files_of_each_kind_are_recorded(run: cdcr.Trajectory, tmp_path: Path) -
         assert result.exit_code == 0, result.stderr
         assert result.stdout.startswith(f"wrote {out}")
         assert "__VISER_EMBED_DATA__" in out.read_text(encoding="utf-8")
+
+
+def test_the_robot_alone(run: cdcr.Trajectory, tmp_path: Path) -> None:
+    pytest.importorskip("h5netcdf")
+    from cdcr.cli.view import _find
+
+    run.save(tmp_path / "run.nc")
+    (tmp_path / "pull.toml").write_text('robot = "amouri2020"\nt_end = 0.1\ntension = [1, 0, 0]\n')
+    expected = {
+        "three-sections": cdcr.robots.three_sections(),
+        "step-tension": cdcr.scenarios.get("step-tension").robot,
+        str(tmp_path / "pull.toml"): cdcr.robots.amouri2020(),
+        str(tmp_path / "run.nc"): ROBOT,
+    }
+    for target, robot in expected.items():
+        shown = _find(target, Console(), robot_alone=True)
+        assert (shown.run, shown.robot) == (None, robot)
+        if target != "step-tension":
+            assert (_find(target, Console(), robot_alone=False).run) is not None
 
 
 @pytest.mark.parametrize(

@@ -48,6 +48,7 @@ def prepare(
     target: str,
     *,
     live: bool,
+    robot: bool,
     reference: str | None,
     speed: float,
     record: Path | None,
@@ -63,7 +64,7 @@ def prepare(
         if record.suffix != ".html":
             raise Mistake(f"the file name of --record must end in .html, got {record.name!r}")
         check_files([record], overwrite=overwrite, replace=REPLACE)
-    shown = _find(target, console)
+    shown = _find(target, console, robot_alone=robot)
     beside = shown.reference if reference is None else _load(reference)
     with mistakes():
         session = Session(
@@ -77,21 +78,25 @@ def prepare(
     return found, found.record(record, overwrite=overwrite)
 
 
-def _find(target: str, console: Console) -> Shown:
+def _find(target: str, console: Console, *, robot_alone: bool) -> Shown:
     """Return what a name or a file stands for."""
     suffix = Path(target).suffix
     known = (*robots.names(), *scenarios.names())
-    if _is_one(target, scenarios.names()):
-        return _run(find_scenario(target), console)
-    if _is_one(target, robots.names()):
+    is_robot = _is_one(target, robots.names())
+    if _is_one(target, scenarios.names()) and not (robot_alone and is_robot):
+        return _scenario(find_scenario(target), console, robot_alone)
+    if is_robot:
         return Shown(robot=find_robot(target))
     if suffix == ".nc":
         run = _load(target)
-        return Shown(robot=run.model.robot, formulation=run.model.formulation, run=run)
+        shown = None if robot_alone else run
+        return Shown(robot=run.model.robot, formulation=run.model.formulation, run=shown)
     if suffix == ".toml":
         with mistakes():
             is_robot = "sections" in read_toml(Path(target), "robot or scenario file")
-        return Shown(robot=find_robot(target)) if is_robot else _run(find_scenario(target), console)
+        if is_robot:
+            return Shown(robot=find_robot(target))
+        return _scenario(find_scenario(target), console, robot_alone)
     if suffix == ".csv" and Path(target).is_file():
         raise Mistake(f"{target} holds numbers and no robot; give the run's file .nc")
     raise Mistake(
@@ -104,8 +109,10 @@ def _is_one(name: str, known: tuple[str, ...]) -> bool:
     return name.replace("_", "-") in (one.replace("_", "-") for one in known)
 
 
-def _run(scenario: Scenario, console: Console) -> Shown:
-    """Run a scenario, with a bar where it takes long."""
+def _scenario(scenario: Scenario, console: Console, robot_alone: bool) -> Shown:
+    """Return the robot of a scenario alone, or run it, with a bar where that takes long."""
+    if robot_alone:
+        return Shown(robot=scenario.robot, formulation=scenario.formulation)
     with mistakes():
         scenario.times()
     with DelayedBar(console, scenario.name, scenario.t_end) as bar, mistakes():
@@ -143,6 +150,9 @@ def view_command(
     live: Annotated[
         bool, typer.Option("--live", help="Begin where the run does, but simulate at once.")
     ] = False,
+    robot: Annotated[
+        bool, typer.Option("--robot", help="Show the robot alone, simulated live, and no run.")
+    ] = False,
     reference: Annotated[
         str | None, typer.Option(metavar="FILE.nc", help="A run to show beside it, faintly.")
     ] = None,
@@ -167,14 +177,15 @@ def view_command(
     """Show a robot or a run in the browser. Needs the extra `view`.
 
     A robot is simulated live. A scenario is run first and, as a run of a file, played; where a name
-    is both, the scenario is meant. Sliders of the cables, gravity and payload, and the mouse, which
-    pulls the backbone, go on from there live. Ctrl-C ends it, with exit code 0. On a recorded page
-    a robot goes round in a circle.
+    is both, the scenario is meant unless --robot is given. Sliders of the cables, gravity and
+    payload, and the mouse, which pulls the backbone, go on from there live. Ctrl-C ends it, with
+    exit code 0. On a recorded page a robot goes round in a circle.
     """
     with told_plainly():
         found, page = prepare(
             target,
             live=live,
+            robot=robot,
             reference=reference,
             speed=speed,
             record=record,

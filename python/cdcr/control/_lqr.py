@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from cdcr.base.arrays import FloatArray, finite
 from cdcr.base.check import Check, require_kind
@@ -67,7 +67,8 @@ def lqr(
     ValueError
         For weights of a wrong shape, unsymmetric or not definite, a period that is none, a robot
         without cables or inertia, and where no gain makes all motions decay: a motion without
-        damping that no cable reaches or no weight sees.
+        damping that no cable reaches or no weight sees; or where a long period, or weights far
+        apart in size, leave no digits.
     ImportError
         Where SciPy is missing.
 
@@ -95,25 +96,55 @@ def lqr(
         raise ValueError(f"q must have shape ({model.num_coordinates},), got {shape.shape}")
     A, B = model.linearize(shape, np.zeros(model.num_coordinates), tension)
     linalg: Any = require("scipy.linalg", "control")
-    solve = linalg.solve_continuous_are
     if period is not None:
-        A, B, weight = _sampled(linalg, A, B, weight, _checked_period(period))
-        solve = linalg.solve_discrete_are
-    Q_, S, R_ = weight[:states, :states], weight[:states, states:], weight[states:, states:]
+        period = _checked_period(period)
     try:
-        P = solve(A, B, Q_, R_, s=S)
-    except np.linalg.LinAlgError:
-        raise ValueError(NO_GAIN) from None
+        with np.errstate(all="ignore"):  # what comes of it is looked at
+            K = _gain(linalg, A, B, weight, period)
+    except ValueError:  # of SciPy, LinAlgError too
+        K = None
+    if K is None:
+        raise ValueError(_no_gain(A, period))
+    return np.asarray(K, dtype=np.float64)
+
+
+def _gain(
+    linalg: Any, A: FloatArray, B: FloatArray, weight: FloatArray, period: float | None
+) -> FloatArray | None:
+    """Return the gain, or None where it leaves a motion that does not decay."""
+    states = len(A)
+    if period is not None:
+        A, B, weight = _sampled(linalg, A, B, weight, period)
+    Q, S, R = weight[:states, :states], weight[:states, states:], weight[states:, states:]
     if period is None:
-        K = np.linalg.solve(R_, B.T @ P)
+        P = linalg.solve_continuous_are(A, B, Q, R, s=S)
+        K = np.linalg.solve(R, B.T @ P)
     else:
-        K = np.linalg.solve(R_ + B.T @ P @ B, B.T @ P @ A + S.T)
+        P = linalg.solve_discrete_are(A, B, Q, R, s=S)
+        K = np.linalg.solve(R + B.T @ P @ B, B.T @ P @ A + S.T)
     poles = np.linalg.eigvals(A - B @ K).astype(np.complex128)
     if period is not None:
         poles = np.log(poles[poles != 0.0])
-    if not np.all(poles.real < -DECAY * np.abs(poles)):
-        raise ValueError(NO_GAIN)
-    return np.asarray(K, dtype=np.float64)
+    return np.asarray(K) if _decay(poles) else None
+
+
+def _decay(poles: NDArray[np.complex128]) -> bool:
+    return bool(np.all(poles.real < -DECAY * np.abs(poles)))
+
+
+def _no_gain(A: FloatArray, period: float | None) -> str:
+    """Say why there is no gain: motions that nothing ends, or numbers too far apart."""
+    poles = np.linalg.eigvals(A).astype(np.complex128)
+    if not _decay(poles):
+        return NO_GAIN
+    told = "no gain can be computed, although all motions decay by themselves: "
+    if period is None:
+        return f"{told}Q and R must be nearer to each other in size"
+    decay = 1.0 / np.max(-poles.real)
+    return (
+        f"{told}period must be shorter beside the {decay:.3g} s in which the fastest of them "
+        f"decays, got {period:g} s, or Q and R nearer to each other in size"
+    )
 
 
 def _sampled(

@@ -51,7 +51,8 @@ def nonlinear_system(
     Raises
     ------
     ValueError
-        For unknown outputs or limits out of order; in a simulation, for a state that is none.
+        For unknown outputs, limits out of order and a robot without inertia; in a simulation, for
+        a state that is none.
     ImportError
         Where python-control is missing.
 
@@ -66,6 +67,8 @@ def nonlinear_system(
     require_kind("model", model, Model)
     chosen = find_outputs(outputs)
     low, high = _limits(min_tension, max_tension)
+    rest = np.zeros(model.num_coordinates)
+    model.linearize(rest, rest, model.rest_command())  # refuses a robot without inertia
     control: Any = require("control", "control")
     by_tension = np.array([not cable.length_driven for cable in model.robot.all_cables], dtype=bool)
     split = model.num_coordinates

@@ -9,7 +9,7 @@ import numpy as np
 from gymnasium.spaces import Box
 from numpy.typing import ArrayLike, NDArray
 
-from cdcr.base.arrays import FloatArray
+from cdcr.base.arrays import FloatArray, finite
 from cdcr.base.check import one_of
 from cdcr.gym._picture import Picture, Window
 from cdcr.gym._randomization import Ranges
@@ -183,8 +183,18 @@ class RobotEnv(gymnasium.Env[Observation, Action]):
         -------
         tuple
             Observation, reward, whether the robot failed, False, and info.
+
+        Raises
+        ------
+        RuntimeError
+            Before the first `reset`.
+        ValueError
+            For an action of another shape, or that holds anything but numbers.
         """
-        parts, failed = self._task.step(np.asarray(action)[None], self._active)
+        given = finite(action, "action")
+        if given.shape != self.action_space.shape:
+            raise ValueError(f"action must have shape {self.action_space.shape}, got {given.shape}")
+        parts, failed = self._task.step(given[None], self._active)
         told = {name: float(value[0]) for name, value in parts.items()}
         fails = bool(failed[0])
         reward = FAILED if fails else sum(told.values())

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from cdcr.base.check import Check, known_name
+from cdcr.base.check import Check, format_value, known_name
 from cdcr.robot.robot import Robot
 
 Ranges = Mapping[str, Sequence[float]]
@@ -17,6 +17,10 @@ RANDOM = ("stiffness", "damping", "mass", "payload")
 
 def checked_ranges(ranges: Ranges | None) -> dict[str, tuple[float, float]]:
     """Return the ranges of what is drawn anew for each episode, or refuse them."""
+    if not isinstance(ranges, Mapping | None):
+        example = '{"damping": (0.5, 2.0)}'
+        got = format_value(ranges)
+        raise ValueError(f"randomization must be a mapping such as {example}, got {got}")
     checked = {}
     for name, given in (ranges or {}).items():
         known_name("range of randomization", name, RANDOM)

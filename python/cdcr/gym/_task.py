@@ -131,10 +131,13 @@ class Task:
     ) -> tuple[dict[str, FloatArray], NDArray[np.bool_]]:
         """Take the active robots through a period; return parts of rewards, and which failed."""
         failed = np.zeros(len(self.q), dtype=bool)
-        share = self.drive.share(action)
-        if share.shape != (len(self.q), self.model.num_cables):
-            wanted = f"{self.model.num_cables} numbers for each robot"
-            raise ValueError(f"action must be {wanted}, got shape {np.shape(action)}")
+        if not np.all(self.episode):
+            raise RuntimeError("reset() must be called before the first step()")
+        given = finite(action, "action")
+        if given.shape != (len(self.q), self.model.num_cables):
+            shape = f"({len(self.q)}, {self.model.num_cables})"
+            raise ValueError(f"action must have shape {shape}, got {given.shape}")
+        share = self.drive.share(given)
         commands = self.drive.command(share)
         for i in np.flatnonzero(active).tolist():
             simulator = self._simulators[i]

@@ -158,6 +158,13 @@ class RobotVectorEnv(VectorEnv[Observation, NDArray[np.float32], NDArray[Any]]):
         -------
         tuple
             Observations, rewards, which robots failed, whose episodes are over, and infos.
+
+        Raises
+        ------
+        RuntimeError
+            Before the first `reset`.
+        ValueError
+            For actions of another shape, or that hold anything but numbers.
         """
         again = self._done
         parts, failed = self._task.step(actions, ~again)

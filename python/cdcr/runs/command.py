@@ -36,6 +36,11 @@ class TensionTable:
     interpolation : {"linear", "previous"}, optional
         Connect the rows by lines, or hold each until the next time.
 
+    Raises
+    ------
+    ValueError
+        For times out of order, other than one row for each, and what is no number >= 0.
+
     Examples
     --------
     >>> import cdcr
@@ -55,6 +60,26 @@ class TensionTable:
         if not one_of(self.interpolation, ("linear", "previous")):
             raise ValueError(
                 f"interpolation must be 'linear' or 'previous', got {self.interpolation!r}"
+            )
+        t, rows = finite(self.t, "the table's t"), finite(self.tension, "the table's tension")
+        if t.ndim != 1:
+            raise ValueError(f"the table's t must have shape (any,), got {t.shape}")
+        if rows.ndim != 2 or len(rows) != len(t):
+            raise ValueError(
+                f"the table's tension must have shape ({len(t)}, num_cables), got {rows.shape}"
+            )
+        back = np.flatnonzero(np.diff(t) < 0.0) + 1
+        if len(back):
+            k = back[0]
+            raise ValueError(
+                "the times of a tension table must be finite and strictly increasing, "
+                f"got {t[k]:g} s at index {k} after {t[k - 1]:g} s"
+            )
+        if np.any(rows < 0.0):
+            k, j = np.argwhere(rows < 0.0)[0]
+            raise ValueError(
+                f"tension[{k}, {j}] must be finite and >= 0 N (a cable cannot push), or >= 0 m "
+                f"where driven by length, got {rows[k, j]:g}"
             )
 
     def __repr__(self) -> str:
@@ -112,7 +137,10 @@ class TensionTable:
         asked = columns_of(model, "command" if by_length(model) else "tension")
         of_a_run = Layout(tuple(asked), plain.requirement, 0.0, RUN_TIME)
         _, t, rows = read_numbers(Path(path), "tension file", [plain, of_a_run])
-        return cls(t, rows, interpolation)
+        try:
+            return cls(t, rows, interpolation)
+        except ValueError as error:
+            raise ValueError(f"{path}: {error}") from None
 
 
 CommandFunction: TypeAlias = Callable[..., ArrayLike]

@@ -103,6 +103,7 @@ class LiveRobot:
         self.added_damping = first_damping(robot)
         self.model = LiveModel(robot, formulation)
         self.command = np.array(self.model.rest_command() if command is None else command)
+        self._taken = self.command.copy()  # the last command that was none to refuse
         size = self.model.num_coordinates
         self.q = self._rest(np.zeros(size)) if q is None else np.array(q)
         self.qd = np.zeros(size) if qd is None else np.array(qd)
@@ -127,16 +128,32 @@ class LiveRobot:
         added_damping: float | None = None,
     ) -> None:
         """Go on under another gravity [m/s^2], payload [kg], share of critical damping added."""
+        given = self._given
         if gravity is not None:
-            self._given = replace(self._given, gravity=gravity)
+            given = replace(given, gravity=gravity)
         if payload is not None:
-            self._given = replace(self._given, payload=payload)
+            given = replace(given, payload=payload)
+        self._given = given
         if added_damping is not None:
             self.added_damping = added_damping
         self._build()
 
     def advance(self, seconds: float, budget: float = math.inf) -> None:
-        """Go on for so long [s], but compute no longer than the budget [s]."""
+        """Go on for so long [s], but compute no longer than the budget [s].
+
+        Raises
+        ------
+        ValueError
+            For a command that is none; the last good one is then back.
+        """
+        try:
+            self._go_on(seconds, budget)
+        except ValueError:
+            self.command = self._taken.copy()
+            raise
+        self._taken = np.array(self.command)
+
+    def _go_on(self, seconds: float, budget: float) -> None:
         end, patience = self.time + seconds, time.perf_counter() + budget
         if self._simulator is None:
             self.q, self.time = self._rest(self.q), end

@@ -13,11 +13,16 @@ from cdcr.base.arrays import FloatArray
 from cdcr.files.new_file import REPLACE, new_file
 from cdcr.view.colors import legend
 from cdcr.view.drawing import Drawing
-from cdcr.view.server import close_server, look_at, open_server
+from cdcr.view.server import WIDTH, close_server, look_at, open_server
 from cdcr.view.session import CIRCLE, RAMP, Session, circling
 
 FPS = 30.0
 MOST_FRAMES = 900  # longer recordings have fewer pictures a second
+# The field of view is that of the height, so that a narrow window leaves some of it blank.
+_NARROW = (
+    "<style>@media (max-aspect-ratio: {0}) "
+    "{{#root {{height: calc(100vw / {0}) !important}}}}</style>"
+)
 _OVERLAY = (
     '<div id="cdcr-legend" style="position:fixed;left:1em;bottom:4em;width:17em;z-index:1;'
     'pointer-events:none;font-family:sans-serif;color:#222">'
@@ -51,9 +56,8 @@ def page(session: Session, title: str) -> str:
         session.restart()
     words = html.escape(title)
     overlay = _OVERLAY.format(title=words, legend=legend(drawing.scale))
-    head, _, tail = recorded.replace("<title>Viser</title>", f"<title>{words}</title>").rpartition(
-        "</body>"
-    )
+    named = f"<title>{words}</title>{_NARROW.format(WIDTH)}"
+    head, _, tail = recorded.replace("<title>Viser</title>", named).rpartition("</body>")
     return f"{head}{overlay if drawing.cables is not None else ''}</body>{tail}"
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 from collections.abc import Callable
 from functools import partial
 from typing import Any
@@ -60,14 +61,15 @@ class Panel:
         state = "simulated" if live is not None else "played"
         words = f"{rate:.2f} × real time" if session.playing else "paused"
         if live is not None and live.message:
-            words += f", {live.message}"
+            words += f", {live.message}: ask less of the cables, or Restart"
         if live is not None and live.pull is not None:
             force = float(np.linalg.norm(live.pull.force(live.model, live.q)))
             words += f", pulled with {force:.3g} N"
-        self._status.content = (
-            '<div id="cdcr-status" style="padding:0.2em 0.9em;font-size:0.85em;'
-            f'font-variant-numeric:tabular-nums"><b>t = {moment.time:.2f} s</b> {state}, {words}'
-            f"<br>{pictures:.0f} frames/s</div>"
+        if session.refusal:
+            words += f"; {session.refusal}"
+        self._tell(
+            f"<b>t = {moment.time:.2f} s</b> {state}, {html.escape(words)}"
+            f"<br>{pictures:.0f} frames/s"
         )
         if self._drawing.scale != self._scale and self._drawing.cables is not None:
             self._scale = self._drawing.scale
@@ -81,6 +83,16 @@ class Panel:
             self._back.visible = live is not None
         if live is None:
             self._set_commands()
+
+    def tell_end(self, failure: str) -> None:
+        """Tell that nothing goes on, and why."""
+        self._tell(f"<b>stopped</b>: {html.escape(failure)}")
+
+    def _tell(self, words: str) -> None:
+        self._status.content = (
+            '<div id="cdcr-status" style="padding:0.2em 0.9em;font-size:0.85em;'
+            f'font-variant-numeric:tabular-nums">{words}</div>'
+        )
 
     def _time(self, gui: Any) -> None:
         session = self._session
@@ -148,7 +160,7 @@ class Panel:
 
         def changed(event: Any) -> None:
             if event.client is not None:
-                value = event.target.value
+                value = _within_range(event.target)
                 self._do(lambda: act(value))
 
         control.on_update(changed)
@@ -187,6 +199,16 @@ class Panel:
         """Bring the sliders of the cables to the commands shown."""
         for slider, value in zip(self.cables, self._session.command, strict=True):
             slider.value = float(np.clip(value, slider.min, slider.max))
+
+
+def _within_range(control: Any) -> Any:
+    """Return the value of a control; a slider goes to its nearer end where a number is beyond it.
+
+    The range holds back the mouse alone: beside a slider any number can be typed.
+    """
+    if hasattr(control, "max") and not control.min <= control.value <= control.max:
+        control.value = float(np.clip(control.value, control.min, control.max))
+    return control.value
 
 
 def _set_visible(handles: list[Any], value: bool) -> None:

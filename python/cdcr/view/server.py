@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import errno
+import html
 import io
+import json
 import socket
 from contextlib import redirect_stdout
 from typing import Any
@@ -18,6 +20,7 @@ HOST = "127.0.0.1"  # nobody else can connect
 PORT = 8080
 EYE = np.array([1.0, -1.55, 0.45])  # where one looks from, over the robot's length
 FIELD = 0.6  # of view, in height [rad]
+WIDTH = 1.1  # of what has to be seen, over its height
 
 
 def open_server(port: int, title: str) -> Any:
@@ -51,8 +54,14 @@ def close_server(server: Any) -> None:
         server.stop()
 
 
+def name_page(server: Any, title: str) -> None:
+    """Set what the browser calls the page: the client of viser knows of no title."""
+    act = html.escape(f"document.title = {json.dumps(title)}")
+    server.gui.add_html(f'<img hidden alt="" src="data:," onerror="{act}">')
+
+
 def look_at(server: Any, model: LiveModel) -> None:
-    """Show the whole robot, with what pulls it down below."""
+    """Show the whole robot, with what pulls it down below, from further away where it is narrow."""
     robot = model.robot
     axis, gravity = np.array(robot.base_orientation)[:, 2], np.array(robot.gravity)
     weight = float(np.linalg.norm(gravity))
@@ -69,6 +78,13 @@ def look_at(server: Any, model: LiveModel) -> None:
     server.initial_camera.fov = FIELD
     eye = 1.25 * robot.length * (EYE @ np.stack([across, aside, up]))
     server.initial_camera.position = tuple(center + eye)
+
+    def step_back(client: Any) -> None:
+        if client.camera.aspect < WIDTH:
+            client.camera.position = tuple(center + eye * WIDTH / client.camera.aspect)
+            client.camera.look_at = tuple(center)  # which moves with the position
+
+    server.on_client_connect(step_back)
 
 
 def _probe(port: int) -> None:

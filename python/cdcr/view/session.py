@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -64,6 +65,7 @@ class Session:
         check.done()
         self.run, self.reference = run, reference
         self.playing, self.time = True, 0.0 if run is None else float(run.t[0])
+        self.refusal = ""  # of what was asked last
         self._robot, self._formulation = robot, formulation
         self._still = LiveModel(robot, formulation)
         size = self._still.num_coordinates
@@ -120,6 +122,20 @@ class Session:
                 if by_tension
             ]
         return round_up(max(tensions, default=1.0))
+
+    def attempt(self, task: Callable[[], object]) -> None:
+        """Do something that was asked; where a value is refused, keep the sentence and go on.
+
+        Parameters
+        ----------
+        task : callable
+            What to do; a ValueError of it becomes `refusal`.
+        """
+        self.refusal = ""
+        try:
+            task()
+        except ValueError as refused:
+            self.refusal = str(refused)
 
     def play(self) -> None:
         """Go on; from the start where the end of a run is shown."""
@@ -198,7 +214,7 @@ class Session:
             self.live.pull = None
 
     def advance(self, elapsed: float) -> float:
-        """Go on, as fast as `speed` says.
+        """Go on, as fast as `speed` says; a command that is refused is kept out.
 
         Parameters
         ----------
@@ -217,7 +233,10 @@ class Session:
             self.time = min(self.time + self.speed * elapsed, self.span[1])
             self.playing = self.time < self.span[1]
         else:
-            self.live.advance(self.speed * elapsed, BUDGET)
+            try:
+                self.live.advance(self.speed * elapsed, BUDGET)
+            except ValueError as refused:
+                self.refusal = str(refused)
             self.time = self.live.time
             if self.time > self._kept[-1].time:
                 self._keep()

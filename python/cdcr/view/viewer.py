@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import html
 import os
 import queue
@@ -19,7 +20,7 @@ import numpy as np
 from cdcr.base.arrays import FloatArray
 from cdcr.view.drawing import Drawing
 from cdcr.view.panel import Panel, Task
-from cdcr.view.server import HOST, close_server, look_at, open_server
+from cdcr.view.server import HOST, close_server, look_at, name_page, open_server
 from cdcr.view.session import Session
 
 PICTURES = 50.0  # a second at most
@@ -49,9 +50,12 @@ class View:
         self._closing = threading.Event()
         self._tasks: queue.SimpleQueue[Task] = queue.SimpleQueue()
         self._failure: BaseException | None = None
+        self._awaited = False
 
     def __repr__(self) -> str:
         where = self.url if self._server is not None else "not served"
+        if self._failure is not None:
+            where = f"stopped: {self._failure}"
         return f"<View of {self._title}, {where}>"
 
     def _repr_html_(self) -> str:
@@ -97,6 +101,7 @@ class View:
             Where the port is in use.
         """
         self._server = open_server(port, self._title)
+        name_page(self._server, self._title)
         look_at(self._server, self._session.model)
         session = self._session
         self._drawing = Drawing(self._server.scene, session.model, session.moment(), session.scale)
@@ -104,12 +109,17 @@ class View:
         self._make_pullable()
         self._thread = threading.Thread(target=self._run, name="cdcr view", daemon=True)
         self._thread.start()
+        atexit.register(self.close)
         if browser and _has_screen():
             webbrowser.open(self.url)
         return self
 
     def wait(self) -> None:
-        """Serve until Ctrl-C is pressed, or another thread closes the view."""
+        """Serve until Ctrl-C is pressed, or another thread closes the view.
+
+        What stops the view by itself is raised here.
+        """
+        self._awaited = True
         try:
             while not self._closing.wait(WAIT):
                 pass
@@ -125,6 +135,7 @@ class View:
         self._closing.set()
         server, self._server = self._server, None
         if server is not None:
+            atexit.unregister(self.close)
             self._thread.join()
             close_server(server)
 
@@ -165,6 +176,9 @@ class View:
             self._draw_on()
         except BaseException as failure:
             self._failure = failure
+            self._panel.tell_end(str(failure))
+            if not self._awaited:
+                print(f"cdcr: the view of {self._title} has stopped: {failure}", file=sys.stderr)
             self._closing.set()
 
     def _draw_on(self) -> None:
@@ -178,7 +192,7 @@ class View:
             watched = bool(self._server.get_clients())  # else time stands still
             busy = (session.playing and watched) or not self._tasks.empty()
             while not self._tasks.empty():
-                self._tasks.get()()
+                session.attempt(self._tasks.get())
             meter.add(now - last, session.advance(now - last) if watched else 0.0, busy)
             last = now
             moment = session.moment()

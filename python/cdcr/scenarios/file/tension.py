@@ -110,7 +110,8 @@ def _over_time(table: dict[str, Any], model: Model, file: Path) -> TensionTable:
         where = f"{file}, [tension]"
         t, rows = table["t"], table["rows"]
         refuse(where, _row_errors(t, rows, model.num_cables))
-        tension = TensionTable(t, rows, interpolation)
+        with values.error_prefix(where):
+            tension = TensionTable(t, rows, interpolation)
     with values.error_prefix(where):
         command_input(model, tension)
     return tension
