@@ -235,11 +235,14 @@ def test_dead_links_and_requests_to_elsewhere_are_found(tmp_path: Path) -> None:
     (bad / "b.html").write_text('<script src="https://x.org/y.js"></script>')
     (bad / "c.css").write_text("@import url(https://x.org/font.css);")
     (bad / "d.html").write_text('<img src="none.png"><a href="#none">d</a>')
+    (bad / "reference" / "cpp").mkdir(parents=True)
+    (bad / "reference" / "cpp" / "e.html").write_text("<blockquote>0: upwards</blockquote>")
     told = [line.removeprefix(f"{bad}/") for line in complaints(bad)]
     assert told == [
         "a.html: b.html#b has no such place",
         "b.html: asks https://x.org/y.js of another machine",
         "d.html: none.png is not there",
         "d.html: #none has no such place",
+        "reference/cpp/e.html: a comment of a header became a quotation",
         "c.css: asks https://x.org/font.css of another machine",
     ]
