@@ -43,6 +43,7 @@ html_theme = "furo"
 html_title = f"cdcr {version}"
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
+smartquotes = False  # a prime is a derivative
 html_copy_source = False
 html_show_sphinx = False
 html_extra_path = []
