@@ -32,6 +32,7 @@ extensions = [
     "breathe",
     "mathjax",
     "repository_pages",
+    "thumbnails",
     "file_keys",
     "command_line",
     "cpp_reference",
