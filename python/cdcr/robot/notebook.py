@@ -8,7 +8,8 @@ if TYPE_CHECKING:
     from cdcr.robot.robot import Robot
 
 WIDTH = 480.0  # of a drawing [px]
-CELL = 'style="padding: 0.2em 0.8em; text-align: right"'  # where a page has no style of its own
+# For pages that have no style of their own.
+CELL = 'style="padding: 0.2em 0.8em; text-align: right; white-space: nowrap"'
 COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7")
 
 
