@@ -3,7 +3,8 @@
     python docs/check_site.py build/docs
 
 Every href and src of a page is looked up: the file and, after a #, the place in it. What a browser
-fetches by itself (scripts, styles, pictures) has to be a file of the site.
+fetches by itself (scripts, styles, pictures) has to be a file of the site. No comment of a C++
+header may have become a quotation.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ FETCHED = {
     ("iframe", "src"),
 }
 OUTSIDE = re.compile(r"^(https?:)?//")
+QUOTE = "<blockquote"  # what Doxygen makes of a comment that begins with >
 IN_STYLE = re.compile(r"(?:url\(\s*|@import\s+)[\"']?((?:https?:)?//[^\"')]+)")
 
 
@@ -57,6 +59,8 @@ def complaints(site: Path) -> list[str]:
     for path in sorted(site.rglob("*.html")):
         if "_static" in path.relative_to(site).parts:
             continue
+        if path.parent.match("reference/cpp") and QUOTE in path.read_text(encoding="utf-8"):
+            told.append(f"{path}: a comment of a header became a quotation")
         for target in page(path).fetched:
             if OUTSIDE.match(target):
                 told.append(f"{path}: asks {target} of another machine")

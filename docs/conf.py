@@ -32,6 +32,7 @@ extensions = [
     "breathe",
     "mathjax",
     "repository_pages",
+    "thumbnails",
     "file_keys",
     "command_line",
     "cpp_reference",
@@ -43,6 +44,7 @@ html_theme = "furo"
 html_title = f"cdcr {version}"
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
+smartquotes = False  # a prime is a derivative
 html_copy_source = False
 html_show_sphinx = False
 html_extra_path = []

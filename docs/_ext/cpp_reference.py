@@ -6,12 +6,14 @@ What a header says before its namespace, in plain comments, is what the part beg
 from __future__ import annotations
 
 import subprocess
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 from docutils import nodes
 from sphinx import addnodes
 from sphinx.application import Sphinx
+from sphinx.domains.cpp import CPPDomain
 from sphinx.errors import ExtensionError
 from sphinx.util.docutils import SphinxDirective
 
@@ -98,8 +100,17 @@ class CppHeader(SphinxDirective):
         return [section]
 
 
+class CppNames(CPPDomain):
+    """The names of C++ that a search finds: no parameters, which would hide what explains them."""
+
+    def get_objects(self) -> Iterator[tuple[str, str, str, str, str, int]]:
+        """Yield name, shown name, kind, page, place and priority."""
+        return (one for one in super().get_objects() if not one[2].endswith("Param"))
+
+
 def setup(app: Sphinx) -> dict[str, Any]:
     """Run Doxygen before the pages are read, and add the directive ``cpp-header``."""
     app.add_directive("cpp-header", CppHeader)
+    app.add_domain(CppNames, override=True)
     app.connect("builder-inited", _doxygen, priority=100)
     return {"parallel_read_safe": True}

@@ -20,6 +20,8 @@ from cdcr.robot.schema import table_of
 from cdcr.robot.section import Section
 
 DESCRIBED = {"Robot": Robot, "Section": Section, "Cable": Cable}
+# In place of defaults that only hold where the key means nothing, or stand for no table.
+CONDITIONS = {"Section.cable_radius": "needed where there are cables", "Robot.cables": "none"}
 
 
 def schema(name: str) -> type[BaseModel]:
@@ -38,22 +40,23 @@ def rows(name: str) -> list[tuple[str, str, str]]:
     for key, field in schema(name).model_fields.items():
         described = fields.get(key.removesuffix("_deg"))
         default = field.default
-        if described is not None and key in fields:
-            default = None if described.default is MISSING else described.default
+        if described is not None and described.default is not MISSING:
+            default = described.default
         value = str(field.description)
         if described is not None and "about" in described.metadata:
             value = f"{described.metadata['about']}: {value}"
         elif field.title:
             value = f"{field.title}: {value}"
-        need = (
-            "needed"
-            if field.is_required()
-            else ""
-            if default in (None, ())
-            else json.dumps(default)
-        )
+        need = CONDITIONS.get(f"{name}.{key}") or needed(field.is_required(), default)
         told.append((key, need, value))
     return told
+
+
+def needed(required: bool, default: Any) -> str:
+    """Return whether a key is needed, or its default as a file would say it."""
+    if required:
+        return "needed"
+    return "" if default is None else json.dumps(default)
 
 
 class FileKeys(SphinxDirective):

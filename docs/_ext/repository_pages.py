@@ -12,6 +12,7 @@ from os.path import normpath, relpath
 from pathlib import Path, PurePosixPath
 from typing import Any
 
+from inline import inline
 from scripts import PAGES
 from sphinx.application import Sphinx
 from typeset import typeset
@@ -69,7 +70,7 @@ def _read(app: Sphinx, docname: str, source: list[str]) -> None:
             told = PAGES[file.suffix](told)
         told = relinked(told, match[1], page)
         if match[1].startswith("cpp/"):
-            told = typeset(told)
+            told = inline(typeset(told))
         text = text[: match.start()] + told + text[match.end() :]
     source[0] = text
 

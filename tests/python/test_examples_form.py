@@ -11,8 +11,9 @@ SCRIPTS = sorted(FOLDER.glob("[0-9][0-9]_*.py"))
 
 
 def test_the_table_has_every_example() -> None:
-    rows = re.findall(r"^\| (\d\d) \|", (FOLDER / "README.md").read_text(), re.MULTILINE)
-    assert rows == [script.name[:2] for script in SCRIPTS]
+    row = r"^\| \[(\d\d)\]\((\w+\.py)\) \| `python examples/\2` \|"
+    rows = re.findall(row, (FOLDER / "README.md").read_text(), re.MULTILINE)
+    assert rows == [(script.name[:2], script.name) for script in SCRIPTS]
 
 
 @pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.stem)

@@ -75,6 +75,9 @@ def test_a_robot_in_a_notebook() -> None:
     html = ROBOT._repr_html_()
     tree = ElementTree.fromstring(f"<div>{html}</div>")
     assert len(tree.findall("./table/tbody/tr")) == 3
+    cells = [*tree.iter("th"), *tree.iter("td")]
+    assert len(cells) == 6 + 3 * 6
+    assert all("padding" in cell.get("style", "") for cell in cells)
     lines = tree.findall(".//{http://www.w3.org/2000/svg}line")
     assert len(lines) == 3 + 6 + 5 + 4  # backbones and disks
     assert max(float(line.get("x2", "")) for line in lines) == 480.0

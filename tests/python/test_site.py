@@ -6,6 +6,7 @@ import doctest
 import importlib.util
 import inspect
 import re
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
@@ -167,7 +168,10 @@ def test_python_in_a_page_runs(block: str, tmp_path: Path, monkeypatch: pytest.M
 
 # --- Formulas ---
 
-typeset = module_of(DOCS / "_ext" / "typeset.py")
+sys.path.insert(0, str(DOCS / "_ext"))
+typeset = importlib.import_module("typeset")
+inline = importlib.import_module("inline").inline
+sys.path.pop(0)
 
 
 @pytest.mark.parametrize(
@@ -186,6 +190,28 @@ typeset = module_of(DOCS / "_ext" / "typeset.py")
 )
 def test_a_formula_as_tex(plain: str, tex: str) -> None:
     assert typeset.formula(plain) == tex
+
+
+@pytest.mark.parametrize(
+    ("plain", "told"),
+    [
+        ("at theta = 0 all are", r"at $\theta =0$ all are"),
+        ("A cable at a x of its own", "A cable at a $x$ of its own"),
+        ("with A, S of x", "with $A$, $S$ of $x$"),
+        ("give alpha' and beta'", r"give $\alpha^{\prime }$ and $\beta^{\prime }$"),
+        ("(q_x, q_y, 0), see (2)", "$(q_{x}, q_{y}, 0)$, see (2)"),
+        ("where |r|^2 falls", r"where $\vert r\vert ^{2}$ falls"),
+        ("A. Amouri, C. Mahfoudi", "A. Amouri, C. Mahfoudi"),
+        ("Young's, 5 N on it, 3x2, e.g. C++", "Young's, 5 N on it, 3x2, e.g. C++"),
+        ("`q` [N m] in [theta](theta.md)", "`q` [N m] in [theta](theta.md)"),
+        (
+            "| symbol | unit |\n|---|---|\n| a, b; G_A | kg m^2 |\n",
+            "| symbol | unit |\n|---|---|\n| $a, b; G_{A}$ | kg m² |\n",
+        ),
+    ],
+)
+def test_formulas_within_lines(plain: str, told: str) -> None:
+    assert inline(plain) == told
 
 
 def test_what_has_no_meaning_is_refused() -> None:
@@ -235,11 +261,14 @@ def test_dead_links_and_requests_to_elsewhere_are_found(tmp_path: Path) -> None:
     (bad / "b.html").write_text('<script src="https://x.org/y.js"></script>')
     (bad / "c.css").write_text("@import url(https://x.org/font.css);")
     (bad / "d.html").write_text('<img src="none.png"><a href="#none">d</a>')
+    (bad / "reference" / "cpp").mkdir(parents=True)
+    (bad / "reference" / "cpp" / "e.html").write_text("<blockquote>0: upwards</blockquote>")
     told = [line.removeprefix(f"{bad}/") for line in complaints(bad)]
     assert told == [
         "a.html: b.html#b has no such place",
         "b.html: asks https://x.org/y.js of another machine",
         "d.html: none.png is not there",
         "d.html: #none has no such place",
+        "reference/cpp/e.html: a comment of a header became a quotation",
         "c.css: asks https://x.org/font.css of another machine",
     ]

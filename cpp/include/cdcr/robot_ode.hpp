@@ -24,7 +24,7 @@ class RobotOde {
   /// made for a robot of other sizes, or gives tensions to a cable driven by length.
   RobotOde(const Model& model, Controller& controller, const WrenchInput& loads = no_loads());
 
-  [[nodiscard]] const Model& model() const noexcept { return *model_; }
+  [[nodiscard]] const Model& model() const noexcept { return *model_; }  ///< as given
   [[nodiscard]] Index num_states() const noexcept { return 2 * model_->num_coordinates(); }
 
   /// Begins the stretch of smooth motion that starts at t in state y: asks the controller, or

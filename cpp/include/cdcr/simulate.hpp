@@ -13,7 +13,7 @@ namespace CDCR_EXPORT cdcr {
 /// looked at several times a step and located on the interpolant of the method, to rounding.
 struct Event {
   std::function<double(double t, const ConstVectorRef& q, const ConstVectorRef& qd)> function;
-  int direction = 0;  ///< > 0: upwards, < 0: downwards, 0: both
+  int direction = 0;  ///< above 0: upwards, below 0: downwards, 0: both
   int terminal = 0;   ///< the run ends where it has happened so often; 0: never
 };
 using Events = std::vector<Event>;

@@ -32,15 +32,15 @@ class Simulator {
   [[nodiscard]] Status step(const ConstVectorRef& tension, const Wrenches& wrenches,
                             const Interrupt& stop) noexcept;
 
-  [[nodiscard]] const Model& model() const noexcept { return model_; }
-  [[nodiscard]] const VectorXd& q() const noexcept { return q_; }    ///< (d) [rad]
-  [[nodiscard]] const VectorXd& qd() const noexcept { return qd_; }  ///< (d) [rad/s]
-  [[nodiscard]] double time() const noexcept { return time_; }       ///< [s]
-  [[nodiscard]] double period() const noexcept { return period_; }   ///< [s]
-  [[nodiscard]] int substeps() const noexcept { return substeps_; }
-  [[nodiscard]] bool started() const noexcept { return started_; }  ///< reset has been called
-  [[nodiscard]] double start() const noexcept { return start_; }    ///< as reset was told [s]
-  [[nodiscard]] long long periods() const noexcept { return periods_; }
+  [[nodiscard]] const Model& model() const noexcept { return model_; }  ///< a copy of the one given
+  [[nodiscard]] const VectorXd& q() const noexcept { return q_; }       ///< (d) [rad]
+  [[nodiscard]] const VectorXd& qd() const noexcept { return qd_; }     ///< (d) [rad/s]
+  [[nodiscard]] double time() const noexcept { return time_; }          ///< [s]
+  [[nodiscard]] double period() const noexcept { return period_; }      ///< [s]
+  [[nodiscard]] int substeps() const noexcept { return substeps_; }     ///< in a period
+  [[nodiscard]] bool started() const noexcept { return started_; }      ///< reset has been called
+  [[nodiscard]] double start() const noexcept { return start_; }        ///< as reset was told [s]
+  [[nodiscard]] long long periods() const noexcept { return periods_; }  ///< since start
 
  private:
   void set_clock(long long periods) noexcept;

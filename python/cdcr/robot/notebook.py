@@ -8,6 +8,8 @@ if TYPE_CHECKING:
     from cdcr.robot.robot import Robot
 
 WIDTH = 480.0  # of a drawing [px]
+# For pages that have no style of their own.
+CELL = 'style="padding: 0.2em 0.8em; text-align: right; white-space: nowrap"'
 COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7")
 
 
@@ -19,10 +21,13 @@ def robot_html(robot: Robot) -> str:
         (i + 1, section.length, section.mass, section.stiffness, section.num_disks, ends.count(i))
         for i, section in enumerate(robot.sections)
     ]
-    table = "".join(f"<tr>{''.join(f'<td>{value:.4g}</td>' for value in row)}</tr>" for row in rows)
+    table = "".join(
+        f"<tr>{''.join(f'<td {CELL}>{value:.4g}</td>' for value in row)}</tr>" for row in rows
+    )
+    heads = "".join(f"<th {CELL}>{name}</th>" for name in head)
     whole = f"{robot.length:.4g} m, {robot.mass:.4g} kg, payload {robot.payload:.4g} kg"
     return (
-        f"{_drawing(robot)}<table><thead><tr>{''.join(f'<th>{name}</th>' for name in head)}</tr>"
+        f"{_drawing(robot)}<table><thead><tr>{heads}</tr>"
         f"</thead><tbody>{table}</tbody></table><div>{whole}</div>"
     )
 
