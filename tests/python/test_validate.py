@@ -1,6 +1,7 @@
 """cdcr validate: one sentence for each fault, with its line; nothing runs."""
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ from cdcr.files.toml_lines import key_lines, line_of
 from command import cdcr_
 
 LIBRARY = sorted((Path(cdcr.__file__).parent / "scenarios" / "library").glob("*.toml"))
+RUN = "robot = 'amouri2020'\nt_end = 1.0\n"
 FAULTY = """\
 title = "faulty"
 robot = "amouri2020"
@@ -77,9 +79,48 @@ def test_faults_of_a_robot_that_a_scenario_names_are_found_there(tmp_path: Path)
     lines[at] = "length = -1.0"
     robot.write_text("\n".join(lines), encoding="utf-8")
     path.write_text('robot = "robot.toml"\nt_end = 1.0\n', encoding="utf-8")
-    start = f"cdcr: {robot}, line {at + 1}: section 2: length must be"
-    assert cdcr_("validate", path).stderr.startswith(start)
-    assert cdcr_("validate", robot).stderr.startswith(start)
+    fault = f"{robot}, line {at + 1}: section 2: length must be"
+    assert cdcr_("validate", path).stderr.startswith(f"cdcr: {path}, line 1, robot: {fault}")
+    for command in ("validate", "info"):
+        assert cdcr_(command, robot).stderr.startswith(f"cdcr: {fault}")
+    with pytest.raises(ValueError, match=f"^{re.escape(fault)}"):
+        cdcr.Robot.load(robot)
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ('robot = "no.toml"\nt_end = 1.0', "1, robot: there is no robot file {}/no.toml"),
+        ('robot = "."\nt_end = 1.0', "1, robot: there is no robot '.'"),
+        (f"{RUN}[tension]\nfile = 'no.csv'", "4, tension.file: there is no tension file {}/no.csv"),
+        (f"{RUN}[tension]\nfile = '.'", "4, tension.file: {} is a folder, not a tension file"),
+        (
+            f"{RUN}[tension]\nfile = 'bad.csv'",
+            "4, tension.file: {}/bad.csv, line 3: cable 2 must be a number >= 0 [N], got 'x'",
+        ),
+        (
+            f"{RUN}[trajectory]\nfile = 'no.csv'",
+            "4, trajectory.file: there is no trajectory file {}/no.csv",
+        ),
+    ],
+)
+def test_what_is_wrong_with_a_named_file_says_where_it_is_named(
+    tmp_path: Path, text: str, told: str
+) -> None:
+    (tmp_path / "bad.csv").write_text("t,cable 1,cable 2,cable 3\n0,0,0,0\n1,1,x,1\n")
+    path = tmp_path / "my.toml"
+    path.write_text(text, encoding="utf-8")
+    start = f"cdcr: {path}, line {told.format(tmp_path)}"
+    for command in ("validate", "run"):
+        assert cdcr_(command, path).stderr.startswith(start)
+
+
+def test_run_tells_faults_as_validate_does(tmp_path: Path) -> None:
+    path = tmp_path / "faulty.toml"
+    path.write_text(FAULTY, encoding="utf-8")
+    faults = cdcr_("validate", path).stderr
+    assert len(faults.splitlines()) == 5
+    assert cdcr_("run", path).stderr == faults
 
 
 def test_syntax_keeps_its_line(tmp_path: Path) -> None:

@@ -26,6 +26,7 @@ from typing import Any
 import numpy as np
 
 from cdcr.base.arrays import FloatArray
+from cdcr.files.refusals import with_lines
 from cdcr.files.toml import Faults, read_toml, refuse, schema_errors
 from cdcr.model.model import Model
 from cdcr.runs.command import TensionTable
@@ -59,10 +60,15 @@ def load_scenario(path: str | PathLike[str]) -> Scenario:
     ValueError
         Naming file, key and what is allowed, for everything else that is wrong with it.
     """
-    from cdcr.scenarios.file.schema import ScenarioTable
-
     file = Path(path)
     table = read_toml(file, "scenario file")
+    with with_lines(file):
+        return _scenario(file, table)
+
+
+def _scenario(file: Path, table: dict[str, Any]) -> Scenario:
+    from cdcr.scenarios.file.schema import ScenarioTable
+
     refuse(
         str(file),
         [f"{key} must stand in [{home}]" for key, home in _MOVED.items() if key in table],
