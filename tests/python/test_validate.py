@@ -12,7 +12,7 @@ import cdcr
 pytest.importorskip("typer")
 
 from cdcr.files.toml_lines import key_lines, line_of
-from command import cdcr_
+from command import cdcr_, refused
 
 LIBRARY = sorted((Path(cdcr.__file__).parent / "scenarios" / "library").glob("*.toml"))
 RUN = "robot = 'amouri2020'\nt_end = 1.0\n"
@@ -113,6 +113,25 @@ def test_what_is_wrong_with_a_named_file_says_where_it_is_named(
     start = f"cdcr: {path}, line {told.format(tmp_path)}"
     for command in ("validate", "run"):
         assert cdcr_(command, path).stderr.startswith(start)
+
+
+def test_a_robot_for_a_scenario_and_the_reverse(tmp_path: Path) -> None:
+    robot, path, other = (tmp_path / f"{name}.toml" for name in ("robot", "my", "other"))
+    cdcr.robots.amouri2020().save(robot)
+    path.write_text(RUN)
+    other.write_text(f"robot = '{path}'\nt_end = 1.0\n")
+    takes = f"{path} is a scenario file: `cdcr run` and `cdcr view` take it"
+    for command, target, told in (
+        ("run", robot, f"{robot} is a robot file: `cdcr info` and `cdcr view` take it, or name it "
+         "in a scenario"),
+        ("info", path, takes),
+        ("run", other, f"{other}, line 1, robot: {takes}"),
+        ("run", "amouri2020", "amouri2020 is a robot: `cdcr info amouri2020` or `cdcr view "
+         "amouri2020`"),
+        ("info", "step-tension", "step-tension is a scenario: `cdcr run step-tension` or "
+         "`cdcr view step-tension`"),
+    ):  # fmt: skip
+        assert refused(cdcr_(command, target)) == told
 
 
 def test_run_tells_faults_as_validate_does(tmp_path: Path) -> None:

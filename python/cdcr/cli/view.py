@@ -17,7 +17,7 @@ from cdcr.base.check import nearest
 from cdcr.base.extras import require
 from cdcr.cli import complete
 from cdcr.cli.plain import Overwrite, told_plainly
-from cdcr.cli.run import DelayedBar, Mistake, find_robot, find_scenario, mistakes
+from cdcr.cli.run import DelayedBar, Mistake, find_robot, find_scenario, is_one, mistakes
 from cdcr.files.new_file import check_files
 from cdcr.files.toml import read_toml
 from cdcr.robot.robot import Robot
@@ -81,9 +81,9 @@ def _find(target: str, console: Console) -> Shown:
     """Return what a name or a file stands for."""
     suffix = Path(target).suffix
     known = (*robots.names(), *scenarios.names())
-    if _is_one(target, scenarios.names()):
+    if is_one(target, scenarios.names()):
         return _run(find_scenario(target), console)
-    if _is_one(target, robots.names()):
+    if is_one(target, robots.names()):
         return Shown(robot=find_robot(target))
     if suffix == ".nc":
         run = _load(target)
@@ -98,10 +98,6 @@ def _find(target: str, console: Console) -> Shown:
         f"{target!r} is no robot or scenario of `cdcr list`, no file .toml of one, and no run .nc."
         f"{nearest(target, known)}"
     )
-
-
-def _is_one(name: str, known: tuple[str, ...]) -> bool:
-    return name.replace("_", "-") in (one.replace("_", "-") for one in known)
 
 
 def _run(scenario: Scenario, console: Console) -> Shown:

@@ -33,6 +33,8 @@ def load_robot(kind: type[Robot], path: str | PathLike[str]) -> Robot:
     """Return the robot of a file; see Robot.load."""
     file = Path(path)
     table = read_toml(file, "robot file")
+    if "sections" not in table and {"robot", "t_end"} & table.keys():
+        raise ValueError(f"{file} is a scenario file: `cdcr run` and `cdcr view` take it")
     with with_lines(file):
         return robot_from_table(kind, table, where=str(file))
 

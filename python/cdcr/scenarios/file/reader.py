@@ -62,6 +62,10 @@ def load_scenario(path: str | PathLike[str]) -> Scenario:
     """
     file = Path(path)
     table = read_toml(file, "scenario file")
+    if "sections" in table and not {"robot", "t_end"} & table.keys():
+        raise ValueError(
+            f"{file} is a robot file: `cdcr info` and `cdcr view` take it, or name it in a scenario"
+        )
     with with_lines(file):
         return _scenario(file, table)
 
