@@ -193,7 +193,10 @@ def test_out_of_reach_names_time_and_cables(tmp_path: Path) -> None:
 
 def test_what_refuses_a_motion_names_file_and_table(tmp_path: Path) -> None:
     start = r"^.*track\.toml, \[trajectory\]: "
-    with pytest.raises(ValueError, match=start + r"the reference bends section 1 by "):
+    with pytest.raises(
+        ValueError,
+        match=start.replace(r", \[", r", line 5, \[") + r"the reference bends section 1 by ",
+    ):
         load(tmp_path, CIRCLE.replace("15", "600")).simulate()
     scenario = load(tmp_path, f"t = {SAMPLED.tolist()}\ntheta = {[0.1] * 41}\n")
     with pytest.raises(ValueError, match=start + "t must lie within the reference, 0 to 10 s"):

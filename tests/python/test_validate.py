@@ -115,6 +115,30 @@ def test_what_is_wrong_with_a_named_file_says_where_it_is_named(
         assert cdcr_(command, path).stderr.startswith(start)
 
 
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (
+            "[trajectory]\nshape = 'line'\ntheta_rate_deg = 1000",
+            "3, [trajectory]: the reference bends section 1 by 9.425 rad at t = 0.54 s, beyond",
+        ),
+        ("[integrator]\nmethod = 'rk4'\nrtol = 1e-6", "5: integrator.rtol is none of rk4"),
+        (
+            "[integrator]\nmethod = 'rk4'\nstep = 10",
+            "5: integrator.step must be at most t_end, 1 s, got 10",
+        ),
+        (
+            "[trajectory]\nshape = 'line'\ntheta_rate_deg = 10\nsimulate = true\nstep = 10",
+            "7: trajectory.step must be at most t_end, 1 s, got 10",
+        ),
+    ],
+)
+def test_what_a_run_would_refuse_or_ignore(tmp_path: Path, text: str, told: str) -> None:
+    path = tmp_path / "my.toml"
+    path.write_text(RUN + text)
+    assert refused(cdcr_("validate", path)).startswith(f"{path}, line {told}")
+
+
 def test_a_robot_for_a_scenario_and_the_reverse(tmp_path: Path) -> None:
     robot, path, other = (tmp_path / f"{name}.toml" for name in ("robot", "my", "other"))
     cdcr.robots.amouri2020().save(robot)
