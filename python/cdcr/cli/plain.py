@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Annotated, Any, NoReturn
 
 import typer
@@ -40,6 +40,16 @@ AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object in p
 def print_json(table: dict[str, Any]) -> None:
     """Print one JSON object."""
     typer.echo(json.dumps(table, indent=2, allow_nan=False))
+
+
+def whole(text: str) -> int:
+    """Return the whole number that is written, as 1e6 too, or refuse the option."""
+    with suppress(ValueError):
+        return int(text)
+    with suppress(ValueError):
+        if (value := float(text)).is_integer() and abs(value) < 2**53:
+            return int(value)
+    raise typer.BadParameter(f"must be a whole number, got {text!r}")
 
 
 def end(code: int, sentence: object) -> NoReturn:

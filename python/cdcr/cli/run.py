@@ -34,6 +34,7 @@ NEEDED = {
     ".nc": (("xarray", "data"), ("h5netcdf", "data"), ("h5py", "data")),
 }
 REPLACE = "give --overwrite to replace, or another folder with --out"
+_FIRST = r"^(speed|fmi|step|links)(?= must)"  # of what others begin with
 _ARGUMENTS = r"\b(t_end|method|rtol|atol|max_steps)\b"  # options too, with dashes
 LONGEST_FILM = 60.0  # longer runs are played faster [s]
 BAR_DELAY = 1.0  # shorter runs show no progress bar [s]
@@ -50,6 +51,11 @@ class Mistake(Exception):
 def as_options(message: str) -> str:
     """Return a message about arguments of `Scenario.simulate` in the words of `cdcr run`."""
     return re.sub(_ARGUMENTS, lambda word: f"--{word[0].replace('_', '-')}", message)
+
+
+def first_as_option(message: str) -> str:
+    """Return a message that begins with an argument in the words of the command line."""
+    return re.sub(_FIRST, r"--\1", message)
 
 
 @contextmanager

@@ -17,7 +17,15 @@ from cdcr.base.check import nearest
 from cdcr.base.extras import require
 from cdcr.cli import complete
 from cdcr.cli.plain import Overwrite, told_plainly
-from cdcr.cli.run import DelayedBar, Mistake, find_robot, find_scenario, is_one, mistakes
+from cdcr.cli.run import (
+    DelayedBar,
+    Mistake,
+    find_robot,
+    find_scenario,
+    first_as_option,
+    is_one,
+    mistakes,
+)
 from cdcr.files.new_file import check_files
 from cdcr.files.toml import read_toml
 from cdcr.robot.robot import Robot
@@ -65,7 +73,7 @@ def prepare(
         check_files([record], overwrite=overwrite, replace=REPLACE)
     shown = _find(target, console)
     beside = shown.reference if reference is None else _load(reference)
-    with mistakes():
+    with mistakes(first_as_option):
         session = Session(
             shown.robot, shown.formulation, run=shown.run, reference=beside, speed=speed
         )
