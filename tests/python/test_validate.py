@@ -173,6 +173,24 @@ def test_syntax_keeps_its_line(tmp_path: Path) -> None:
     assert told.startswith(f"cdcr: {path}, line 2, column 9: ")
 
 
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (
+            "[robot.each_section]\ndamping = 1",
+            "line 3, column 20: robot is given twice: as a value on line 1 and as a table on "
+            "line 3; put the value into [robot]",
+        ),
+        ("t_end = 2", "line 3, column 10: t_end is given twice: on line 2 and on line 3"),
+        ("[initial]\n[initial]", "initial is given twice: on line 3 and on line 4"),
+    ],
+)
+def test_what_is_given_twice_is_named(tmp_path: Path, text: str, told: str) -> None:
+    path = tmp_path / "my.toml"
+    path.write_text(f"{RUN}{text}\n")
+    assert refused(cdcr_("validate", path)).endswith(told)
+
+
 def test_json_is_one_object(tmp_path: Path) -> None:
     path = tmp_path / "faulty.toml"
     path.write_text(FAULTY, encoding="utf-8")
