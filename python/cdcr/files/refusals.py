@@ -21,7 +21,7 @@ def named_by(where: str) -> Iterator[None]:
         yield
     except (OSError, ValueError) as error:
         told = "\n".join(f"{where}: {sentence}" for sentence in os_or_value(error).split("\n"))
-        raise (FileNotFoundError if isinstance(error, OSError) else ValueError)(told) from None
+        raise (type(error) if isinstance(error, OSError) else ValueError)(told) from None
 
 
 def os_or_value(error: OSError | ValueError) -> str:
@@ -38,8 +38,8 @@ def with_lines(file: Path) -> Iterator[None]:
         yield
     except ValueError as error:
         raise ValueError(_with_lines(file, str(error))) from None
-    except FileNotFoundError as error:  # of a file that it names
-        raise FileNotFoundError(_with_lines(file, os_or_value(error))) from None
+    except OSError as error:  # of a file that it names
+        raise type(error)(_with_lines(file, os_or_value(error))) from None
 
 
 def _with_lines(file: Path, sentences: str) -> str:
