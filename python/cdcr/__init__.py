@@ -98,7 +98,8 @@ def __getattr__(name: str) -> Any:
     """Load what few programs need when it is asked for."""
     if name in ("control", "export", "gym", "paper", "plotting", "scenarios"):
         return import_module(f"cdcr.{name}")
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    hint = {"load_robot": "; use cdcr.Robot.load"}.get(name, "")
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}{hint}")
 
 
 def __dir__() -> list[str]:

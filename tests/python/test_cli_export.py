@@ -32,10 +32,10 @@ def test_fmu(tmp_path: Path, fmi: int) -> None:
 @pytest.mark.skipif(not LIBRARY.is_file(), reason="cdcr was built without its FMU")
 def test_fmu_refusals(tmp_path: Path) -> None:
     out = ["--out", tmp_path / "arm.fmu"]
-    assert "fmi must be 2 or 3, got 1" in refused(
+    assert "--fmi must be 2 or 3, got 1" in refused(
         cdcr_("export-fmu", "amouri2020", *out, "--fmi", 1)
     )
-    assert "step must be" in refused(cdcr_("export-fmu", "amouri2020", *out, "--step", "-1"))
+    assert "--step must be" in refused(cdcr_("export-fmu", "amouri2020", *out, "--step", "-1"))
     assert "there is no robot" in refused(cdcr_("export-fmu", "amouri2019", *out))
     assert "no dynamics" in refused(cdcr_("export-fmu", "rao2021", *out))
     wrong = cdcr_("export-fmu", "amouri2020", "--out", tmp_path / "arm")
@@ -52,7 +52,9 @@ def test_mjcf(tmp_path: Path) -> None:
     assert file.read_text().count("<spatial ") == 9
     assert "--overwrite" in refused(cdcr_("export-mjcf", "amouri2020", "--out", file))
     many = cdcr_("export-mjcf", "amouri2020", "--out", file, "--links", 1000, "--overwrite")
-    assert refused(many).startswith("links must be a whole number 1 to 320 for 1 section, got 1000")
+    assert refused(many).startswith(
+        "--links must be a whole number 1 to 320 for 1 section, got 1000"
+    )
 
 
 @pytest.mark.filterwarnings("default")

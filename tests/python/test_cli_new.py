@@ -174,6 +174,9 @@ def test_a_file_must_be_one_that_run_takes(tmp_path: Path) -> None:
     result = cdcr_("new", tmp_path / "my.txt")
     assert result.exit_code == 2
     assert result.stderr == "cdcr: the file name must end in .toml, got 'my.txt'\n"
+    for name, option in (("step-tension", "--from"), ("three_sections", "--robot")):
+        way = f"start from it by `cdcr new FILE.toml {option} {name}`\n"
+        assert cdcr_("new", name).stderr.endswith(way)
     result = cdcr_("new", tmp_path / "no" / "my.toml")
     assert result.exit_code == 2
     assert result.stderr == f"cdcr: the folder {tmp_path / 'no'} does not exist; make it first\n"

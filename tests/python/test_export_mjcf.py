@@ -226,7 +226,9 @@ def test_refusals(tmp_path: Path) -> None:
             cdcr.export.write_mjcf(robot, file, links=links)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match=r"must end in \.xml, got 'a\.mjb'"):
         cdcr.export.write_mjcf(robot, tmp_path / "a.mjb")
-    with pytest.raises(ValueError, match="beyond joint 1 of section 1 has none"):
+    with pytest.raises(
+        ValueError, match="joint 1 of section 1 has none; give the section a backbone_mass"
+    ):
         cdcr.export.write_mjcf(cdcr.robots.rao2021(), file)
     assert list(tmp_path.iterdir()) == []
     cdcr.export.write_mjcf(robot, file)

@@ -201,7 +201,7 @@ def test_tension_files(rows: list[list[str]], tmp_path_factory: pytest.TempPathF
     try:
         scenario = load_scenario(path)
     except ValueError as error:
-        check(error, numbers)
+        check(error, path)
         return
     for row in rows:
         assert all(cell.isascii() and "_" not in cell for cell in row)

@@ -338,3 +338,8 @@ def test_pydantic_is_loaded_only_to_read_a_file(tmp_path: Path) -> None:
         "assert 'pydantic' in sys.modules\n"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_what_one_guesses_is_hinted_at() -> None:
+    with pytest.raises(AttributeError, match=r"no attribute 'load_robot'; use cdcr\.Robot\.load$"):
+        _ = cdcr.load_robot

@@ -7,6 +7,7 @@ import pytest
 
 import cdcr
 from cdcr.robot.schema import table_of
+from description import without_lines
 from robot_file import FILE, load, replaced
 
 CABLE = "[[cables]]\nradius = 0.01\nangle = 0.5\nend_section = 1\n"
@@ -17,7 +18,7 @@ def refusal(folder: Path, text: str) -> list[str]:
     with pytest.raises(ValueError, match=r"robot\.toml") as caught:
         load(folder, text)
     where = f"{folder / 'robot.toml'}: "
-    lines = str(caught.value).split("\n")
+    lines = without_lines(caught.value, folder / "robot.toml")
     assert all(line.startswith(where) for line in lines), lines
     return [line.removeprefix(where) for line in lines]
 

@@ -15,6 +15,7 @@ from cdcr.scenarios import Scenario
 from cdcr.scenarios.file.reader import load_scenario
 from cdcr.scenarios.file.schema import IntegratorTable, ScenarioTable
 from cdcr.scenarios.file.start import read_start
+from description import without_lines
 
 FILE = """\
 robot = "amouri2020"
@@ -39,7 +40,7 @@ def refusal(folder: Path, text: str, where: str = "pull.toml") -> list[str]:
     """The sentences, without the place each must begin with."""
     with pytest.raises(ValueError, match=r"pull\.toml") as caught:
         load(folder, text)
-    lines = str(caught.value).split("\n")
+    lines = without_lines(caught.value, folder / "pull.toml")
     start = f"{folder / where}: "
     assert all(line.startswith(start) for line in lines), lines
     return [line.removeprefix(start) for line in lines]
@@ -308,12 +309,16 @@ def test_a_formulation_must_be_known(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "what", "name"),
     [
-        (FILE.replace("amouri2020", "no.toml"), "robot file", "no.toml"),
-        (without("tension") + "[tension]\nfile = 'no.csv'\n", "tension file", "no.csv"),
+        (FILE.replace("amouri2020", "no.toml"), "robot: there is no robot file", "no.toml"),
+        (
+            without("tension") + "[tension]\nfile = 'no.csv'\n",
+            "tension.file: there is no tension file",
+            "no.csv",
+        ),
     ],
 )
 def test_missing_files_are_named(tmp_path: Path, text: str, what: str, name: str) -> None:
-    sentence = f"^there is no {what} {re.escape(str(tmp_path / name))}$"
+    sentence = rf"pull\.toml, line \d, {what} {re.escape(str(tmp_path / name))}$"
     with pytest.raises(FileNotFoundError, match=sentence):
         load(tmp_path, text)
 

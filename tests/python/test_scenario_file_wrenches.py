@@ -17,6 +17,7 @@ from typer.testing import CliRunner
 
 from cdcr.cli.app import app
 from cdcr.scenarios.file.reader import load_scenario
+from description import without_lines
 
 BASE = 'robot = "three_sections"\nt_end = 0.4\noutput.num_samples = 41\n'
 WRENCH = "[[wrenches]]\nsection = 2\n"
@@ -33,7 +34,8 @@ def refusal(tmp_path: Path, text: str) -> list[str]:
     path = written(tmp_path, text)
     with pytest.raises(ValueError, match=r"^") as caught:
         load_scenario(path)
-    return [line.removeprefix(str(path)).lstrip(":, ") for line in str(caught.value).split("\n")]
+    lines = without_lines(caught.value, path)
+    return [line.removeprefix(str(path)).lstrip(":, ") for line in lines]
 
 
 def test_a_table_is_the_wrench_that_python_would_make(tmp_path: Path) -> None:

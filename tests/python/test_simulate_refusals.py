@@ -46,7 +46,10 @@ def refuses(sentence: str) -> Any:
             "t must be finite and strictly increasing, got 0.5 s at index 2 after 0.5 s",
         ),
         ({"t": "soon"}, "t must be numbers of shape (any,), got str"),
-        ({"method": "euler"}, "method must be one of 'rk4', 'dopri5', 'bdf', 'adams', 'dop853', got 'euler'"),
+        (
+            {"method": "euler"},
+            "method must be one of 'rk4', 'dopri5', 'bdf', 'adams', 'dop853', got 'euler'",
+        ),
         ({"rtol": 0.0}, "rtol must be at least 1e-14 and below 1, got 0"),
         ({"rtol": 1.0}, "rtol must be at least 1e-14 and below 1, got 1"),
         ({"rtol": NAN}, "rtol must be at least 1e-14 and below 1, got nan"),

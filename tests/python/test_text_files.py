@@ -27,7 +27,8 @@ def test_pipes_and_devices(tmp_path: Path, kind: str) -> None:
         path.write_text(f'{RUN}tension.file = "{name}"\n')
         told = refusal(lambda: load_scenario(path if kind == "csv" else name))  # noqa: B023
         what = "tension" if kind == "csv" else "scenario"
-        assert told == f"{name} is a pipe or a device, not a {what} file"
+        where = f"{path}, line 3, tension.file: " if kind == "csv" else ""
+        assert told == f"{where}{name} is a pipe or a device, not a {what} file"
 
 
 def test_a_file_that_does_not_end(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,6 +1,7 @@
 """cdcr validate: one sentence for each fault, with its line; nothing runs."""
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -11,9 +12,10 @@ import cdcr
 pytest.importorskip("typer")
 
 from cdcr.files.toml_lines import key_lines, line_of
-from command import cdcr_
+from command import cdcr_, refused
 
 LIBRARY = sorted((Path(cdcr.__file__).parent / "scenarios" / "library").glob("*.toml"))
+RUN = "robot = 'amouri2020'\nt_end = 1.0\n"
 FAULTY = """\
 title = "faulty"
 robot = "amouri2020"
@@ -77,9 +79,91 @@ def test_faults_of_a_robot_that_a_scenario_names_are_found_there(tmp_path: Path)
     lines[at] = "length = -1.0"
     robot.write_text("\n".join(lines), encoding="utf-8")
     path.write_text('robot = "robot.toml"\nt_end = 1.0\n', encoding="utf-8")
-    start = f"cdcr: {robot}, line {at + 1}: section 2: length must be"
-    assert cdcr_("validate", path).stderr.startswith(start)
-    assert cdcr_("validate", robot).stderr.startswith(start)
+    fault = f"{robot}, line {at + 1}: section 2: length must be"
+    assert cdcr_("validate", path).stderr.startswith(f"cdcr: {path}, line 1, robot: {fault}")
+    for command in ("validate", "info"):
+        assert cdcr_(command, robot).stderr.startswith(f"cdcr: {fault}")
+    with pytest.raises(ValueError, match=f"^{re.escape(fault)}"):
+        cdcr.Robot.load(robot)
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ('robot = "no.toml"\nt_end = 1.0', "1, robot: there is no robot file {}/no.toml"),
+        ('robot = "."\nt_end = 1.0', "1, robot: there is no robot '.'"),
+        (f"{RUN}[tension]\nfile = 'no.csv'", "4, tension.file: there is no tension file {}/no.csv"),
+        (f"{RUN}[tension]\nfile = '.'", "4, tension.file: {} is a folder, not a tension file"),
+        (
+            f"{RUN}[tension]\nfile = 'bad.csv'",
+            "4, tension.file: {}/bad.csv, line 3: cable 2 must be a number >= 0 [N], got 'x'",
+        ),
+        (
+            f"{RUN}[trajectory]\nfile = 'no.csv'",
+            "4, trajectory.file: there is no trajectory file {}/no.csv",
+        ),
+    ],
+)
+def test_what_is_wrong_with_a_named_file_says_where_it_is_named(
+    tmp_path: Path, text: str, told: str
+) -> None:
+    (tmp_path / "bad.csv").write_text("t,cable 1,cable 2,cable 3\n0,0,0,0\n1,1,x,1\n")
+    path = tmp_path / "my.toml"
+    path.write_text(text, encoding="utf-8")
+    start = f"cdcr: {path}, line {told.format(tmp_path)}"
+    for command in ("validate", "run"):
+        assert cdcr_(command, path).stderr.startswith(start)
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (
+            "[trajectory]\nshape = 'line'\ntheta_rate_deg = 1000",
+            "3, [trajectory]: the reference bends section 1 by 9.425 rad at t = 0.54 s, beyond",
+        ),
+        ("[integrator]\nmethod = 'rk4'\nrtol = 1e-6", "5: integrator.rtol is none of rk4"),
+        (
+            "[integrator]\nmethod = 'rk4'\nstep = 10",
+            "5: integrator.step must be at most t_end, 1 s, got 10",
+        ),
+        (
+            "[trajectory]\nshape = 'line'\ntheta_rate_deg = 10\nsimulate = true\nstep = 10",
+            "7: trajectory.step must be at most t_end, 1 s, got 10",
+        ),
+    ],
+)
+def test_what_a_run_would_refuse_or_ignore(tmp_path: Path, text: str, told: str) -> None:
+    path = tmp_path / "my.toml"
+    path.write_text(RUN + text)
+    assert refused(cdcr_("validate", path)).startswith(f"{path}, line {told}")
+
+
+def test_a_robot_for_a_scenario_and_the_reverse(tmp_path: Path) -> None:
+    robot, path, other = (tmp_path / f"{name}.toml" for name in ("robot", "my", "other"))
+    cdcr.robots.amouri2020().save(robot)
+    path.write_text(RUN)
+    other.write_text(f"robot = '{path}'\nt_end = 1.0\n")
+    takes = f"{path} is a scenario file: `cdcr run` and `cdcr view` take it"
+    for command, target, told in (
+        ("run", robot, f"{robot} is a robot file: `cdcr info` and `cdcr view` take it, or name it "
+         "in a scenario"),
+        ("info", path, takes),
+        ("run", other, f"{other}, line 1, robot: {takes}"),
+        ("run", "amouri2020", "amouri2020 is a robot: `cdcr info amouri2020` or `cdcr view "
+         "amouri2020`"),
+        ("info", "step-tension", "step-tension is a scenario: `cdcr run step-tension` or "
+         "`cdcr view step-tension`"),
+    ):  # fmt: skip
+        assert refused(cdcr_(command, target)) == told
+
+
+def test_run_tells_faults_as_validate_does(tmp_path: Path) -> None:
+    path = tmp_path / "faulty.toml"
+    path.write_text(FAULTY, encoding="utf-8")
+    faults = cdcr_("validate", path).stderr
+    assert len(faults.splitlines()) == 5
+    assert cdcr_("run", path).stderr == faults
 
 
 def test_syntax_keeps_its_line(tmp_path: Path) -> None:
@@ -87,6 +171,24 @@ def test_syntax_keeps_its_line(tmp_path: Path) -> None:
     path.write_text('robot = "amouri2020"\nt_end = \n', encoding="utf-8")
     told = cdcr_("validate", path).stderr
     assert told.startswith(f"cdcr: {path}, line 2, column 9: ")
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (
+            "[robot.each_section]\ndamping = 1",
+            "line 3, column 20: robot is given twice: as a value on line 1 and as a table on "
+            "line 3; put the value into [robot]",
+        ),
+        ("t_end = 2", "line 3, column 10: t_end is given twice: on line 2 and on line 3"),
+        ("[initial]\n[initial]", "initial is given twice: on line 3 and on line 4"),
+    ],
+)
+def test_what_is_given_twice_is_named(tmp_path: Path, text: str, told: str) -> None:
+    path = tmp_path / "my.toml"
+    path.write_text(f"{RUN}{text}\n")
+    assert refused(cdcr_("validate", path)).endswith(told)
 
 
 def test_json_is_one_object(tmp_path: Path) -> None:

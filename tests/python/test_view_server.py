@@ -233,7 +233,7 @@ def test_the_robot_alone(run: cdcr.Trajectory, tmp_path: Path) -> None:
         (["missing.toml"], "there is no robot or scenario file missing.toml"),
         (["factors-disks"], "nothing runs in the scenario 'factors-disks'"),
         (["amouri2020", "--record", "x.txt"], "--record must end in .html, got 'x.txt'"),
-        (["amouri2020", "--speed", "-1"], "speed must be a number > 0 and finite, got -1.0"),
+        (["amouri2020", "--speed", "-1"], "--speed must be a number > 0 and finite, got -1.0"),
         (["amouri2020", "--reference", "missing.nc"], "there is no run missing.nc"),
     ],
 )

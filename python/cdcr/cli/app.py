@@ -25,7 +25,7 @@ from cdcr.cli import (
     view,
     watch,
 )
-from cdcr.cli.plain import AsJson, Overwrite, Quiet, Robot, Size, print_json, told_plainly
+from cdcr.cli.plain import AsJson, Overwrite, Quiet, Robot, Size, print_json, told_plainly, whole
 
 app = typer.Typer(
     help="Dynamics of cable-driven continuum robots.",
@@ -115,7 +115,11 @@ def run_command(
     ] = None,
     max_steps: Annotated[
         int | None,
-        typer.Option(metavar="NUMBER", help="Internal steps after which the run is given up."),
+        typer.Option(
+            metavar="NUMBER",
+            parser=whole,
+            help="Internal steps after which the run is given up.",
+        ),
     ] = None,
     overwrite: Overwrite = False,
     as_json: AsJson = False,

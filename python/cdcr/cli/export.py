@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from cdcr.cli.plain import Overwrite, Robot, told_plainly
-from cdcr.cli.run import find_robot, mistakes
+from cdcr.cli.run import find_robot, first_as_option, mistakes
 from cdcr.export.fmu import fmu_bytes
 from cdcr.export.mjcf import mjcf_text
 from cdcr.files.new_file import new_file
@@ -39,7 +39,7 @@ def export_fmu_command(
     """
     with told_plainly():
         described = find_robot(robot)
-        with mistakes():
+        with mistakes(first_as_option):
             content = fmu_bytes(described, out, fmi=fmi, step=step)
         with new_file(out, overwrite=overwrite, replace=_REPLACE) as part:
             part.write_bytes(content)
@@ -61,7 +61,7 @@ def export_mjcf_command(
     """
     with told_plainly():
         described = find_robot(robot)
-        with mistakes():
+        with mistakes(first_as_option):
             text = mjcf_text(described, out, links=links)
         with new_file(out, overwrite=overwrite, replace=_REPLACE) as part:
             part.write_text(text, encoding="utf-8", newline="\n")

@@ -44,7 +44,10 @@ def write_robot(path: Path, name: str, *, overwrite: bool) -> None:
 
 def _check_name(path: Path) -> None:
     if path.suffix != ".toml":
-        raise ValueError(f"the file name must end in .toml, got {path.name!r}")
+        known = {"--from": scenarios.names(), "--robot": robots.names()}
+        ways = [f"cdcr new FILE.toml {how} {path}" for how, of in known.items() if str(path) in of]
+        hint = f"; start from it by `{'` or `'.join(ways)}`" if ways else ""
+        raise ValueError(f"the file name must end in .toml, got {path.name!r}{hint}")
 
 
 def _write(path: Path, text: str, *, overwrite: bool) -> None:

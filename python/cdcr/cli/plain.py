@@ -5,12 +5,13 @@ from __future__ import annotations
 import json
 import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Annotated, Any, NoReturn
 
 import typer
 
 from cdcr.cli import complete, run
+from cdcr.files.refusals import os_or_value
 
 INTERRUPTED = 130  # exit code of what Ctrl-C ended
 
@@ -41,9 +42,20 @@ def print_json(table: dict[str, Any]) -> None:
     typer.echo(json.dumps(table, indent=2, allow_nan=False))
 
 
+def whole(text: str) -> int:
+    """Return the whole number that is written, as 1e6 too, or refuse the option."""
+    with suppress(ValueError):
+        return int(text)
+    with suppress(ValueError):
+        if (value := float(text)).is_integer() and abs(value) < 2**53:
+            return int(value)
+    raise typer.BadParameter(f"must be a whole number, got {text!r}")
+
+
 def end(code: int, sentence: object) -> NoReturn:
-    """Say why on stderr, and end with an exit code."""
-    typer.echo(f"cdcr: {sentence}", err=True)
+    """Say why on stderr, each line a sentence, and end with an exit code."""
+    for line in str(sentence).split("\n"):
+        typer.echo(f"cdcr: {line}", err=True)
     raise typer.Exit(code) from None
 
 
@@ -65,5 +77,5 @@ def told_plainly() -> Iterator[None]:
         end(1, failure)
     except (run.Mistake, ImportError) as error:
         end(2, error)
-    except OSError as error:  # the system's own have a file and a reason, ours are sentences
-        end(2, f"{error.filename}: {error.strerror}" if error.strerror else error)
+    except OSError as error:
+        end(2, os_or_value(error))

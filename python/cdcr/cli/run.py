@@ -34,6 +34,7 @@ NEEDED = {
     ".nc": (("xarray", "data"), ("h5netcdf", "data"), ("h5py", "data")),
 }
 REPLACE = "give --overwrite to replace, or another folder with --out"
+_FIRST = r"^(speed|fmi|step|links)(?= must)"  # of what others begin with
 _ARGUMENTS = r"\b(t_end|method|rtol|atol|max_steps)\b"  # options too, with dashes
 LONGEST_FILM = 60.0  # longer runs are played faster [s]
 BAR_DELAY = 1.0  # shorter runs show no progress bar [s]
@@ -50,6 +51,11 @@ class Mistake(Exception):
 def as_options(message: str) -> str:
     """Return a message about arguments of `Scenario.simulate` in the words of `cdcr run`."""
     return re.sub(_ARGUMENTS, lambda word: f"--{word[0].replace('_', '-')}", message)
+
+
+def first_as_option(message: str) -> str:
+    """Return a message that begins with an argument in the words of the command line."""
+    return re.sub(_FIRST, r"--\1", message)
 
 
 @contextmanager
@@ -211,7 +217,11 @@ def _picture(scenario: Scenario, out: Path, *, overwrite: bool, size: str | None
 def find_scenario(name: str) -> Scenario:
     """Return a scenario of the package by name, or a user's one by its file."""
     with mistakes():
-        return load_scenario(name) if is_scenario_file(name) else scenarios.get(name)
+        if is_scenario_file(name):
+            return load_scenario(name)
+        if not is_one(name, scenarios.names()) and is_one(name, robots.names()):
+            raise Mistake(f"{name} is a robot: `cdcr info {name}` or `cdcr view {name}`")
+        return scenarios.get(name)
 
 
 def is_scenario_file(name: str) -> bool:
@@ -222,12 +232,20 @@ def is_scenario_file(name: str) -> bool:
 def find_robot(name: str) -> Robot:
     """Return a robot of the package by name, or a user's one by its file."""
     with mistakes():
-        return Robot.load(name) if _is_file(name, robots.names()) else robots.get(name)
+        if _is_file(name, robots.names()):
+            return Robot.load(name)
+        if not is_one(name, robots.names()) and is_one(name, scenarios.names()):
+            raise Mistake(f"{name} is a scenario: `cdcr run {name}` or `cdcr view {name}`")
+        return robots.get(name)
 
 
 def _is_file(name: str, known: tuple[str, ...]) -> bool:
-    named = name.replace("_", "-") in (one.replace("_", "-") for one in known)
-    return not named and (name.endswith(".toml") or Path(name).is_file())
+    return not is_one(name, known) and (name.endswith(".toml") or Path(name).is_file())
+
+
+def is_one(name: str, known: tuple[str, ...]) -> bool:
+    """Return whether a name is one of the known ones, with dashes or underscores."""
+    return name.replace("_", "-") in (one.replace("_", "-") for one in known)
 
 
 def write(

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Annotated, Any
@@ -13,16 +11,12 @@ import typer
 from cdcr.base.check import count
 from cdcr.cli import complete
 from cdcr.cli.plain import AsJson, print_json, told_plainly
-from cdcr.files.text import read_text
+from cdcr.files.refusals import os_or_value
 from cdcr.files.toml import read_toml
-from cdcr.files.toml_lines import key_lines, line_of
 from cdcr.robot.robot import Robot
 from cdcr.scenarios.file.reader import load_scenario
 
 commands = typer.Typer()
-
-# A refusal: the file, the table in it that it is about where one is named, and the rest.
-_REFUSAL = re.compile(r"(?P<file>.+?\.toml)(?P<home>, [^:]+)?: (?P<rest>.*)")
 
 
 @dataclass(frozen=True)
@@ -42,11 +36,8 @@ def validate(file: str) -> Verdict:
     """Return what a file holds, or what is wrong with it. Nothing runs."""
     try:
         return Verdict(file, holds=_what_it_holds(Path(file)))
-    except ValueError as error:
-        return Verdict(file, faults=tuple(map(_with_line, str(error).split("\n"))))
-    except OSError as error:
-        told = f"{error.filename}: {error.strerror}" if error.strerror else str(error)
-        return Verdict(file, faults=(told,))
+    except (OSError, ValueError) as error:
+        return Verdict(file, faults=tuple(os_or_value(error).split("\n")))
 
 
 def _what_it_holds(path: Path) -> str:
@@ -58,28 +49,6 @@ def _what_it_holds(path: Path) -> str:
 
 def _size(robot: Robot) -> str:
     return f"{count(len(robot.sections), 'section')}, {count(robot.num_cables, 'cable')}"
-
-
-def _with_line(sentence: str) -> str:
-    """Return a refusal with the line that it is about, where that is found."""
-    refusal = _REFUSAL.match(sentence)
-    if refusal is None or re.match(", line ", refusal["home"] or ""):
-        return sentence
-    try:
-        lines = key_lines(read_text(Path(refusal["file"]), "file"))
-    except (OSError, ValueError):
-        return sentence
-    line = line_of(lines, refusal["rest"], ".".join(_tables(refusal["home"] or "")))
-    if line is None:
-        return sentence
-    return f"{refusal['file']}, line {line}{refusal['home'] or ''}: {refusal['rest']}"
-
-
-def _tables(home: str) -> Iterator[str]:
-    """Yield the tables of ', [robot], each_section'."""
-    for one in home.split(","):
-        if one.strip():
-            yield one.strip(" []")
 
 
 @commands.command("validate", short_help="Check robot and scenario files without running.")

@@ -17,7 +17,15 @@ from cdcr.base.check import nearest
 from cdcr.base.extras import require
 from cdcr.cli import complete
 from cdcr.cli.plain import Overwrite, told_plainly
-from cdcr.cli.run import DelayedBar, Mistake, find_robot, find_scenario, mistakes
+from cdcr.cli.run import (
+    DelayedBar,
+    Mistake,
+    find_robot,
+    find_scenario,
+    first_as_option,
+    is_one,
+    mistakes,
+)
 from cdcr.files.new_file import check_files
 from cdcr.files.toml import read_toml
 from cdcr.robot.robot import Robot
@@ -66,7 +74,7 @@ def prepare(
         check_files([record], overwrite=overwrite, replace=REPLACE)
     shown = _find(target, console, robot_alone=robot)
     beside = shown.reference if reference is None else _load(reference)
-    with mistakes():
+    with mistakes(first_as_option):
         session = Session(
             shown.robot, shown.formulation, run=shown.run, reference=beside, speed=speed
         )
@@ -82,8 +90,8 @@ def _find(target: str, console: Console, *, robot_alone: bool) -> Shown:
     """Return what a name or a file stands for."""
     suffix = Path(target).suffix
     known = (*robots.names(), *scenarios.names())
-    is_robot = _is_one(target, robots.names())
-    if _is_one(target, scenarios.names()) and not (robot_alone and is_robot):
+    is_robot = is_one(target, robots.names())
+    if is_one(target, scenarios.names()) and not (robot_alone and is_robot):
         return _scenario(find_scenario(target), console, robot_alone)
     if is_robot:
         return Shown(robot=find_robot(target))
@@ -103,10 +111,6 @@ def _find(target: str, console: Console, *, robot_alone: bool) -> Shown:
         f"{target!r} is no robot or scenario of `cdcr list`, no file .toml of one, and no run .nc."
         f"{nearest(target, known)}"
     )
-
-
-def _is_one(name: str, known: tuple[str, ...]) -> bool:
-    return name.replace("_", "-") in (one.replace("_", "-") for one in known)
 
 
 def _scenario(scenario: Scenario, console: Console, robot_alone: bool) -> Shown:

@@ -134,7 +134,8 @@ def _require_mass(chain: Chain) -> None:
         if not (link.mass > 0.0 and np.linalg.eigvalsh(link.inertia)[0] > 0.0):
             raise ValueError(
                 f"each link must have a mass and an inertia, as MuJoCo's bodies have; that beyond "
-                f"joint {joint.part + 1} of section {joint.section + 1} has none"
+                f"joint {joint.part + 1} of section {joint.section + 1} has none; "
+                "give the section a backbone_mass, or disks with a disk_mass"
             )
 
 

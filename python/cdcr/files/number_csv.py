@@ -87,8 +87,11 @@ def _layout(header: list[str], layouts: Sequence[Layout], path: Path) -> tuple[L
     plain = [one for one in layouts if one.time != RUN_TIME]
     requirement = "; or ".join(", ".join([one.time, *one.columns]) for one in plain)
     # A header that is nothing like ours may be of a file that is nobody's business.
+    parted = re.match(r"(?:t|t \[s\])([;\t|])", ",".join(header))
     got = (
-        ", ".join(header)
+        f"{','.join(header)!r} with {parted[1]!r} in place of commas"
+        if parted
+        else ", ".join(header)
         if header[:1] in (["t"], [RUN_TIME])
         else "others"
         if header

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from cdcr.base.check import nearest
 from cdcr.files.text import read_text
+from cdcr.files.toml_lines import given_twice
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
@@ -57,7 +58,8 @@ def _place_and_reason(message: str, text: str) -> str:
     reason, line, column = found.groups() if found else (message, None, None)
     if line is None:
         return f"line {text.rstrip().count(chr(10)) + 1}: {reason} at the end of the file"
-    return f"line {line}, column {column}: {reason}"
+    twice = given_twice(text, int(line)) if reason.startswith("Cannot ") else None
+    return f"line {line}, column {column}: {twice or reason}"
 
 
 def schema_errors(schema: type[BaseModel], table: Mapping[str, Any], at: str = "") -> list[str]:

@@ -14,21 +14,45 @@ _TOKENS = re.compile(r'"""|\'\'\'|"(?:\\.|[^"\\])*"|\'[^\']*\'|#.*|[\[\]{}]')
 def key_lines(text: str) -> dict[str, int]:
     """Return the line of each table and key, by its path: 'wrenches[0].force', 'robot.gravity'."""
     found: dict[str, int] = {}
+    for number, path, _ in _entries(text):
+        for one in _parents(path):
+            found.setdefault(one, number)
+    return found
+
+
+def given_twice(text: str, line: int) -> str | None:
+    """Return a sentence about what stands in a line of a TOML file and above it too."""
+    entries = [entry for entry in _entries(text) if entry[0] <= line]
+    if not entries:
+        return None
+    number, path, is_table = entries.pop()
+    for first, one, was_table in entries:
+        is_inside = path.startswith(f"{one}.") and not was_table
+        if one != path and not is_inside:
+            continue
+        if was_table == (is_table or is_inside):
+            return f"{one} is given twice: on line {first} and on line {number}"
+        was, now = ("table", "value") if was_table else ("value", "table")
+        return (
+            f"{one} is given twice: as a {was} on line {first} and as a {now} on line {number}; "
+            f"put the value into [{one}]"
+        )
+    return None
+
+
+def _entries(text: str) -> Iterator[tuple[int, str, bool]]:
+    """Yield the line of each header and key, its path, and whether it is a header."""
     counts: dict[str, int] = {}
     home, depth, quotes = "", 0, ""
     for number, line in enumerate(text.splitlines(), start=1):
         if not quotes and depth == 0:
             if header := _HEADER.match(line):
                 home = _numbered(_plain(header[2]), counts, is_list=len(header[1]) == 2)
-                for one in _parents(home):
-                    found.setdefault(one, number)
+                yield number, home, True
                 continue
             if key := _KEY.match(line):
-                path = f"{home}.{_plain(key[1])}" if home else _plain(key[1])
-                for one in _parents(path):
-                    found.setdefault(one, number)
+                yield number, f"{home}.{_plain(key[1])}" if home else _plain(key[1]), False
         depth, quotes = _after(line, depth, quotes)
-    return found
 
 
 def _plain(key: str) -> str:

@@ -268,6 +268,11 @@ def _check(model: Model, reference: Reference, infeasible: str) -> None:
                 f"inverse_run gives tensions, but cable {j + 1} is driven by length; "
                 "model.commands(q, tension) gives the lengths that hold tensions"
             )
+    check_bending(reference)
+
+
+def check_bending(reference: Reference) -> None:
+    """Refuse a motion that bends a section beyond what the model can."""
     angles = np.hypot(reference.q[:, 0::2], reference.q[:, 1::2])
     beyond = np.argwhere(angles > _core.max_bending)
     if beyond.size:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from cdcr import _core
 from cdcr.base.check import entry
 from cdcr.files.new_file import new_file
+from cdcr.files.refusals import with_lines
 from cdcr.files.toml import format_toml, read_toml, refuse, schema_errors
 from cdcr.robot.cable import Cable
 from cdcr.robot.section import Section
@@ -31,7 +32,11 @@ _HEAD = """\
 def load_robot(kind: type[Robot], path: str | PathLike[str]) -> Robot:
     """Return the robot of a file; see Robot.load."""
     file = Path(path)
-    return robot_from_table(kind, read_toml(file, "robot file"), where=str(file))
+    table = read_toml(file, "robot file")
+    if "sections" not in table and {"robot", "t_end"} & table.keys():
+        raise ValueError(f"{file} is a scenario file: `cdcr run` and `cdcr view` take it")
+    with with_lines(file):
+        return robot_from_table(kind, table, where=str(file))
 
 
 def save_robot(robot: Robot, path: str | PathLike[str], *, overwrite: bool) -> None:

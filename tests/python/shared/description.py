@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -12,3 +14,9 @@ def refusal(kind: Any, **fields: Any) -> list[str]:
     with pytest.raises(ValueError) as caught:  # noqa: PT011 - the text is what the caller asserts
         kind(**fields)
     return str(caught.value).split("\n")
+
+
+def without_lines(error: object, file: Path) -> list[str]:
+    """The sentences of a refusal, without the lines of the file that they are about."""
+    line = rf"^({re.escape(str(file))}), line \d+(?=, |: )"
+    return [re.sub(line, r"\1", one) for one in str(error).split("\n")]

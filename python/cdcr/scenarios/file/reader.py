@@ -26,6 +26,7 @@ from typing import Any
 import numpy as np
 
 from cdcr.base.arrays import FloatArray
+from cdcr.files.refusals import with_lines
 from cdcr.files.toml import Faults, read_toml, refuse, schema_errors
 from cdcr.model.model import Model
 from cdcr.runs.command import TensionTable
@@ -46,6 +47,7 @@ _COMMON = ("title", "description", "source", "formulation", "t_end")
 # Keys that stood at the top once.
 _MOVED = dict.fromkeys(("method", "rtol", "atol", "step", "max_step", "max_steps"), "integrator")
 _MOVED["num_samples"] = "output"
+NUM_CHECKED = 1001  # samples of a motion that are looked at before it runs
 _INPUTS = ("tension", "trajectory", "controller")
 
 
@@ -59,10 +61,19 @@ def load_scenario(path: str | PathLike[str]) -> Scenario:
     ValueError
         Naming file, key and what is allowed, for everything else that is wrong with it.
     """
-    from cdcr.scenarios.file.schema import ScenarioTable
-
     file = Path(path)
     table = read_toml(file, "scenario file")
+    if "sections" in table and not {"robot", "t_end"} & table.keys():
+        raise ValueError(
+            f"{file} is a robot file: `cdcr info` and `cdcr view` take it, or name it in a scenario"
+        )
+    with with_lines(file):
+        return _scenario(file, table)
+
+
+def _scenario(file: Path, table: dict[str, Any]) -> Scenario:
+    from cdcr.scenarios.file.schema import ScenarioTable
+
     refuse(
         str(file),
         [f"{key} must stand in [{home}]" for key, home in _MOVED.items() if key in table],
@@ -76,6 +87,8 @@ def load_scenario(path: str | PathLike[str]) -> Scenario:
             motion["simulate"] = motion.pop("feed_back")  # its old name
         with faults.kept():
             refuse(str(file), _input_errors(table))
+        with faults.kept():
+            refuse(str(file), _step_errors(table))
     can_go_on = not faults
     given: dict[str, Any] = {"title": file.stem, "description": "", "source": str(file)}
     given |= {name: table[name] for name in _COMMON if name in table}
@@ -120,6 +133,12 @@ def _integrator(table: Mapping[str, Any], file: Path) -> dict[str, Any]:
     from cdcr.scenarios.file.schema import IntegratorTable
 
     refuse(str(file), schema_errors(IntegratorTable, table, "integrator"))
+    is_fixed = table.get("method") == "rk4"
+    pointless = [key for key in ("rtol", "atol", "max_step") if is_fixed and key in table]
+    refuse(
+        str(file),
+        [f"integrator.{key} is none of rk4, whose steps are all step" for key in pointless],
+    )
     with error_prefix(f"{file}, [integrator]"):
         integrator_options(**{"method": "bdf"} | dict(table))
     return dict(table)
@@ -166,13 +185,26 @@ def _input_errors(table: Mapping[str, Any]) -> list[str]:
     return found
 
 
+def _step_errors(table: Mapping[str, Any]) -> list[str]:
+    """Return a sentence for each step that is longer than the run."""
+    steps = {home: _table(table, home).get("step") for home in ("integrator", *_INPUTS)}
+    t_end = table["t_end"]
+    return [
+        f"{home}.step must be at most t_end, {t_end:g} s, got {step:g}"
+        for home, step in steps.items()
+        if isinstance(step, (int, float)) and step > t_end
+    ]
+
+
 def _input(table: Mapping[str, Any], model: Model, file: Path) -> dict[str, Any]:
     """Return the fields of a scenario that say what moves the robot."""
     if "controller" in table:
         loop = read_controller(table["controller"], model, file)
         return {"controller": loop, "summarize": loop.summarize, "plot": loop.plot}
     if "trajectory" in table:
-        motion = read_trajectory(table["trajectory"], model, table["t_end"], file)
+        t_end = table["t_end"]
+        motion = read_trajectory(table["trajectory"], model, t_end, file)
+        motion.check(np.linspace(0.0, t_end, NUM_CHECKED))
         q0, qd0 = motion.start()
         fields = {
             "input_source": motion,

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from cdcr import robots
+from cdcr.files.refusals import named_by
 from cdcr.files.toml import refuse, schema_errors
 from cdcr.robot.file import doubled, in_radians, robot_from_table
 from cdcr.robot.robot import Robot
@@ -24,7 +25,8 @@ def read_robot(value: str | dict[str, Any], file: Path) -> Robot:
     """Return the robot of a scenario file, or refuse it with file, key and value."""
     if isinstance(value, str):
         if value.endswith(".toml"):
-            return Robot.load(file.parent / value)
+            with named_by(f"{file}, robot"):
+                return Robot.load(file.parent / value)
         with error_prefix(f"{file}, robot"):
             return robots.get(value)
     where = f"{file}, [robot]"

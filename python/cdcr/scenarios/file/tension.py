@@ -16,6 +16,7 @@ import numpy as np
 
 from cdcr.base.arrays import FloatArray, even_times
 from cdcr.base.check import count
+from cdcr.files.refusals import named_by
 from cdcr.files.toml import format_toml, refuse, schema_errors
 from cdcr.model.model import Model
 from cdcr.robot.file import doubled
@@ -104,8 +105,10 @@ def _over_time(table: dict[str, Any], model: Model, file: Path) -> TensionTable:
     )
     interpolation = table.get("interpolation", "linear")
     if "file" in table:
-        where = str(file.parent / table["file"])
-        tension = TensionTable.load(where, model, interpolation=interpolation)
+        named = file.parent / table["file"]
+        where = f"{file}, tension.file: {named}"
+        with named_by(f"{file}, tension.file"):
+            tension = TensionTable.load(named, model, interpolation=interpolation)
     else:
         where = f"{file}, [tension]"
         t, rows = table["t"], table["rows"]

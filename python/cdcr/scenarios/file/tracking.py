@@ -13,7 +13,7 @@ import numpy as np
 from cdcr._core import Status
 from cdcr.base.arrays import FloatArray, even_times
 from cdcr.model.model import Model
-from cdcr.motion.inverse import Infeasible, InverseRun, inverse_run
+from cdcr.motion.inverse import Infeasible, InverseRun, check_bending, inverse_run
 from cdcr.motion.reference import Reference
 from cdcr.motion.splines import Motion
 from cdcr.runs.command import Command, TensionTable
@@ -82,6 +82,11 @@ class TrackedMotion:
         """Return q and qd at t = 0."""
         q, qd, _ = self.motion(np.zeros(1))[:, 0]
         return tuple(q.tolist()), tuple(qd.tolist())
+
+    def check(self, t: FloatArray) -> None:
+        """Refuse a motion that bends a section too far at any of the times (N,) [s]."""
+        with error_prefix(self.where):
+            check_bending(self.reference(t))
 
     def inverse(self, model: Model, t: FloatArray) -> InverseRun:
         """Return the tensions needed at times (N,) [s]."""

@@ -18,6 +18,7 @@ import numpy as np
 from cdcr.base.arrays import FloatArray
 from cdcr.base.check import count, nearest
 from cdcr.files.number_csv import RUN_TIME, Layout, read_numbers
+from cdcr.files.refusals import named_by
 from cdcr.files.toml import format_toml, refuse, schema_errors
 from cdcr.model.coordinates import bending
 from cdcr.model.model import Model
@@ -176,9 +177,10 @@ _MOTIONS = {"circle": _circle, "line": _line, "swing": _swing, "move": _move}
 def _samples(table: dict[str, Any], model: Model, file: Path) -> Reference:
     if "file" in table:
         path = file.parent / table["file"]
-        t, given = _read_csv(path, model)
-        with error_prefix(str(path)):
-            return _reference(t, given)
+        with named_by(f"{file}, {AT}.file"):
+            t, given = _read_csv(path, model)
+            with error_prefix(str(path)):
+                return _reference(t, given)
     given = {
         key: np.array(_rows(table, key, model.num_sections, file)) for key in _SAMPLED & set(table)
     }
