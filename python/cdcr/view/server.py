@@ -80,8 +80,11 @@ def look_at(server: Any, model: LiveModel) -> None:
 
     def step_back(client: Any) -> None:
         if client.camera.aspect < WIDTH:
-            client.camera.position = tuple(center + eye * WIDTH / client.camera.aspect)
-            client.camera.look_at = tuple(center)  # which moves with the position
+            away = eye * WIDTH / client.camera.aspect
+            # There the panel covers the lower half.
+            below = center - 0.5 * np.linalg.norm(away) * np.tan(FIELD / 2.0) * up
+            client.camera.position = tuple(below + away)
+            client.camera.look_at = tuple(below)  # which moves with the position
 
     server.on_client_connect(step_back)
 
