@@ -15,8 +15,10 @@ struct Kind {
   Method method;
   const char* name;
 };
-constexpr Kind adaptive[] = {
-    {Method::dopri5, "dopri5"}, {Method::dop853, "dop853"}, {Method::adams, "adams"}, {Method::bdf, "bdf"}};
+constexpr Kind adaptive[] = {{Method::dopri5, "dopri5"},
+                             {Method::dop853, "dop853"},
+                             {Method::adams, "adams"},
+                             {Method::bdf, "bdf"}};
 
 /// From rest at q0, under constant tensions, without gravity.
 struct Problem {

@@ -65,7 +65,7 @@ def test_scenarios_files_options_and_values_are_offered(home: Path) -> None:
     assert everything == [*cdcr.scenarios.names(), "mine/", "my.toml", "other.toml"]
     assert deep == ["mine/deep.toml"]
     assert options == ["--watch"]
-    assert values == ["dopri5"]
+    assert values == ["dopri5", "dop853"]
 
 
 def test_the_shell_is_found_and_told(home: Path) -> None:

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+import cdcr
 from cdcr.files import new_file as module
 from cdcr.files.new_file import new_file, new_files
 from command import everything_in
@@ -153,3 +154,19 @@ def test_a_folder_that_cannot_be_written_is_found_before_the_run(
     with pytest.raises(OSError, match=r"Read-only file system: '.*new/a\.txt'"):
         module.check_files([tmp_path / "new" / "a.txt"])
     assert everything_in(tmp_path) == []
+
+
+def test_a_path_that_is_none() -> None:
+    robot = cdcr.robots.amouri2020()
+    run = cdcr.simulate(cdcr.Model(robot), [0, 0], [0, 0], t=[0, 0.1])
+    no_path: Any = 5
+    for write in (
+        run.save,
+        robot.save,
+        cdcr.Robot.load,
+        cdcr.Trajectory.load,
+        lambda path: cdcr.export.write_fmu(robot, path),
+        lambda path: cdcr.export.write_mjcf(robot, path),
+    ):
+        with pytest.raises(TypeError, match=r"^path must be the path of a file, got 5 \(int\)$"):
+            write(no_path)

@@ -188,7 +188,8 @@ def test_methods_are_those_of_the_core() -> None:
         ),
         (
             FILE + "integrator.method = 'euler'\n",
-            'integrator.method must be "bdf", "adams", "dopri5", "dop853" or "rk4", got \'euler\' (string)',
+            'integrator.method must be "bdf", "adams", "dopri5", "dop853" or "rk4", '
+            "got 'euler' (string)",
         ),
         (
             FILE + "integrator.rtol = -1\n",

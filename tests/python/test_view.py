@@ -246,3 +246,5 @@ def test_refusals(run: cdcr.Trajectory) -> None:
     one = cdcr.simulate(cdcr.Model(cdcr.robots.amouri2020()), [0, 0], [0, 0], t=[0, 1])
     with pytest.raises(ValueError, match="reference must be of a robot of 3 sections, got one of"):
         Session(arm(), run=run, reference=one)
+    with pytest.raises(TypeError, match=r"reference must be a cdcr\.Trajectory or .*, got 3 \(int"):
+        Session(arm(), run=run, reference=3)  # type: ignore[arg-type]

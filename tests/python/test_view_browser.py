@@ -126,9 +126,10 @@ def test_a_narrow_window_shows_the_whole_robot(browser: Window) -> None:
             until(lambda: bool(np.mean(picture(browser)[:500] < WHITE) > 0.01), browser)
             (client,) = view._server.get_clients().values()
             until(lambda: client.camera.aspect < 1.0, browser)
-            columns = pixels(view, robot_shape(live(view).model, live(view).q).backbone)[:, 0]
+            columns, rows = pixels(view, robot_shape(live(view).model, live(view).q).backbone).T
             # As in a window of 960 pixels, the middle of this one is at 200.
             assert np.all(np.abs(columns - WIDTH / 2.0) < 200.0 * HEIGHT / 800.0)
+            assert np.all((rows > 0.0) & (rows < 0.41 * HEIGHT))  # above the panel
     finally:
         browser.page.set_viewport_size({"width": WIDTH, "height": HEIGHT})
 

@@ -19,7 +19,7 @@ from cdcr import _core
 from cdcr.base.check import Check, count, format_value, require_kind
 from cdcr.export.fmu_description import IDENTIFIER, model_description
 from cdcr.export.fmu_variables import variables
-from cdcr.files.new_file import new_file
+from cdcr.files.new_file import file_path, new_file
 from cdcr.model.model import Model
 from cdcr.robot.cable import Cable
 from cdcr.robot.robot import Robot
@@ -80,8 +80,8 @@ def write_fmu(
     ...     file.stat().st_size > 1e5
     True
     """
-    content = fmu_bytes(robot, Path(path), fmi=fmi, step=step)
-    with new_file(Path(path), overwrite=overwrite) as part:
+    content = fmu_bytes(robot, file_path(path), fmi=fmi, step=step)
+    with new_file(file_path(path), overwrite=overwrite) as part:
         part.write_bytes(content)
 
 

@@ -16,7 +16,7 @@ import numpy as np
 from cdcr import _core
 from cdcr.base.check import Check, count, require_kind
 from cdcr.export.links import Chain, Joint, Link
-from cdcr.files.new_file import new_file
+from cdcr.files.new_file import file_path, new_file
 from cdcr.robot.cable import Cable
 from cdcr.robot.robot import Robot
 
@@ -88,8 +88,8 @@ def write_mjcf(
     ...     file.read_text().count("<joint ")
     10
     """
-    text = mjcf_text(robot, Path(path), links=links)
-    with new_file(Path(path), overwrite=overwrite) as part:
+    text = mjcf_text(robot, file_path(path), links=links)
+    with new_file(file_path(path), overwrite=overwrite) as part:
         part.write_text(text, encoding="utf-8", newline="\n")
 
 

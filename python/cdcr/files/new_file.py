@@ -9,11 +9,21 @@ import secrets
 import signal
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
+from os import PathLike
 from pathlib import Path
+
+from cdcr.base.check import format_value
 
 MAX_NAMED = 4  # files named in one sentence
 REPLACE = "pass overwrite=True to replace it"
 _PROCESSES = "/proc"  # where Linux shows the open files of each
+
+
+def file_path(path: str | PathLike[str]) -> Path:
+    """Return a path as one, or refuse what is none."""
+    if isinstance(path, str | PathLike):
+        return Path(path)
+    raise TypeError(f"path must be the path of a file, got {format_value(path)}")
 
 
 @contextmanager

@@ -6,12 +6,11 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import MISSING, Field, fields
 from os import PathLike
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from cdcr import _core
 from cdcr.base.check import entry
-from cdcr.files.new_file import new_file
+from cdcr.files.new_file import file_path, new_file
 from cdcr.files.refusals import with_lines
 from cdcr.files.toml import format_toml, read_toml, refuse, schema_errors
 from cdcr.robot.cable import Cable
@@ -31,7 +30,7 @@ _HEAD = """\
 
 def load_robot(kind: type[Robot], path: str | PathLike[str]) -> Robot:
     """Return the robot of a file; see Robot.load."""
-    file = Path(path)
+    file = file_path(path)
     table = read_toml(file, "robot file")
     if "sections" not in table and {"robot", "t_end"} & table.keys():
         raise ValueError(f"{file} is a scenario file: `cdcr run` and `cdcr view` take it")
@@ -41,7 +40,7 @@ def load_robot(kind: type[Robot], path: str | PathLike[str]) -> Robot:
 
 def save_robot(robot: Robot, path: str | PathLike[str], *, overwrite: bool) -> None:
     """Write a robot file; see Robot.save."""
-    with new_file(Path(path), overwrite=overwrite) as part:
+    with new_file(file_path(path), overwrite=overwrite) as part:
         part.write_text(robot_text(robot), encoding="utf-8", newline="\n")
 
 

@@ -13,6 +13,7 @@ import numpy as np
 from cdcr._core import Status
 from cdcr.base.arrays import FloatArray
 from cdcr.base.extras import require
+from cdcr.files.new_file import file_path
 from cdcr.files.number_csv import RUN_TIME, number, read_rows
 from cdcr.model.model import Model
 from cdcr.robot.cable import Cable
@@ -24,7 +25,7 @@ from cdcr.runs.stats import STATS, make_stats
 
 def load(path: str | PathLike[str], model: Model | None) -> dict[str, Any]:
     """Return the fields of a stored run but its slack events as tuples; see Trajectory.load."""
-    file = Path(path)
+    file = file_path(path)
     if file.suffix not in (".nc", ".csv"):
         raise ValueError(f"the file name must end in .nc or .csv, got {file.name!r}")
     if not file.is_file():

@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from cdcr.files.new_file import new_file
+from cdcr.files.new_file import file_path, new_file
 from cdcr.runs.export import write_csv, write_netcdf
 from cdcr.runs.mcap_log import write_mcap
 
@@ -18,7 +18,7 @@ _WRITERS = {".nc": write_netcdf, ".csv": write_csv, ".mcap": write_mcap}
 
 def save(run: Trajectory, path: str | os.PathLike[str], *, overwrite: bool = False) -> Path:
     """Write the run to a file; see Trajectory.save."""
-    path = Path(path)
+    path = file_path(path)
     if path.suffix not in _WRITERS:
         raise ValueError(f"the file name must end in .nc, .csv or .mcap, got {path.name!r}")
     with new_file(path, overwrite=overwrite) as part:

@@ -21,6 +21,7 @@ PORT = 8080
 EYE = np.array([1.0, -1.55, 0.45])  # where one looks from, over the robot's length
 FIELD = 0.6  # of view, in height [rad]
 WIDTH = 1.1  # of what has to be seen, over its height
+HALF = 1.35  # how much further away one looks from where the panel covers the lower half
 
 
 def open_server(port: int, title: str) -> Any:
@@ -81,8 +82,11 @@ def look_at(server: Any, model: LiveModel) -> None:
 
     def step_back(client: Any) -> None:
         if client.camera.aspect < WIDTH:
-            client.camera.position = tuple(center + eye * WIDTH / client.camera.aspect)
-            client.camera.look_at = tuple(center)  # which moves with the position
+            away = HALF * eye * WIDTH / client.camera.aspect
+            # To the upper half, as the panel covers the lower one.
+            below = center - 0.5 * np.linalg.norm(away) * np.tan(FIELD / 2.0) * up
+            client.camera.position = tuple(below + away)
+            client.camera.look_at = tuple(below)  # which moves with the position
 
     server.on_client_connect(step_back)
 

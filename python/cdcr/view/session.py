@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from cdcr.base.arrays import FloatArray
-from cdcr.base.check import Check, count
+from cdcr.base.check import Check, count, format_value
 from cdcr.plotting.geometry import Motion, states_at
 from cdcr.view.live import LiveModel, LiveRobot, Pull, command_ranges, first_damping, round_up
 
@@ -69,6 +69,10 @@ class Session:
         self._robot, self._formulation = robot, formulation
         self._still = LiveModel(robot, formulation)
         size = self._still.num_coordinates
+        moves = all(hasattr(reference, name) for name in ("t", "q", "qd"))
+        if reference is not None and not moves:
+            got = format_value(reference)
+            raise TypeError(f"reference must be a cdcr.Trajectory or a cdcr.Reference, got {got}")
         if reference is not None and reference.q.shape[1] != size:
             raise ValueError(
                 f"reference must be of a robot of {count(size // 2, 'section')}, got one of "

@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from cdcr.base.arrays import FloatArray
+from cdcr.files.new_file import file_path
 from cdcr.view.drawing import Drawing
 from cdcr.view.panel import Panel, Task
 from cdcr.view.server import HOST, close_server, look_at, name_page, open_server
@@ -169,7 +170,7 @@ class View:
 
         if self._server is not None:
             raise RuntimeError("a view that is served cannot be recorded; close it first")
-        return write_page(self._session, Path(path), self._title, overwrite=overwrite)
+        return write_page(self._session, file_path(path), self._title, overwrite=overwrite)
 
     def _run(self) -> None:
         try:
