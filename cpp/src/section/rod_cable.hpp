@@ -27,7 +27,7 @@ class RodCable {
     for (const Point& point : points_) {
       // s = (0, 0, l + e) + u x d + d' of the path.
       S q_x(0.0), q_y(0.0), twist(0.0), along(rod.length);
-      for (int i = 0; i < rod.num_bending; ++i) {
+      for (Index i = 0; i < rod.num_bending; ++i) {
         q_x += point.legendre[i] * q[2 * i];
         q_y += point.legendre[i] * q[2 * i + 1];
       }
@@ -41,7 +41,7 @@ class RodCable {
       sum += point.weight * s;
       const S share = point.weight * pull / s;
       const S on_bending = share * s_z, on_twist = share * (s_x * point.y - s_y * point.x);
-      for (int i = 0; i < rod.num_bending; ++i) {
+      for (Index i = 0; i < rod.num_bending; ++i) {
         const S part = point.legendre[i] * on_bending;
         force[2 * i] += point.x * part;
         force[2 * i + 1] += point.y * part;

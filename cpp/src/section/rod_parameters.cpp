@@ -54,8 +54,8 @@ RodParameters::RodParameters(const RodDescription& rod)
   add_stiffness(stiffness, first_stretch, 1, num_stretch, pull);
 
   damping.resize(size());
-  for (int i = 0; i < num_bending; ++i) {
-    damping.segment(2 * i, 2).setConstant(rod.damping / (2 * i + 1));
+  for (Index i = 0; i < num_bending; ++i) {
+    damping.segment(2 * i, 2).setConstant(rod.damping / static_cast<double>(2 * i + 1));
   }
   for (int i = 0; i < num_twist; ++i) damping[first_twist + i] = rod.twist_damping / (2 * i + 1);
   for (int i = 0; i < num_stretch; ++i) {
