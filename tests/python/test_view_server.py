@@ -265,14 +265,21 @@ def test_without_the_extra(module: str) -> None:
 
 
 def test_ctrl_c_ends_it_well() -> None:
-    command = [sys.executable, "-m", "cdcr", "view", "amouri2020", "--port", "0", "--no-browser"]
+    script = (
+        "import signal; from cdcr.cli import main; "
+        "signal.signal(signal.SIGINT, signal.default_int_handler); "  # ignored in the background
+        "main(['view', 'amouri2020', '--port', '0', '--no-browser'])"
+    )
     with subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        [sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     ) as process:
-        assert process.stdout is not None
-        line = process.stdout.readline()
-        port = int(re.findall(r"^http://127\.0\.0\.1:(\d+) - Ctrl-C ends$", line)[0])
-        process.send_signal(signal.SIGINT)
-        out, err = process.communicate(timeout=LONG)
+        try:
+            assert process.stdout is not None
+            line = process.stdout.readline()
+            port = int(re.findall(r"^http://127\.0\.0\.1:(\d+) - Ctrl-C ends$", line)[0])
+            process.send_signal(signal.SIGINT)
+            out, err = process.communicate(timeout=LONG)
+        finally:
+            process.kill()
     assert (process.returncode, out, err) == (0, "", "")
     assert is_free(port)
