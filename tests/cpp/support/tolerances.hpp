@@ -21,7 +21,7 @@ constexpr double differences = 2e-9;
 
 /// Recursions over many sections: a rounding or two for each, relative to the terms that are added;
 /// forward dynamics after inverse dynamics over the condition of the mass matrix.
-constexpr double recursion = 1e-13;
+constexpr double recursion = 3e-13;
 /// The same where gravity is turned: weights cancel, and rotations are orthonormal to rounding.
 constexpr double turned = 1e-12;
 /// Derivatives of energies and forces by differences of eighth order, in steps of 0.02 rad.
