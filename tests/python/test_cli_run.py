@@ -343,12 +343,3 @@ main(["run", "step-tension", "--out", "new/out", "--t-end", "1000"])
     )
     assert (done.returncode, done.stdout) == (128 + signal.SIGTERM, "")
     assert everything_in(tmp_path) == []
-
-
-def test_max_steps_is_a_whole_number_however_it_is_written(tmp_path: Path) -> None:
-    few = cdcr_("run", "step-tension", "--out", tmp_path, "--max-steps", "1e0", "--format", "csv")
-    assert few.exit_code == 1
-    assert "more than --max-steps" in few.stderr
-    half = cdcr_("run", "step-tension", "--out", tmp_path, "--max-steps", "1.5")
-    assert half.exit_code == 2
-    assert "'--max-steps': must be a whole number, got '1.5'" in half.stderr

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 import warnings
 from dataclasses import replace
 from typing import Any
@@ -295,80 +293,3 @@ def test_a_window_without_a_screen_is_a_warning(monkeypatch: pytest.MonkeyPatch)
         assert pyplot.get_fignums() == []
     finally:
         pyplot.switch_backend(before)
-
-
-@pytest.mark.parametrize(
-    ("given", "sentence"),
-    [
-        ({"task": "reech"}, "there is no task 'reech'. Did you mean 'reach'?"),
-        ({"robot": "rao2021"}, "there is no robot 'rao2021'. Known: amouri2020, three_sections"),
-        ({"action": "force"}, "there is no action 'force'."),
-        ({"limit": -1.0}, "limit must be one number > 0 N or 3 of them, got -1.0"),
-        ({"limit": [1.0, 2.0]}, "limit must be one number > 0 N or 3 of them, got [1.0, 2.0]"),
-        ({"action": "length", "limit": 0.0}, "limit must be one number > 0 m or 3 of them, got 0"),
-        ({"control_cost": -0.1}, "control_cost must be a number >= 0 and finite, got -0.1"),
-        ({"period": 0.0}, "period must be a number > 0 s and finite, got 0.0"),
-        ({"randomization": {"colour": (1, 2)}}, "there is no range of randomization 'colour'."),
-        ({"randomization": {"mass": (0.0, 1.0)}}, "must be two numbers > 0, from low to high"),
-        ({"randomization": {"payload": (0.2, 0.1)}}, "must be two numbers >= 0, from low to high"),
-        ({"randomization": {"payload": 0.2}}, "randomization['payload'] must be two numbers"),
-        ({"render_mode": "ascii"}, "render_mode must be one of"),
-    ],
-)
-def test_refusals(given: dict[str, Any], sentence: str) -> None:
-    with pytest.raises(ValueError) as refusal:  # noqa: PT011 - what it says is looked at below
-        RobotEnv(**given)
-    assert sentence in str(refusal.value)
-
-
-def test_more_refusals() -> None:
-    with pytest.raises(TypeError, match=r"robot must be a cdcr\.Robot, got int"):
-        RobotEnv(robot=3)  # type: ignore[arg-type]
-    bare = replace(cdcr.robots.amouri2020().sections[0], cable_angles=())
-    with pytest.raises(ValueError, match="needs cables, and this robot has none"):
-        RobotEnv(robot=cdcr.Robot(sections=[bare]))
-    env = RobotEnv("track")
-    with pytest.raises(ValueError, match="there is no option of reset 'target'"):
-        env.reset(options={"target": [0.0, 0.0, 0.8]})
-    with pytest.raises(ValueError, match=r"options\['q'\] must have shape \(2,\), got \(3,\)"):
-        env.reset(options={"q": [0.0, 0.0, 0.8]})
-    env.reset(seed=0)
-    for action in ([0.0], np.zeros(4), np.zeros((1, 3)), 0.0):
-        with pytest.raises(ValueError, match=r"action must have shape \(3,\), got"):
-            env.step(action)  # type: ignore[arg-type]
-    with pytest.raises(ValueError, match=r"action\[0\] must be finite, got nan"):
-        env.step(np.array([np.nan, 0.0, 0.0], dtype=np.float32))
-    with pytest.raises(ValueError, match="num_envs must be a whole number >= 1, got 0"):
-        RobotVectorEnv(0)
-    with pytest.raises(ValueError, match="max_episode_steps must be a whole number >= 1"):
-        RobotVectorEnv(1, max_episode_steps=0)
-    with pytest.raises(ValueError, match="render_mode must be 'rgb_array' or None"):
-        RobotVectorEnv(1, render_mode="human")
-    with pytest.raises(ValueError, match="seed must be one number or 2, got 3"):
-        RobotVectorEnv(2).reset(seed=[1, 2, 3])
-
-
-def test_the_extra_is_named_where_it_is_missing() -> None:
-    code = "import sys; sys.modules['gymnasium'] = None; import cdcr; cdcr.gym"
-    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
-    assert run.returncode == 1
-    assert 'gymnasium is needed for this and could not be imported: pip install "cdcr[gym]"' in (
-        run.stderr
-    )
-
-
-def test_a_step_before_the_first_reset() -> None:
-    for env in (RobotEnv(), RobotVectorEnv(2)):
-        with pytest.raises(RuntimeError, match=r"reset\(\) must be called before the first step"):
-            env.step(env.action_space.sample())
-
-
-def test_actions_and_ranges_that_are_none() -> None:
-    env = RobotEnv()
-    env.reset(seed=0)
-    with pytest.raises(ValueError, match="action must"):
-        env.step("a")  # type: ignore[arg-type]
-    with pytest.raises(ValueError, match=r"action must have shape \(3,\), got \(2,\)"):
-        env.step(np.zeros(2, dtype=np.float32))
-    with pytest.raises(ValueError, match=r"randomization must be a mapping .*, got \[1\] \(list\)"):
-        RobotEnv(randomization=[1])  # type: ignore[arg-type]

@@ -1,4 +1,4 @@
-"""``cdcr run --film``."""
+"""Options of ``cdcr run``: --film, --max-steps."""
 
 import shutil
 from pathlib import Path
@@ -60,3 +60,12 @@ def test_films_that_cannot_be_written_are_refused(
     assert told.startswith("--film mp4 needs the program ffmpeg, which is not on the PATH")
     assert refused(cdcr_("run", "gravity-ratio", "--film", "gif")).endswith("takes no --film")
     assert everything_in(tmp_path) == []
+
+
+def test_max_steps_is_a_whole_number_however_it_is_written(tmp_path: Path) -> None:
+    few = cdcr_("run", "step-tension", "--out", tmp_path, "--max-steps", "1e0", "--format", "csv")
+    assert few.exit_code == 1
+    assert "more than --max-steps" in few.stderr
+    half = cdcr_("run", "step-tension", "--out", tmp_path, "--max-steps", "1.5")
+    assert half.exit_code == 2
+    assert "'--max-steps': must be a whole number, got '1.5'" in half.stderr
