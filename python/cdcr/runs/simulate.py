@@ -120,7 +120,7 @@ def simulate(
         Forces and moments on the robot; their profiles say how they change in time.
     method : {"bdf", "adams", "dopri5", "dop853", "rk4"}, optional
         bdf and adams: CVODE. dopri5: Dormand-Prince 5(4), quick where nothing is stiff; dop853: the
-        same of order 8(5,3), quicker from errors of 1e-5 rad downwards. rk4: fixed step.
+        same of order 8(5,3), quicker at small errors where damping is weak. rk4: fixed step.
         Where cdcr was built without SUNDIALS there is no bdf and no adams, and dopri5 is the
         default.
 
