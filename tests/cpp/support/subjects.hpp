@@ -238,7 +238,7 @@ struct Rods final : Recursion<detail::Rod<double>> {
     for (const cdcr::Section& section : robot.sections) {
       rods.push_back(described_rod(section, bending_order, twist_order, stretch_order));
       // As exact as an arc, bent by a full turn.
-      if (m == 2) rods.back().num_nodes = detail::max_rod_nodes;
+      if (m == 2) rods.back().num_nodes = 20;
     }
     return rods;
   }
