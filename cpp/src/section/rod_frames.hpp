@@ -2,236 +2,289 @@
 
 #include <array>
 
-#include "section/arc.hpp"
-#include "section/magnus.hpp"
-#include "section/rod_parameters.hpp"
+#include "section/rod_turns.hpp"
 
 namespace cdcr::detail {
 
-/// The frames along a rod in one state: functions of q that are differentiated as they stand, so
-/// that a model made of them conserves its own energy (cpp/rods.md eqs. (52) to (57)).
+#if defined(__x86_64__)
+#define CDCR_FMA 1
+inline const bool has_fma = __builtin_cpu_supports("fma") != 0;
+
+template <class F, class Width>
+[[gnu::target("fma"), gnu::flatten]] void run_with_fma(const F& f, Width width) {
+  f(width);
+}
+#endif
+
+template <class F, class Width>
+void run(const F& f, Width width) {
+#ifdef CDCR_FMA
+  if (has_fma) return run_with_fma(f, width);
+#endif
+  f(width);
+}
+
+/// f(width) for a number of coordinates: of doubles with the least width known to the compiler that
+/// holds them; columns beyond are zero.
+template <class S, class F>
+void with_width(int size, const F& f) {
+  if constexpr (Lanes<S>::count == 1) {
+    f(size);
+  } else {
+    if (size <= 4) return run(f, std::integral_constant<int, 4>());
+    if (size <= 8) return run(f, std::integral_constant<int, 8>());
+    if (size <= 12) return run(f, std::integral_constant<int, 12>());
+    if (size <= 16) return run(f, std::integral_constant<int, 16>());
+    run(f, std::integral_constant<int, 20>());
+  }
+}
+
+/// Frames and nodes along a rod in one state: functions of q that are differentiated as they stand,
+/// so that a model made of them conserves its own energy (cpp/rods.md eqs. (52) to (57)).
+///
+/// Jacobians are rows of one number for each coordinate, `width` apart: three for J_v of each node,
+/// then three for J_omega of each frame but the base, then one for t^T J_omega of each of these.
 template <class S>
 struct RodFrames {
   static constexpr int m = Eigen::Dynamic, max_m = max_rod_coordinates;
   using Matrix3m = Eigen::Matrix<S, 3, m, Eigen::ColMajor, 3, max_m>;
 
-  /// A point of the backbone beside the base; rates are those on a base at rest.
-  struct Point {
-    Vector3<S> t, r;        // tangent, and place from the base
-    Matrix3m J_omega, J_v;  // omega = J_omega qd, v = J_v qd
-    Vector3<S> omega, v;
-    Vector3<S> omega_dot, v_dot;  // accelerations from velocities alone
-  };
   FrameState<S> base;
   const RodParameters* rod = nullptr;
-  std::array<Point, max_rod_nodes> points;
-  Matrix3<S> axes;  // at the tip
+  Matrix3<S> axes;        // at the tip
+  Vector3<S> r;           // from base to tip
+  Matrix3m J_omega, J_v;  // of the tip: omega = J_omega qd, v = J_v qd on a base at rest
 
-  /// Places, tangents and Jacobians of all points.
+  /// Frames, places and Jacobians of all points.
   void update_position(const SectionParameters& section, const FrameState<S>& at, const S* q) {
     rod = section.rod.get();
     base = at;
-    const int size = rod->size(), n = rod->num_nodes();
-    axes = base.rotation();
-    // dr/dx and d2r/dx2 at the nodes, and how they change with q; the base does not turn.
-    std::array<Vector3<S>, max_rod_nodes + 1> first, second;
-    std::array<Matrix3m, max_rod_nodes + 1> J_first, J_second;
-    for (int k = 0; k <= n; ++k) {
-      if (k > 0) turn(*section.arcs, k - 1, q);
-      const RodNode& node = rod->nodes[k];
-      local[k] = strain_of(k, q);
-      local[k].q_x += rod->locked_turning[1];
-      local[k].q_y -= rod->locked_turning[0];
-      const Strain& e = local[k];
-      const auto x = axes.col(0), y = axes.col(1), z = axes.col(2);
-      const S length = rod->length + e.stretch;
-      first[k] = length * z;
-      const Vector3<S> bent = e.q_x * x + e.q_y * y;
-      second[k] = length * bent + e.stretch_slope * z;
-      J_first[k].setZero(3, size);
-      J_second[k].setZero(3, size);
-      if (k > 0) {
-        points[k - 1].t = z;
-        for (int i = 0; i < rod->first_stretch; ++i) {
-          const Vector3<S> turning = points[k - 1].J_omega.col(i);
-          J_first[k].col(i) = turning.cross(first[k]);
-          J_second[k].col(i) = turning.cross(second[k]);
+    with_width<S>(rod->size(), [&](auto width) {
+      axes = turns.update_position(*rod, *section.arcs, base.rotation(), q);
+      turn(width);
+      integrate(width, q);
+      const int size = rod->size();
+      J_omega.resize(3, size);
+      J_v.resize(3, size);
+      const S *on_omega = turning_rows(width) + 3 * (rod->num_frames() - 1) * width,
+              *on_v = rows.data() + 3 * (rod->num_nodes() - 1) * width;
+      for (int i = 0; i < size; ++i) {
+        for (int c = 0; c < 3; ++c) {
+          J_omega(c, i) = on_omega[c * width + i];
+          J_v(c, i) = on_v[c * width + i];
         }
       }
-      for (int i = 0; i < rod->num_bending; ++i) {
-        J_second[k].col(2 * i) += (node.legendre[i] * length) * x;
-        J_second[k].col(2 * i + 1) += (node.legendre[i] * length) * y;
-      }
-      for (int i = 0; i < rod->num_stretch; ++i) {
-        const int column = rod->first_stretch + i;
-        J_first[k].col(column) = node.legendre[i] * z;
-        J_second[k].col(column) = node.legendre[i] * bent + node.legendre_slope[i] * z;
-      }
-    }
-    for (int k = 0; k < n; ++k) {
-      Point& point = points[k];
-      if (k == 0) {
-        point.r.setZero();
-        point.J_v.setZero(3, size);
-      } else {
-        point.r = points[k - 1].r;
-        point.J_v = points[k - 1].J_v;
-      }
-      int j = rod->nodes[k + 1].first_neighbour;
-      for (const RodNode::Weight& weight : rod->nodes[k + 1].integral) {
-        point.r += weight.value * first[j] + weight.slope * second[j];
-        point.J_v += weight.value * J_first[j] + weight.slope * J_second[j];
-        ++j;
-      }
-    }
+    });
+    r = places[rod->num_nodes() - 1];
+  }
+
+ protected:
+  /// Of a frame; omega and its rate from velocities alone on a base at rest.
+  struct Turning {
+    Vector3<S> t, omega, omega_dot;
+  };
+  /// Of a node, the same.
+  struct Moving {
+    Vector3<S> v, v_dot;
+  };
+  std::array<S, (3 * max_rod_nodes + 4 * (max_rod_frames - 1)) * max_m> rows;
+  std::array<Vector3<S>, max_rod_nodes> places;
+  std::array<Turning, max_rod_frames> turning;  // the first is that of the base
+  std::array<Moving, max_rod_nodes> moving;
+
+  template <class Width>
+  [[nodiscard]] const S* turning_rows(Width width) const {
+    return rows.data() + 3 * rod->num_nodes() * width;
+  }
+  template <class Width>
+  [[nodiscard]] const S* spin_rows(Width width) const {
+    return turning_rows(width) + 3 * rod->num_frames() * width;
   }
 
   /// Velocities of all points, and accelerations from velocities alone, on a base at rest.
   void move(const S* qd) {
-    const int n = rod->num_nodes();
-    Vector3<S> omega = Vector3<S>::Zero(), omega_dot = Vector3<S>::Zero();
-    // First and second derivatives in time of dr/dx and d2r/dx2 at the nodes.
-    std::array<Vector3<S>, max_rod_nodes + 1> first_1, first_2, second_1, second_2;
-    for (int k = 0; k <= n; ++k) {
-      if (k > 0) {
-        turn_rates(k - 1, qd, omega, omega_dot);
-        points[k - 1].omega = omega;
-        points[k - 1].omega_dot = omega_dot;
+    const std::vector<RodFrame>& frames = rod->rule.frames;
+    turning[0].omega.setZero();
+    turning[0].omega_dot.setZero();
+    Vector3<S> omega = Vector3<S>::Zero(), omega_dot = omega;
+    int k = 1;
+    turns.rates(*rod, qd, [&](int s, const Vector3<S>& turned, const Vector3<S>& rate) {
+      omega_dot += omega.cross(turned) + rate;
+      omega += turned;
+      if (k < static_cast<int>(frames.size()) && s + 1 == frames[k].steps_before) {
+        turning[k].omega = omega;
+        turning[k].omega_dot = omega_dot;
+        ++k;
       }
-      const Matrix3<S>& here = k < n ? steps[k].from : axes;
-      const auto x = here.col(0), y = here.col(1), z = here.col(2);
-      const Strain &e = local[k], rate = strain_of(k, qd);
+    });
+    // First and second derivatives in time of dr/dx and d2r/dx2 at the frames, and their integrals.
+    std::array<std::array<S, 12>, max_rod_frames> rates;
+    for (k = 0; k < static_cast<int>(frames.size()); ++k) {
+      const Matrix3<S> R = axes_at(k);
+      const auto x = R.col(0), y = R.col(1), z = R.col(2);
+      const Strain &e = strain[k], rate = strain_of(frames[k], qd);
       const S length = rod->length + e.stretch;
       const Vector3<S> bent = e.q_x * x + e.q_y * y, bending = rate.q_x * x + rate.q_y * y;
-      const auto differentiate = [&](const Vector3<S>& d, const Vector3<S>& local_1,
-                                     const Vector3<S>& local_2, Vector3<S>& d_1, Vector3<S>& d_2) {
-        const Vector3<S> swing = omega.cross(d);
-        d_1 = swing + local_1;
-        d_2 = omega_dot.cross(d) + omega.cross(Vector3<S>(swing + 2.0 * local_1)) + local_2;
+      const Vector3<S>&w = turning[k].omega, &w_dot = turning[k].omega_dot;
+      const auto differentiate = [&](S* to, const Vector3<S>& d, const Vector3<S>& local_1,
+                                     const Vector3<S>& local_2) {
+        const Vector3<S> swing = w.cross(d);
+        Eigen::Map<Vector3<S>> first(to), second(to + 3);
+        first = swing + local_1;
+        second = w_dot.cross(d) + w.cross(Vector3<S>(swing + 2.0 * local_1)) + local_2;
       };
-      differentiate(length * z, rate.stretch * z, Vector3<S>::Zero(), first_1[k], first_2[k]);
-      differentiate(length * bent + e.stretch_slope * z,
+      differentiate(rates[k].data(), length * z, rate.stretch * z, Vector3<S>::Zero());
+      differentiate(rates[k].data() + 6, length * bent + e.stretch_slope * z,
                     length * bending + rate.stretch * bent + rate.stretch_slope * z,
-                    (2.0 * rate.stretch) * bending, second_1[k], second_2[k]);
+                    (2.0 * rate.stretch) * bending);
     }
-    for (int k = 0; k < n; ++k) {
-      Point& point = points[k];
-      if (k == 0) {
-        point.v.setZero();
-        point.v_dot.setZero();
-      } else {
-        point.v = points[k - 1].v;
-        point.v_dot = points[k - 1].v_dot;
+    std::array<S, 6> sum{};
+    sum.fill(S(0.0));
+    for (k = 0; k < rod->num_nodes(); ++k) {
+      const RodNode& node = rod->rule.nodes[k];
+      for (int j = 0; j < num_neighbours; ++j) {
+        const auto& weight = node.integral[j];
+        const auto& rate = rates[node.first_neighbour + j];
+        for (int i = 0; i < 6; ++i) sum[i] += weight.value * rate[i] + weight.slope * rate[6 + i];
       }
-      int j = rod->nodes[k + 1].first_neighbour;
-      for (const RodNode::Weight& weight : rod->nodes[k + 1].integral) {
-        point.v += weight.value * first_1[j] + weight.slope * second_1[j];
-        point.v_dot += weight.value * first_2[j] + weight.slope * second_2[j];
-        ++j;
-      }
+      moving[k] = {{sum[0], sum[1], sum[2]}, {sum[3], sum[4], sum[5]}};
     }
   }
 
  private:
-  /// The rotation from one point to the next.
-  struct Step {
-    Magnus<S> magnus;
-    Matrix3<S> from;  // axes where it begins
-    ArcValues<S> f;   // of |Omega|^2
-  };
-  /// Strains at a node, or their rates.
+  /// Strains at a frame, or their rates.
   struct Strain {
     S q_x, q_y, stretch, stretch_slope;
   };
-  std::array<Step, max_rod_nodes> steps;
-  std::array<Strain, max_rod_nodes + 1> local;
+  RodTurns<S> turns;
+  std::array<Strain, max_rod_frames> strain;
 
-  [[nodiscard]] Strain strain_of(int k, const S* q) const {
-    const RodNode& node = rod->nodes[k];
+  [[nodiscard]] Strain strain_of(const RodFrame& frame, const S* q) const {
     Strain e{S(0.0), S(0.0), S(0.0), S(0.0)};
     for (int i = 0; i < rod->num_bending; ++i) {
-      e.q_x += node.legendre[i] * q[2 * i];
-      e.q_y += node.legendre[i] * q[2 * i + 1];
+      e.q_x += frame.legendre[i] * q[2 * i];
+      e.q_y += frame.legendre[i] * q[2 * i + 1];
     }
     for (int i = 0; i < rod->num_stretch; ++i) {
-      e.stretch += node.legendre[i] * q[rod->first_stretch + i];
-      e.stretch_slope += node.legendre_slope[i] * q[rod->first_stretch + i];
+      e.stretch += frame.legendre[i] * q[rod->first_stretch + i];
+      e.stretch_slope += frame.legendre_slope[i] * q[rod->first_stretch + i];
     }
     return e;
   }
 
-  /// Sum of u_j = (-q_y, q_x, t) of order j times these weights.
-  [[nodiscard]] Vector3<S> turning_of(const LegendreValues& weight, const S* q) const {
-    Vector3<S> u = Vector3<S>::Zero();
-    for (int j = 0; j < rod->num_bending; ++j) {
-      u[0] -= weight[j] * q[2 * j + 1];
-      u[1] += weight[j] * q[2 * j];
-    }
-    for (int j = 0; j < rod->num_twist; ++j) u[2] += weight[j] * q[rod->first_twist + j];
-    return u;
+  [[nodiscard]] Matrix3<S> axes_at(int frame) const {
+    return frame < rod->num_frames() ? turns.axes_before(rod->rule.frames[frame].steps_before)
+                                     : axes;
   }
 
-  /// Turns `axes` from the point before to point k, and tells how they turn with q there.
-  void turn(const ArcTable& arcs, int k, const S* q) {
-    const auto& weight = rod->nodes[k + 1].step;
-    Step& step = steps[k];
-    const Vector3<S> locked = rod->locked_turning.template cast<S>();
-    const auto turning = [&](std::size_t i) -> Vector3<S> {
-      return turning_of(weight[i], q) + weight[i][0] * locked;
-    };
-    step.magnus = Magnus<S>(turning(0), turning(1), turning(2));
-    step.from = axes;
-    const Vector3<S>& Omega = step.magnus.Omega;
-    read(arcs, S(Omega.squaredNorm()), step.f);
-    const S A = step.f[arc_a], G = step.f[arc_g], sine = step.f[arc_s];
-    // R [Omega] and R [Omega]^2, row by row.
-    Matrix3<S> once, twice;
-    for (int c = 0; c < 3; ++c) {
-      const Vector3<S> row = axes.row(c).transpose();
-      const Vector3<S> turned = row.cross(Omega);
-      once.row(c) = turned.transpose();
-      twice.row(c) = turned.cross(Omega).transpose();
+  /// J_omega of all frames.
+  template <class Width>
+  void turn(Width width) {
+    constexpr int max_width = std::is_same_v<Width, int> ? max_m : int(Width());
+    std::array<S, 3 * max_width * max_rod_steps> columns;
+    const int count = rod->rule.steps.count;
+    for (int s = 0; s < count; ++s) {
+      for (int c = 0; c < 3; ++c) {
+        for (int i = rod->first_stretch; i < width; ++i) {
+          columns[(3 * s + c) * width + i] = S(0.0);
+        }
+      }
     }
-    const Matrix3<S> tangent = axes + A * once + G * twice;
-    axes += sine * once + A * twice;
-
-    std::array<Matrix3<S>, 3> slope;
-    step.magnus.slopes(slope);
-    for (Matrix3<S>& one : slope) one = tangent.lazyProduct(one).eval();
-    Matrix3m& J = points[k].J_omega;
-    if (k == 0) {
-      J.setZero(3, rod->size());
-    } else {
-      J = points[k - 1].J_omega;
+    turns.slopes(*rod, [&](int s, int i, const Vector3<S>& column) {
+      for (int c = 0; c < 3; ++c) columns[(3 * s + c) * width + i] = column[c];
+    });
+    S *J = rows.data() + 3 * rod->num_nodes() * width, *spin = J + 3 * rod->num_frames() * width;
+    std::array<S, 3 * max_width> sum{};
+    for (int i = 0; i < 3 * width; ++i) sum[i] = S(0.0);
+    int s = 0;
+    for (int k = 1; k <= rod->num_frames(); ++k) {
+      for (; s < rod->rule.frames[k].steps_before; ++s) {
+        for (int i = 0; i < 3 * width; ++i) sum[i] += columns[3 * s * width + i];
+      }
+      for (int i = 0; i < 3 * width; ++i) J[i] = sum[i];
+      const Vector3<S> t = axes_at(k).col(2);
+      turning[k].t = t;
+      for (int i = 0; i < width; ++i) {
+        spin[i] = t[0] * sum[i] + t[1] * sum[width + i] + t[2] * sum[2 * width + i];
+      }
+      J += 3 * width;
+      spin += width;
     }
-    const auto about = [&](int axis, int j) -> Vector3<S> {
-      return weight[0][j] * slope[0].col(axis) + weight[1][j] * slope[1].col(axis) +
-             weight[2][j] * slope[2].col(axis);
-    };
-    for (int j = 0; j < rod->num_bending; ++j) {
-      J.col(2 * j) += about(1, j);
-      J.col(2 * j + 1) -= about(0, j);
-    }
-    for (int j = 0; j < rod->num_twist; ++j) J.col(rod->first_twist + j) += about(2, j);
   }
 
-  /// From omega and its rate at the point before to those at point k.
-  void turn_rates(int k, const S* qd, Vector3<S>& omega, Vector3<S>& omega_dot) const {
-    const auto& weight = rod->nodes[k + 1].step;
-    const Step& step = steps[k];
-    Vector3<S> first, second;
-    step.magnus.rates(turning_of(weight[0], qd), turning_of(weight[1], qd),
-                      turning_of(weight[2], qd), first, second);
-    const Vector3<S>& Omega = step.magnus.Omega;
-    const S A = step.f[arc_a], G = step.f[arc_g], growth = 2.0 * Omega.dot(first);
-    const Vector3<S> across = Omega.cross(first), again = Omega.cross(across),
-                     across_2 = Omega.cross(second);
-    const Vector3<S> turning = step.from * (first + A * across + G * again);
-    const Vector3<S> turning_dot =
-        step.from * (second + A * across_2 + G * (Omega.cross(across_2) + first.cross(across)) +
-                     growth * (step.f[arc_da] * across + step.f[arc_dg] * again));
-    omega_dot += omega.cross(turning) + turning_dot;
-    omega += turning;
+  /// Places of all nodes, and J_v.
+  template <class Width>
+  void integrate(Width width, const S* q) {
+    constexpr int max_width = std::is_same_v<Width, int> ? max_m : int(Width());
+    // dr/dx and d2r/dx2 at the frames, and how they change with q; the base does not turn.
+    std::array<std::array<S, 6>, max_rod_frames> d;
+    std::array<S, 6 * max_width * max_rod_frames> J;
+    for (int k = 0; k <= rod->num_frames(); ++k) {
+      const RodFrame& frame = rod->rule.frames[k];
+      strain[k] = strain_of(frame, q);
+      strain[k].q_x += rod->locked_turning[1];
+      strain[k].q_y -= rod->locked_turning[0];
+      const Strain& e = strain[k];
+      const Matrix3<S> R = axes_at(k);
+      const auto x = R.col(0), y = R.col(1), z = R.col(2);
+      const S length = rod->length + e.stretch;
+      const Vector3<S> bent = e.q_x * x + e.q_y * y;
+      const Vector3<S> first = length * z, second = length * bent + e.stretch_slope * z;
+      d[k] = {first[0], first[1], first[2], second[0], second[1], second[2]};
+      S *J_first = J.data() + 6 * k * width, *J_second = J_first + 3 * width;
+      if (k == 0) {
+        for (int i = 0; i < 6 * width; ++i) J_first[i] = S(0.0);
+      } else {
+        const S* W = turning_rows(width) + 3 * (k - 1) * width;
+        for (int c = 0; c < 3; ++c) {
+          const int a = (c + 1) % 3, b = (c + 2) % 3;
+          for (int i = 0; i < width; ++i) {
+            J_first[c * width + i] = W[a * width + i] * first[b] - W[b * width + i] * first[a];
+            J_second[c * width + i] = W[a * width + i] * second[b] - W[b * width + i] * second[a];
+          }
+        }
+      }
+      for (int i = 0; i < rod->num_bending; ++i) {
+        const S share = frame.legendre[i] * length;
+        for (int c = 0; c < 3; ++c) {
+          J_second[c * width + 2 * i] += share * x[c];
+          J_second[c * width + 2 * i + 1] += share * y[c];
+        }
+      }
+      for (int i = 0; i < rod->num_stretch; ++i) {
+        const int column = rod->first_stretch + i;
+        for (int c = 0; c < 3; ++c) {
+          J_first[c * width + column] = frame.legendre[i] * z[c];
+          J_second[c * width + column] =
+              frame.legendre[i] * bent[c] + frame.legendre_slope[i] * z[c];
+        }
+      }
+    }
+    Vector3<S> place = Vector3<S>::Zero();
+    std::array<S, 3 * max_width> sums;
+    for (int i = 0; i < 3 * width; ++i) sums[i] = S(0.0);
+    for (int k = 0; k < rod->num_nodes(); ++k) {
+      const RodNode& node = rod->rule.nodes[k];
+      const std::array<RodNode::Weight, num_neighbours> weights = node.integral;
+      for (int j = 0; j < num_neighbours; ++j) {
+        const auto& from = d[node.first_neighbour + j];
+        for (int c = 0; c < 3; ++c) {
+          place[c] += weights[j].value * from[c] + weights[j].slope * from[3 + c];
+        }
+      }
+      places[k] = place;
+      const S* from = J.data() + 6 * node.first_neighbour * width;
+      S* to = rows.data() + 3 * k * width;
+      for (int i = 0; i < 3 * width; i += Lanes<S>::count) {
+        auto sum = Lanes<S>::load(sums.data() + i);
+        for (int j = 0; j < num_neighbours; ++j) {
+          sum += weights[j].value * Lanes<S>::load(from + 6 * j * width + i) +
+                 weights[j].slope * Lanes<S>::load(from + (6 * j + 3) * width + i);
+        }
+        Lanes<S>::store(sum, sums.data() + i);
+        Lanes<S>::store(sum, to + i);
+      }
+    }
   }
 };
 
