@@ -164,9 +164,11 @@ TEST_CASE("the rule of a rod's mass is exact for polynomials") {
         inertia += disk.mass * disk.diameter * disk.diameter / 16.0 * std::pow(disk.position, p);
       }
       double sum = 0.0, inertia_sum = 0.0;
-      for (const detail::RodNode& node : rule.nodes) sum += node.mass * std::pow(node.x, p);
-      for (const detail::RodFrame& frame : rule.frames) {
-        inertia_sum += frame.inertia * std::pow(frame.x, p);
+      for (std::size_t k = 0; k < rule.nodes.size(); ++k) {
+        sum += rule.mass[k] * std::pow(rule.nodes[k].x, p);
+      }
+      for (std::size_t k = 0; k < rule.frames.size(); ++k) {
+        inertia_sum += rule.inertia[k] * std::pow(rule.frames[k].x, p);
       }
       if (p > 0) CHECK(residual(sum, mass) <= tolerance::cancelled);  // the base is left out
       // From 24 nodes on those of frames are weights of interpolation.
@@ -197,7 +199,9 @@ TEST_CASE("a backbone without mass leaves the disks") {
   const detail::RodRule rule(rod, 12);
   for (int p = 1; p <= 12; ++p) {
     double sum = 0.0;
-    for (const detail::RodNode& node : rule.nodes) sum += node.mass * std::pow(node.x, p);
+    for (std::size_t k = 0; k < rule.nodes.size(); ++k) {
+      sum += rule.mass[k] * std::pow(rule.nodes[k].x, p);
+    }
     CHECK(residual(sum, 0.1 * std::pow(0.3, p) + 0.2) <= tolerance::cancelled);
   }
 }

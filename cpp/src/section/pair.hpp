@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstring>
 
 namespace cdcr::detail {
@@ -23,6 +24,7 @@ struct Pair {
   friend Pair operator*(Pair a, Pair b) { return Pair(a.both * b.both); }
   friend Pair operator/(Pair a, Pair b) { return Pair(a.both / b.both); }
   friend Pair operator-(Pair a) { return Pair(-a.both); }
+  friend Pair sqrt(Pair a) { return Pair(Native{std::sqrt(a.both[0]), std::sqrt(a.both[1])}); }
 };
 
 /// How many numbers S are worked on at once, and as what: two doubles, one of any other.
@@ -35,6 +37,12 @@ struct Lanes {
   static Weights weights(const double* from) { return *from; }
   static const Pack& load(const S* from) { return *from; }
   static void store(const Pack& pack, S* to) { *to = pack; }
+  static const S& total(const Pack& pack) { return pack; }
+  /// Both, next to one another, the lanes this far apart.
+  static void store(const Pack& a, const Pack& b, S* to, int /*apart*/) {
+    to[0] = a;
+    to[1] = b;
+  }
   static const S& get(const Pack& pack, int) { return pack; }
   static void set(Pack& pack, int, const S& value) { pack = value; }
 };
@@ -52,9 +60,37 @@ struct Lanes<double> {
   }
   static Pair weights(const double* from) { return load(from); }
   static void store(Pair pair, double* to) { std::memcpy(to, &pair, sizeof pair); }
+  static double total(Pair pair) { return pair.both[0] + pair.both[1]; }
+  static void store(Pair a, Pair b, double* to, int apart) {
+    const Pair::Native first{a.both[0], b.both[0]}, second{a.both[1], b.both[1]};
+    std::memcpy(to, &first, sizeof first);
+    std::memcpy(to + apart, &second, sizeof second);
+  }
   static double get(Pair pair, int lane) { return pair.both[lane]; }
   static void set(Pair& pair, int lane, double value) { pair.both[lane] = value; }
 };
+
+/// The same in rows of numbers that stand next to one another, aligned as packs are; four doubles.
+template <class S>
+struct Rows {
+  using Pack = S;
+  static constexpr int count = 1;
+};
+template <>
+struct Rows<double> {
+  // NOLINTNEXTLINE(modernize-use-using)
+  typedef double Pack __attribute__((vector_size(32), may_alias));
+  static constexpr int count = 4;
+};
+inline constexpr std::size_t row_alignment = sizeof(Rows<double>::Pack);
+template <class S>
+[[nodiscard]] const typename Rows<S>::Pack* packs_of(const S* row) {
+  return reinterpret_cast<const typename Rows<S>::Pack*>(row);
+}
+template <class S>
+[[nodiscard]] typename Rows<S>::Pack* packs_of(S* row) {
+  return reinterpret_cast<typename Rows<S>::Pack*>(row);
+}
 
 }  // namespace cdcr::detail
 

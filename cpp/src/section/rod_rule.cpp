@@ -229,19 +229,20 @@ const std::vector<GaussPoint>& gauss_legendre() {
 
 RodRule::RodRule(const RodMass& rod, int num_nodes) {
   const Measures measures = measures_of(rod);
-  const Points mass = rule_of(measures.mass, num_nodes);
+  const Points by_mass = rule_of(measures.mass, num_nodes);
   const int num_frames = std::max(num_nodes - 2, num_neighbours - 1);
-  const Points inertia = num_nodes < first_even ? rule_of(measures.inertia, num_frames)
-                                                : even_rule(measures.inertia, num_frames);
+  const Points by_inertia = num_nodes < first_even ? rule_of(measures.inertia, num_frames)
+                                                   : even_rule(measures.inertia, num_frames);
 
   std::vector<Real> at;
-  for (const auto& [x, weight] : inertia) {
-    RodFrame frame{static_cast<double>(x), static_cast<double>(weight), {}, {}, 0};
-    const auto P = legendre(x), slope = legendre_slope(x);
+  for (const auto& [x, weight] : by_inertia) {
+    const std::size_t k = at.size();
+    const auto P = detail::legendre(x), slope = detail::legendre_slope(x);
     for (std::size_t j = 0; j < P.size(); ++j) {
-      frame.legendre[j] = static_cast<double>(P[j]);
-      frame.legendre_slope[j] = static_cast<double>(slope[j]);
+      legendre[j][k] = static_cast<double>(P[j]);
+      legendre_slope[j][k] = static_cast<double>(slope[j]);
     }
+    this->inertia[k] = static_cast<double>(weight);
     if (!at.empty()) {
       const Real gap = x - at.back();
       const int parts = static_cast<int>(std::ceil(gap * num_nodes / longest_step));
@@ -249,15 +250,15 @@ RodRule::RodRule(const RodMass& rod, int num_nodes) {
         add_step(steps, at.back() + gap * i / parts, at.back() + gap * (i + 1) / parts);
       }
     }
-    frame.steps_before = steps.count;
     at.push_back(x);
-    frames.push_back(frame);
+    frames.push_back({static_cast<double>(x), steps.count});
   }
   steps.count += steps.count % 2;
 
-  for (std::size_t k = 1; k < mass.size(); ++k) {
-    RodNode node{static_cast<double>(mass[k].x), static_cast<double>(mass[k].weight), 0, {}};
-    const Real from = mass[k - 1].x, to = mass[k].x;
+  for (std::size_t k = 1; k < by_mass.size(); ++k) {
+    const Real from = by_mass[k - 1].x, to = by_mass[k].x;
+    mass[k - 1] = static_cast<double>(by_mass[k].weight);
+    RodNode node{static_cast<double>(to), 0, {}};
     // As many frames on either side of the middle, as far as there are.
     const auto above = std::lower_bound(at.begin(), at.end(), (from + to) / 2.0L);
     node.first_neighbour = std::clamp(static_cast<int>(above - at.begin()) - num_neighbours / 2, 0,

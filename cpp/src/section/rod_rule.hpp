@@ -29,11 +29,9 @@ inline constexpr int max_legendre_order = max_order;
 /// P_j(2x - 1), j = 0..max_legendre_order.
 using LegendreValues = std::array<double, max_legendre_order + 1>;
 
-/// Where mass is summed up: a function that vanishes at the base, over the mass, is the sum of mass
-/// times its values here. The last is the tip.
+/// Where mass is summed up. The last is the tip.
 struct RodNode {
-  double x;     // fraction of the length
-  double mass;  // [kg]
+  double x;  // fraction of the length
   // The integral of f from the node before (the base) to this one is the sum of value f +
   // slope df/dx over the frames from this on.
   struct Weight {
@@ -46,9 +44,7 @@ struct RodNode {
 /// Where frames are known and rotary inertia is summed up. The first is the base, the last the tip.
 struct RodFrame {
   double x;
-  double inertia;  // of I_t, about a diameter; 2 I_t about the axis [kg m^2]
-  LegendreValues legendre, legendre_slope;  // at x
-  int steps_before;                         // from the base
+  int steps_before;  // from the base
 };
 
 /// Steps from frame to frame, one or more each; a last one of length zero may make them even.
@@ -68,6 +64,13 @@ struct RodRule {
   std::vector<RodNode> nodes;
   std::vector<RodFrame> frames;
   RodSteps steps;
+  // A function that vanishes at the base, over the mass, is the sum of these times its values at
+  // the nodes; one over I_t, about a diameter, at the frames. Zero beyond their number.
+  std::array<double, max_rod_nodes> mass{};          // [kg]
+  std::array<double, max_rod_frames + 1> inertia{};  // [kg m^2]; 2 I_t about the axis
+  // At the frames.
+  std::array<std::array<double, max_rod_frames + 1>, max_legendre_order + 1> legendre{},
+      legendre_slope{};
 };
 
 /// Gauss-Legendre on [0, 1]: exact up to degree 2 count - 1.

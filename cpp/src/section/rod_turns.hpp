@@ -9,6 +9,40 @@
 
 namespace cdcr::detail {
 
+/// Vectors at the frames or nodes of a rod, as many as there are lanes worked on at once.
+template <class S>
+struct Vectors {
+  using L = Lanes<S>;
+  static constexpr int max = max_rod_nodes;
+  std::array<S, max> x{}, y{}, z{};
+
+  [[nodiscard]] Vector3<typename L::Pack> load(int k) const {
+    return {L::load(&x[k]), L::load(&y[k]), L::load(&z[k])};
+  }
+  [[nodiscard]] Vector3<S> get(int k) const { return {x[k], y[k], z[k]}; }
+  void store(int k, const Vector3<typename L::Pack>& v) {
+    L::store(v[0], &x[k]);
+    L::store(v[1], &y[k]);
+    L::store(v[2], &z[k]);
+  }
+  void set(int k, const Vector3<S>& v) {
+    x[k] = v[0];
+    y[k] = v[1];
+    z[k] = v[2];
+  }
+};
+/// Axes of frames.
+template <class S>
+struct FrameAxes {
+  Vectors<S> x, y, z;
+
+  void set(int k, const Matrix3<S>& axes) {
+    x.set(k, axes.col(0));
+    y.set(k, axes.col(1));
+    z.set(k, axes.col(2));
+  }
+};
+
 /// A, S, G of |Omega|^2 and the derivatives of A and G.
 template <class T>
 struct TurnFunctions {
@@ -23,9 +57,10 @@ class RodTurns {
   using Pack = typename L::Pack;
 
  public:
-  /// Axes at the base; those at the end of all steps are given.
+  /// From the axes at the base to those at the tip, which are given; those at the frames go to
+  /// `frames`.
   Matrix3<S> update_position(const RodParameters& rod, const ArcTable& arcs, Matrix3<S> axes,
-                             const S* q) {
+                             const S* q, FrameAxes<S>& frames) {
     const int count = rod.rule.steps.count;
     std::array<Matrix3<Pack>, max_packs> turns;
     for (int p = 0, s = 0; s < count; ++p, s += L::count) {
@@ -39,28 +74,35 @@ class RodTurns {
       read(arcs, Omega.squaredNorm(), step.f);
       turns[p] = turn(1.0 - Omega.squaredNorm() * step.f.A, step.f.sine, step.f.A, Omega);
     }
-    for (int s = 0; s < count; ++s) {
-      const int p = s / L::count, lane = s % L::count;
-      Matrix3<S> by;
-      for (int i = 0; i < 9; ++i) {
-        L::set(steps_[p].from(i), lane, axes(i));
-        by(i) = L::get(turns[p](i), lane);
+    frames.set(0, axes);
+    int k = 1;
+    for (int p = 0; p < count / L::count; ++p) {
+      std::array<Matrix3<S>, L::count> from;
+      for (int lane = 0; lane < L::count; ++lane) {
+        from[lane] = axes;
+        const Matrix3<Pack>& by = turns[p];
+        for (int c = 0; c < 3; ++c) {
+          const S x = axes(c, 0), y = axes(c, 1), z = axes(c, 2);
+          for (int j = 0; j < 3; ++j) {
+            axes(c, j) = x * L::get(by(0, j), lane) + y * L::get(by(1, j), lane) +
+                         z * L::get(by(2, j), lane);
+          }
+        }
+        if (k <= rod.num_frames() && p * L::count + lane + 1 == rod.rule.frames[k].steps_before) {
+          frames.set(k++, axes);
+        }
       }
-      axes = axes.lazyProduct(by).eval();
+      for (int i = 0; i < 9; ++i) {
+        for (int lane = 0; lane < L::count; ++lane) {
+          L::set(steps_[p].from(i), lane, from[lane](i));
+        }
+      }
     }
     return axes;
   }
 
-  /// Axes where a step begins.
-  [[nodiscard]] Matrix3<S> axes_before(int s) const {
-    Matrix3<S> axes;
-    for (int i = 0; i < 9; ++i) axes(i) = L::get(steps_[s / L::count].from(i), s % L::count);
-    return axes;
-  }
-
-  /// What each step adds to J_omega: put(step, coordinate, column).
-  template <class Put>
-  void slopes(const RodParameters& rod, const Put& put) const {
+  /// What each step adds to J_omega: rows of x, y and z, `width` apart.
+  void slopes(const RodParameters& rod, S* columns, int width) const {
     const RodSteps& rule = rod.rule.steps;
     for (int p = 0, s = 0; s < rule.count; ++p, s += L::count) {
       const Step& step = steps_[p];
@@ -68,29 +110,36 @@ class RodTurns {
           step.from.lazyProduct(turn(step.f.sine, step.f.A, step.f.G, step.magnus.Omega));
       std::array<Matrix3<Pack>, 3> slope;
       step.magnus.slopes(slope);
-      const auto add = [&](int coordinate, int axis, int j, double sign) {
-        Vector3<Pack> about = L::weights(&rule.weights[0][j][s]) * slope[0].col(axis);
+      const auto about = [&](int axis, int j) -> Vector3<Pack> {
+        Vector3<Pack> sum = L::weights(&rule.weights[0][j][s]) * slope[0].col(axis);
         for (int i = 1; i <= j && i < 3; ++i) {
-          about += L::weights(&rule.weights[i][j][s]) * slope[i].col(axis);
+          sum += L::weights(&rule.weights[i][j][s]) * slope[i].col(axis);
         }
-        const Vector3<Pack> turned = sign * tangent.lazyProduct(about);
-        for (int lane = 0; lane < L::count; ++lane) {
-          put(s + lane, coordinate,
-              Vector3<S>(L::get(turned[0], lane), L::get(turned[1], lane),
-                         L::get(turned[2], lane)));
-        }
+        return tangent.lazyProduct(sum);
       };
+      S* to = columns + 3 * s * width;
       for (int j = 0; j < rod.num_bending; ++j) {
-        add(2 * j, 1, j, 1.0);
-        add(2 * j + 1, 0, j, -1.0);
+        const Vector3<Pack> x = about(1, j), y = -about(0, j);
+        for (int c = 0; c < 3; ++c) L::store(x[c], y[c], to + c * width + 2 * j, 3 * width);
       }
-      for (int j = 0; j < rod.num_twist; ++j) add(rod.first_twist + j, 2, j, 1.0);
+      for (int j = 0; j < rod.num_twist; ++j) {
+        const Vector3<Pack> z = about(2, j);
+        for (int lane = 0; lane < L::count; ++lane) {
+          for (int c = 0; c < 3; ++c) {
+            to[(3 * lane + c) * width + rod.first_twist + j] = L::get(z[c], lane);
+          }
+        }
+      }
     }
   }
 
-  /// What each step adds to omega, and to its rate beside omega x that: put(step, turning, rate).
-  template <class Put>
-  void rates(const RodParameters& rod, const S* qd, const Put& put) const {
+  /// omega of the frames and its rate from velocities alone.
+  void rates(const RodParameters& rod, const S* qd, Vectors<S>& omega_at,
+             Vectors<S>& omega_dot_at) const {
+    Vector3<S> omega = Vector3<S>::Zero(), omega_dot = omega;
+    omega_at.set(0, omega);
+    omega_dot_at.set(0, omega);
+    int k = 1;
     for (int p = 0, s = 0; s < rod.rule.steps.count; ++p, s += L::count) {
       const Step& step = steps_[p];
       const auto& f = step.f;
@@ -111,7 +160,12 @@ class RodTurns {
         const auto at = [lane](const Vector3<Pack>& v) {
           return Vector3<S>(L::get(v[0], lane), L::get(v[1], lane), L::get(v[2], lane));
         };
-        put(s + lane, at(turned), at(turned_rate));
+        omega_dot += omega.cross(at(turned)) + at(turned_rate);
+        omega += at(turned);
+        if (k <= rod.num_frames() && s + lane + 1 == rod.rule.frames[k].steps_before) {
+          omega_at.set(k, omega);
+          omega_dot_at.set(k++, omega_dot);
+        }
       }
     }
   }
