@@ -27,4 +27,8 @@ case ${1:-all} in
     [ -z "$failed" ]
     python_tests
     ;;
+  *)
+    echo "tools/test.sh: '$1' is no part of the tests; cpp, types and python are" >&2
+    exit 2
+    ;;
 esac
