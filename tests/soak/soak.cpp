@@ -3,9 +3,6 @@
 // plain list of rigid elements in extended precision (tests/cpp/support/chain_sum.hpp), and the
 // conditions of an optimum. Prints counts and the worst residuals over their tolerances; exit code
 // 1 where one is exceeded. Ten million periods take some 25 minutes.
-#define DOCTEST_CONFIG_IMPLEMENT  // what the tests share refers to it
-#include <doctest/doctest.h>
-
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
