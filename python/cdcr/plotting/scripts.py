@@ -51,7 +51,8 @@ def show_or_save(figure: Figure, arguments: Sequence[str]) -> None:
         with new_file(path, overwrite=True) as part:
             figure.savefig(part, format=suffix)
     except (OSError, ValueError) as error:
-        named = isinstance(error, OSError) and error.filename is not None
-        told = f"{error.filename}: {error.strerror}" if named else error
+        told = str(error)
+        if isinstance(error, OSError) and error.filename is not None:
+            told = f"{error.filename}: {error.strerror}"
         print(f"{Path(sys.argv[0]).name}: {told}", file=sys.stderr)
         raise SystemExit(MISTAKEN) from None

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from cdcr import _core
 from cdcr.base.check import Check
+from cdcr.base.keywords import by_keyword
 from cdcr.base.quantity import quantity
 
 
@@ -23,6 +24,7 @@ class Disk(NamedTuple):
     diameter: float  # [m]
 
 
+@by_keyword
 @dataclass(frozen=True, kw_only=True)
 class Section:
     """One constant-curvature section: a backbone, its disks and the cables that end at its end.
