@@ -32,7 +32,7 @@ Allocation find_tension(const Model& self, const py::object& force, double min_t
     text << "min_tension must be >= 0 N (a cable cannot push), got " << min_tension;
     throw py::value_error(text.str());
   }
-  return allocate(self, *VectorArgument(force, "force", self.num_coordinates()),
+  return allocate(self, *VectorArgument(force, "force", self.num_coordinates(), of_coordinates),
                   {min_tension, max_tension, {}, read_method(method)});
 }
 
