@@ -29,21 +29,32 @@ std::string shape_text(const std::vector<Index>& sizes) {
   return text + (sizes.size() == 1 ? ",)" : ")");
 }
 
+/// The number, from 1, of what entry k of a dimension stands for.
+Index number_of(Index k, const Entries& entries) {
+  if (entries.model == nullptr) return k + 1;
+  Index section = 0;
+  while (section + 1 < entries.model->num_sections() &&
+         entries.model->first_coordinate(section + 1) <= k) {
+    ++section;
+  }
+  return section + 1;
+}
+
 /// "[1]" or "[0, 1]" for the flat index of an entry, and " (cable 2)" for what that is; nothing
 /// where there are no dimensions.
-std::string index_text(Index flat, const std::vector<Index>& sizes, Entries entries = {}) {
+std::string index_text(Index flat, const std::vector<Index>& sizes, const Entries& entries = {}) {
   if (sizes.empty()) return "";
-  std::string text, number;
+  std::ostringstream named;
   if (entries.noun != nullptr) {
-    number = std::to_string(flat % sizes.back() / entries.each + 1);
-    number = std::string(" (") + entries.noun + " " + number + ")";
+    named << " (" << entries.noun << " " << number_of(flat % sizes.back(), entries) << ")";
   }
+  std::string text;
   for (std::size_t i = sizes.size(); i-- > 0;) {
     if (!text.empty()) text.insert(0, ", ");
     text.insert(0, std::to_string(flat % sizes[i]));
     flat /= sizes[i];
   }
-  return "[" + text + "]" + number;
+  return "[" + text + "]" + named.str();
 }
 
 [[noreturn]] void refuse(const std::ostringstream& text) {
@@ -197,7 +208,7 @@ Array read_array(const py::handle& object, const char* name, std::initializer_li
 }
 
 VectorArgument read_bending(const Model& model, const py::handle& object, const char* name) {
-  Array q = read_array(object, name, {model.num_coordinates()}, of_coordinates);
+  Array q = read_array(object, name, {model.num_coordinates()}, of_coordinates(model));
   check_bending(model, q, name);
   return VectorArgument(std::move(q));
 }
@@ -241,13 +252,13 @@ VectorArgument read_tension(const Model& model, const py::handle& given, const c
 }
 
 StateArgument read_bendings(const Model& model, const py::handle& object) {
-  StateArgument q("q", object, model.num_coordinates(), of_coordinates);
+  StateArgument q("q", object, model.num_coordinates(), of_coordinates(model));
   check_bending(model, q.array, q.name);
   return q;
 }
 
 StateArgument read_rates(const Model& model, const py::handle& object, const char* name) {
-  return {name, object, model.num_coordinates(), of_coordinates};
+  return {name, object, model.num_coordinates(), of_coordinates(model)};
 }
 
 StateArgument read_tensions(const Model& model, const py::handle& given) {

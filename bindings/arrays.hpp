@@ -17,13 +17,16 @@ using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 /// In the shape wanted: a dimension of any size, and, at the front, any number of dimensions.
 inline constexpr Index any_size = -1, leading = -2;
 
-/// What the entries of an array's last dimension stand for, so many in a row for each: messages
-/// number it from 1, as in "q[2] (section 2)".
+/// What the entries of an array's last dimension stand for: messages number it from 1, as in
+/// "q[2] (section 2)". With a model, entries are its coordinates; else each is one of the nouns.
 struct Entries {
   const char* noun = nullptr;
-  Index each = 1;
+  const Model* model = nullptr;
 };
-inline constexpr Entries of_cables{"cable"}, of_sections{"section"}, of_coordinates{"section", 2};
+inline constexpr Entries of_cables{"cable"}, of_sections{"section"};
+[[nodiscard]] inline Entries of_coordinates(const Model& model) {
+  return {"section", &model};
+}
 
 /// Reads an argument as finite float64 numbers of one shape, or raises ValueError naming the
 /// argument, what was given and what is wanted.

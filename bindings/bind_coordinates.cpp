@@ -12,7 +12,7 @@ void bind_coordinates(py::module_& m) {
   m.def(
       "polar_along",
       [](const py::object& q) {
-        const Array array = read_array(q, "q", {any_size, any_size}, of_coordinates);
+        const Array array = read_array(q, "q", {any_size, any_size});
         if (array.shape(1) % 2 != 0) {
           throw py::value_error("q must have two columns for each section, got " +
                                 std::to_string(array.shape(1)) + " columns");

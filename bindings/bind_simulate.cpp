@@ -73,7 +73,7 @@ Trajectory run(const Model& model, const py::object& q0, const py::object& qd0, 
     watched.push_back(call_event(function, direction, terminal));
   }
   const VectorXd q = *read_bending(model, q0, "q0");
-  const VectorXd qd = *VectorArgument(qd0, "qd0", model.num_coordinates(), of_coordinates);
+  const VectorXd qd = *VectorArgument(qd0, "qd0", model.num_coordinates(), of_coordinates(model));
   const VectorXd times = *VectorArgument(t, "t", -1);
   Interruption interruption;
   const auto report = [&](double now) {

@@ -4,6 +4,7 @@
 #include "cdcr/dynamics.hpp"
 #include "chain/dual.hpp"
 #include "chain/forward.hpp"
+#include "dynamics/kept.hpp"
 #include "loads/cable_force.hpp"
 #include "loads/total_force.hpp"
 
@@ -29,15 +30,16 @@ void set_upper_rows(Index m, MatrixRef A) noexcept {
          check_wrenches(model, wrenches) == Status::ok;
 }
 
-/// Rows d(qdd)/d(q, qd) of A, and d(qdd)/d(command) where B is wanted, under all forces.
-void differentiate_motion(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
-                          const ConstVectorRef& command, const Wrenches& wrenches, MatrixRef A,
-                          MatrixRef* B) noexcept {
+/// Rows d(qdd)/d(q, qd) of A, and d(qdd)/d(command) where B is wanted, under all forces; the state
+/// is room for dual numbers.
+template <class State>
+void differentiate_motion(const Model& model, State& state, const ConstVectorRef& q,
+                          const ConstVectorRef& qd, const ConstVectorRef& command,
+                          const Wrenches& wrenches, MatrixRef A, MatrixRef* B) noexcept {
   const auto m = static_cast<int>(model.num_coordinates());
   const auto cables = static_cast<int>(model.num_cables());
   Dual x[2 * max_coordinates], qdd[max_coordinates], force[max_coordinates];
   Dual commands[max_commands];
-  detail::ArcChainState<Dual> state;
   const detail::Chain& chain = detail::chain_of(model);
   for (int i = 0; i < m; ++i) {
     x[i] = Dual(q[i]);
@@ -62,6 +64,17 @@ void differentiate_motion(const Model& model, const ConstVectorRef& q, const Con
   if (B != nullptr) sweep(commands, cables, B->bottomRows(m));
 }
 
+/// The same with the room of either kind of section.
+void differentiate_motion(const Model& model, Data& data, const ConstVectorRef& q,
+                          const ConstVectorRef& qd, const ConstVectorRef& command,
+                          const Wrenches& wrenches, MatrixRef A, MatrixRef* B) noexcept {
+  if (model.has_rods()) {
+    return differentiate_motion(model, *data.kept()->dual_rods, q, qd, command, wrenches, A, B);
+  }
+  detail::ArcChainState<Dual> state;
+  differentiate_motion(model, state, q, qd, command, wrenches, A, B);
+}
+
 /// The lower rows of A, and M^-1, of one section under a constant force.
 Eigen::Matrix2d differentiate_closed_form(const Model& model, const ConstVectorRef& q,
                                           const ConstVectorRef& qd, const ConstVectorRef& command,
@@ -74,7 +87,7 @@ Eigen::Matrix2d differentiate_closed_form(const Model& model, const ConstVectorR
 
 }  // namespace
 
-void state_jacobian(const Model& model, [[maybe_unused]] Data& data, const ConstVectorRef& q,
+void state_jacobian(const Model& model, Data& data, const ConstVectorRef& q,
                     const ConstVectorRef& qd, const ConstVectorRef& command,
                     const Wrenches& wrenches, MatrixRef A) noexcept {
   const Index m = model.num_coordinates();
@@ -84,7 +97,7 @@ void state_jacobian(const Model& model, [[maybe_unused]] Data& data, const Const
     differentiate_closed_form(model, q, qd, command, A);
     return;
   }
-  differentiate_motion(model, q, qd, command, wrenches, A, nullptr);
+  differentiate_motion(model, data, q, qd, command, wrenches, A, nullptr);
 }
 
 void linearize(const Model& model, Data& data, const ConstVectorRef& q, const ConstVectorRef& qd,
@@ -101,7 +114,7 @@ void linearize(const Model& model, Data& data, const ConstVectorRef& q, const Co
     B.bottomRows<2>() = inverse.lazyProduct(model.actuation_matrix().topRows<2>());
     return;
   }
-  differentiate_motion(model, q, qd, command, wrenches, A, &B);
+  differentiate_motion(model, data, q, qd, command, wrenches, A, &B);
 }
 
 void linearize(const Model& model, Data& data, const ConstVectorRef& q, const ConstVectorRef& qd,

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cdcr.base.arrays import FloatArray
-from cdcr.files.new_file import new_file
+from cdcr.base.check import Check
+from cdcr.files.new_file import file_path, new_file
 from cdcr.plotting import panels, space
 from cdcr.plotting.geometry import states_at
 from cdcr.plotting.robot3d import RobotArtists, show_robot
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 SIZE = (11.0, 5.6)  # of the picture [in]
 DPI, SHARP = 100, 144  # of that size, and of others that are wide: a slide has 1080 lines
 ROBOT_ROOM = np.array([5.6, 5.2])  # of the robot's part, left and under the clock [in]
+MOST_FRAMES = 100_000  # an hour of film, near enough
 NUM_FITTED = 50  # shapes that must fit into the picture, besides all tips
 
 
@@ -65,13 +67,15 @@ def animate(
     ...     print(cdcr.plotting.animate(run, Path(folder) / "pull.gif", fps=2).name)
     pull.gif
     """
-    path = film_path(Path(path))
+    path = film_path(file_path(path))
+    check = Check()
     for name, value in {"fps": fps, "speed": speed}.items():
-        if not (math.isfinite(value) and value > 0.0):
-            raise ValueError(f"{name} must be > 0 and finite, got {value!r}")
-    if path.suffix == ".gif" and fps > MAX_GIF_FPS:
+        check.number(name, value, "a number > 0 and finite", above=0.0)
+    check.done()
+    if path.suffix.lower() == ".gif" and fps > MAX_GIF_FPS:
         raise ValueError(f"fps must be at most {MAX_GIF_FPS:g} in a .gif, got {fps!r}")
     checked_size(size)
+    frame_times(run, speed / fps)
     with new_file(path, overwrite=overwrite) as partial:
         write_frames(run, partial, path.suffix, fps=fps, speed=speed, size=size, progress=progress)
     return path
@@ -102,7 +106,13 @@ def write_frames(
 def frame_times(run: Trajectory, step: float) -> FloatArray:
     """Return the times of the frames: every `step` [s] from the start, as far as the run goes."""
     start, end = run.t[0], run.t[-1]
-    count = math.floor((end - start) / step + 1e-6) + 1  # rounding must not lose the last frame
+    frames = (end - start) / step if step > 0.0 else math.inf
+    if frames > MOST_FRAMES:
+        raise ValueError(
+            f"a film has at most {MOST_FRAMES} pictures, of {end - start:g} s it would have "
+            f"{frames:.3g}: take fewer a second (fps), or a higher speed"
+        )
+    count = math.floor(frames + 1e-6) + 1  # rounding must not lose the last frame
     times: FloatArray = np.minimum(start + step * np.arange(count), end)
     return times
 

@@ -1,0 +1,12 @@
+#include "chain/recursions.hpp"
+
+namespace cdcr::detail {
+
+template void forward_motion(const Chain&, const MotionState&, const double*, double*) noexcept;
+template void inverse_motion(const Chain&, const MotionState&, const double*, double*) noexcept;
+template void mass_matrix(const Chain&, const MotionState&, MatrixRef) noexcept;
+template double kinetic_energy(const Chain&, const MotionState&, const double*) noexcept;
+template double potential_energy(const Chain&, const MotionState&, const double*) noexcept;
+template void weight_gradient(const Chain&, const MotionState&, const double*, double*) noexcept;
+
+}  // namespace cdcr::detail
