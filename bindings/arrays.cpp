@@ -29,16 +29,32 @@ std::string shape_text(const std::vector<Index>& sizes) {
   return text + (sizes.size() == 1 ? ",)" : ")");
 }
 
-/// "[1]" or "[0, 1]" for the flat index of an entry; nothing where there are no dimensions.
-std::string index_text(Index flat, const std::vector<Index>& sizes) {
+/// The number, from 1, of what entry k of a dimension stands for.
+Index number_of(Index k, const Entries& entries) {
+  if (entries.model == nullptr) return k + 1;
+  Index section = 0;
+  while (section + 1 < entries.model->num_sections() &&
+         entries.model->first_coordinate(section + 1) <= k) {
+    ++section;
+  }
+  return section + 1;
+}
+
+/// "[1]" or "[0, 1]" for the flat index of an entry, and " (cable 2)" for what that is; nothing
+/// where there are no dimensions.
+std::string index_text(Index flat, const std::vector<Index>& sizes, const Entries& entries = {}) {
   if (sizes.empty()) return "";
+  std::ostringstream named;
+  if (entries.noun != nullptr) {
+    named << " (" << entries.noun << " " << number_of(flat % sizes.back(), entries) << ")";
+  }
   std::string text;
   for (std::size_t i = sizes.size(); i-- > 0;) {
     if (!text.empty()) text.insert(0, ", ");
     text.insert(0, std::to_string(flat % sizes[i]));
     flat /= sizes[i];
   }
-  return "[" + text + "]";
+  return "[" + text + "]" + named.str();
 }
 
 [[noreturn]] void refuse(const std::ostringstream& text) {
@@ -152,7 +168,7 @@ void check_tension(const Model& model, const Array& tension, const char* name) {
     if (data[i] >= 0.0) continue;
     const Index cable = i % model.num_cables();
     std::ostringstream text;
-    text << name << index_text(i, sizes_of(tension)) << " must be >= 0 ";
+    text << name << index_text(i, sizes_of(tension), of_cables) << " must be >= 0 ";
     if (model.cables()[static_cast<std::size_t>(cable)].length_driven()) {
       text << "m (the length commanded of a length-driven cable)";
     } else {
@@ -165,7 +181,8 @@ void check_tension(const Model& model, const Array& tension, const char* name) {
 
 }  // namespace
 
-Array read_array(const py::handle& object, const char* name, std::initializer_list<Index> shape) {
+Array read_array(const py::handle& object, const char* name, std::initializer_list<Index> shape,
+                 Entries entries) {
   Array array = convert(object, name, shape);
   const bool stacked = shape.size() > 0 && *shape.begin() == leading;
   const Index before = stacked ? array.ndim() - static_cast<Index>(shape.size()) + 1 : 0;
@@ -184,24 +201,25 @@ Array read_array(const py::handle& object, const char* name, std::initializer_li
   for (Index i = 0, end = array.size(); i < end; ++i) {
     if (std::isfinite(data[i])) continue;
     std::ostringstream text;
-    text << name << index_text(i, sizes_of(array)) << " must be finite, got " << data[i];
+    text << name << index_text(i, sizes_of(array), entries) << " must be finite, got " << data[i];
     refuse(text);
   }
   return array;
 }
 
 VectorArgument read_bending(const Model& model, const py::handle& object, const char* name) {
-  Array q = read_array(object, name, {model.num_coordinates()});
+  Array q = read_array(object, name, {model.num_coordinates()}, of_coordinates(model));
   check_bending(model, q, name);
   return VectorArgument(std::move(q));
 }
 
 VectorArgument read_command(const py::handle& object, const char* name, Index size) {
-  Array command = read_array(object, name, {size});
+  Array command = read_array(object, name, {size}, of_cables);
   for (Index i = 0; i < size; ++i) {
     if (command.data()[i] >= 0.0) continue;
     std::ostringstream text;
-    text << name << "[" << i << "] must be >= 0 (a cable cannot push), got " << command.data()[i];
+    text << name << index_text(i, {size}, of_cables) << " must be >= 0 (a cable cannot push), got "
+         << command.data()[i];
     refuse(text);
   }
   return VectorArgument(std::move(command));
@@ -228,24 +246,24 @@ py::object command_or_rest(const Model& model, const py::handle& object) {
 
 VectorArgument read_tension(const Model& model, const py::handle& given, const char* name) {
   const py::object object = command_or_rest(model, given);
-  Array tension = read_array(object, name, {model.num_cables()});
+  Array tension = read_array(object, name, {model.num_cables()}, of_cables);
   check_tension(model, tension, name);
   return VectorArgument(std::move(tension));
 }
 
 StateArgument read_bendings(const Model& model, const py::handle& object) {
-  StateArgument q("q", object, model.num_coordinates());
+  StateArgument q("q", object, model.num_coordinates(), of_coordinates(model));
   check_bending(model, q.array, q.name);
   return q;
 }
 
 StateArgument read_rates(const Model& model, const py::handle& object, const char* name) {
-  return {name, object, model.num_coordinates()};
+  return {name, object, model.num_coordinates(), of_coordinates(model)};
 }
 
 StateArgument read_tensions(const Model& model, const py::handle& given) {
   const py::object object = command_or_rest(model, given);
-  StateArgument tension("tension", object, model.num_cables());
+  StateArgument tension("tension", object, model.num_cables(), of_cables);
   check_tension(model, tension.array, tension.name);
   return tension;
 }

@@ -17,16 +17,27 @@ using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 /// In the shape wanted: a dimension of any size, and, at the front, any number of dimensions.
 inline constexpr Index any_size = -1, leading = -2;
 
+/// What the entries of an array's last dimension stand for: messages number it from 1, as in
+/// "q[2] (section 2)". With a model, entries are its coordinates; else each is one of the nouns.
+struct Entries {
+  const char* noun = nullptr;
+  const Model* model = nullptr;
+};
+inline constexpr Entries of_cables{"cable"}, of_sections{"section"};
+[[nodiscard]] inline Entries of_coordinates(const Model& model) {
+  return {"section", &model};
+}
+
 /// Reads an argument as finite float64 numbers of one shape, or raises ValueError naming the
 /// argument, what was given and what is wanted.
 [[nodiscard]] Array read_array(const py::handle& object, const char* name,
-                               std::initializer_list<Index> shape);
+                               std::initializer_list<Index> shape, Entries entries = {});
 
 /// A one-dimensional argument; keeps the array alive while the map is used.
 class VectorArgument {
  public:
-  VectorArgument(const py::handle& object, const char* name, Index size)
-      : VectorArgument(read_array(object, name, {size})) {}
+  VectorArgument(const py::handle& object, const char* name, Index size, Entries entries = {})
+      : VectorArgument(read_array(object, name, {size}, entries)) {}
   explicit VectorArgument(Array array)
       : array_(std::move(array)), map_(array_.data(), array_.size()) {}
 
@@ -39,8 +50,10 @@ class VectorArgument {
 
 /// An argument of one state in its last dimension; those before count states.
 struct StateArgument {
-  StateArgument(const char* argument, const py::handle& object, Index state_size)
-      : name(argument), size(state_size), array(read_array(object, name, {leading, size})) {}
+  StateArgument(const char* argument, const py::handle& object, Index state_size, Entries entries)
+      : name(argument),
+        size(state_size),
+        array(read_array(object, name, {leading, size}, entries)) {}
 
   const char* name;
   Index size;

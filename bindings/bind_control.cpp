@@ -153,7 +153,8 @@ void bind_pid(py::module_& m) {
       .def_property(
           "reference", [](const PythonPid& self) { return to_array(self.reference()); },
           [](PythonPid& self, const py::object& q) {
-            self.set_reference(*VectorArgument(q, "reference", self.reference().size()));
+            self.set_reference(*VectorArgument(q, "reference", self.reference().size(),
+                                               of_coordinates(self.model.cast<const Model&>())));
           },
           "Bending vectors to reach and hold (d,) [rad]; straight until set.")
       .def("__repr__",
@@ -172,7 +173,8 @@ void bind_pid(py::module_& m) {
           [](PythonPid& self, double t, const py::object& q, const py::object& qd) {
             const Index n = self.reference().size();
             VectorXd tension(self.num_cables());
-            const VectorArgument bending(q, "q", n), rate(qd, "qd", n);
+            const Entries entries = of_coordinates(self.model.cast<const Model&>());
+            const VectorArgument bending(q, "q", n, entries), rate(qd, "qd", n, entries);
             (void)self.update(t, *bending, *rate, tension);  // finite, so it cannot fail
             return to_array(tension);
           },

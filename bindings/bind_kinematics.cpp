@@ -41,7 +41,7 @@ VectorXd read_max_theta(const Model& model, const py::object& max_theta) {
   if (max_theta.is_none()) return {};
   const bool one = !py::hasattr(max_theta, "__len__");
   return one ? VectorXd(VectorXd::Constant(1, read_array(max_theta, "max_theta", {}).data()[0]))
-             : VectorXd(*VectorArgument(max_theta, "max_theta", model.num_sections()));
+             : VectorXd(*VectorArgument(max_theta, "max_theta", model.num_sections(), of_sections));
 }
 
 py::tuple find_bending(const Model& self, const py::object& p, const py::object& R,

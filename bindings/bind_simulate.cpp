@@ -43,7 +43,7 @@ CommandInput call_python(py::function function, Index num_cables,
                            VectorRef tension) {
         const Locked locked;
         const VectorArgument value(call(*shared, py::make_tuple(t, to_array(q), to_array(qd))),
-                                   "the value of the tension function", num_cables);
+                                   "the value of the tension function", num_cables, of_cables);
         tension = *value;
       },
       num_cables, std::move(break_points));
@@ -73,7 +73,7 @@ Trajectory run(const Model& model, const py::object& q0, const py::object& qd0, 
     watched.push_back(call_event(function, direction, terminal));
   }
   const VectorXd q = *read_bending(model, q0, "q0");
-  const VectorXd qd = *VectorArgument(qd0, "qd0", model.num_coordinates());
+  const VectorXd qd = *VectorArgument(qd0, "qd0", model.num_coordinates(), of_coordinates(model));
   const VectorXd times = *VectorArgument(t, "t", -1);
   Interruption interruption;
   const auto report = [&](double now) {
@@ -238,8 +238,8 @@ void bind_simulate(py::module_& m) {
           "table",
           [](const Model& model, const py::object& t, const py::object& tension, bool linear) {
             const VectorXd times = *VectorArgument(t, "the table's t", -1);
-            const Array rows =
-                read_array(tension, "the table's tension", {times.size(), model.num_cables()});
+            const Array rows = read_array(tension, "the table's tension",
+                                          {times.size(), model.num_cables()}, of_cables);
             const Eigen::Map<const RowMatrixXd> values(rows.data(), rows.shape(0), rows.shape(1));
             return CommandInput::table(times, values,
                                        linear ? CommandInput::Interpolation::linear

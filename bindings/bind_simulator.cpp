@@ -72,7 +72,8 @@ void bind_simulator(py::module_& m) {
           [](PythonSimulator& self, const py::object& q, const py::object& qd, double time) {
             const Model& model = self.Simulator::model();
             self.reset(*read_bending(model, q, "q"),
-                       *VectorArgument(qd, "qd", model.num_coordinates()), time);
+                       *VectorArgument(qd, "qd", model.num_coordinates(), of_coordinates(model)),
+                       time);
           },
           "q"_a, "qd"_a, "time"_a = 0.0,
           Doc("Set state and time.",

@@ -32,7 +32,8 @@ Allocation find_tension(const Model& self, const py::object& force, double min_t
     text << "min_tension must be >= 0 N (a cable cannot push), got " << min_tension;
     throw py::value_error(text.str());
   }
-  const VectorXd wanted = *VectorArgument(force, "force", self.num_coordinates());
+  const VectorXd wanted =
+      *VectorArgument(force, "force", self.num_coordinates(), of_coordinates(self));
   const TensionLimits limits{min_tension, max_tension, {}, read_method(method)};
   if (q.is_none()) return allocate(self, wanted, limits);
   return allocate_at(self, *read_bending(self, q, "q"), wanted, limits);

@@ -74,4 +74,4 @@ for j, pull in enumerate(rubbing.tension.T):
 right.set(xlabel="time [s]", ylabel="tension at the base, with friction [N]", ylim=(0, 32))
 right.legend(loc="upper center", ncols=3)
 fig.tight_layout()
-fig.savefig(sys.argv[1]) if len(sys.argv) > 1 else plt.show()
+cdcr.plotting.show_or_save(fig, sys.argv[1:])

@@ -65,4 +65,4 @@ for j, pull in enumerate(runs["kp, ki, kd"].tension.T):
 right.set(xlabel="time [s]", ylabel="tension with kp, ki, kd [N]", xlim=(0, 3))
 right.legend()
 fig.tight_layout()
-fig.savefig(sys.argv[1]) if len(sys.argv) > 1 else plt.show()
+cdcr.plotting.show_or_save(fig, sys.argv[1:])

@@ -97,4 +97,4 @@ for j, pull in enumerate(runs["LQR"].tension.T):
 right.set(xlabel="time [s]", ylabel="tension more than held, LQR [N]", xlim=(0, 1))
 right.legend(title="cable")
 fig.tight_layout()
-fig.savefig(sys.argv[1]) if len(sys.argv) > 1 else plt.show()
+cdcr.plotting.show_or_save(fig, sys.argv[1:])

@@ -92,12 +92,15 @@ TEST_CASE("times") {
 }
 
 TEST_CASE("constant tensions") {
-  CHECK_THROWS_SENTENCE(CommandInput::constant(Eigen::Vector3d(0.0, -5.0, 0.0)),
-                        "tension[1] must be finite and >= 0 N (a cable cannot push), got -5");
-  CHECK_THROWS_SENTENCE(CommandInput::constant(Eigen::Vector3d(nan, 0.0, 0.0)),
-                        "tension[0] must be finite and >= 0 N (a cable cannot push), got nan");
-  CHECK_THROWS_SENTENCE(CommandInput::constant(Eigen::Vector3d(0.0, 0.0, inf)),
-                        "tension[2] must be finite and >= 0 N (a cable cannot push), got inf");
+  CHECK_THROWS_SENTENCE(
+      CommandInput::constant(Eigen::Vector3d(0.0, -5.0, 0.0)),
+      "tension[1] (cable 2) must be finite and >= 0 N (a cable cannot push), got -5");
+  CHECK_THROWS_SENTENCE(
+      CommandInput::constant(Eigen::Vector3d(nan, 0.0, 0.0)),
+      "tension[0] (cable 1) must be finite and >= 0 N (a cable cannot push), got nan");
+  CHECK_THROWS_SENTENCE(
+      CommandInput::constant(Eigen::Vector3d(0.0, 0.0, inf)),
+      "tension[2] (cable 3) must be finite and >= 0 N (a cable cannot push), got inf");
   check_run(zero, zero, second, CommandInput::constant(VectorXd::Zero(2)),
             "tension must have one value for each of the 3 cables, got 2");
 }
@@ -119,8 +122,9 @@ TEST_CASE("tables of tension") {
       "the times of a tension table must be finite and strictly increasing, got nan s at index 0");
   MatrixXd pushing = ones;
   pushing(1, 2) = -0.5;
-  CHECK_THROWS_SENTENCE(CommandInput::table(second, pushing, Interpolation::linear),
-                        "tension[1, 2] must be finite and >= 0 N (a cable cannot push), got -0.5");
+  CHECK_THROWS_SENTENCE(
+      CommandInput::table(second, pushing, Interpolation::linear),
+      "tension[1, 2] (cable 3) must be finite and >= 0 N (a cable cannot push), got -0.5");
   check_run(zero, zero, second,
             CommandInput::table(second, MatrixXd::Ones(2, 4), Interpolation::linear),
             "tension must have one value for each of the 3 cables, got 4");

@@ -259,7 +259,7 @@ TEST_CASE("bad input is refused") {
   CHECK_THROWS_SENTENCE(with([](auto& o) { o.max_theta = Vector3d::Ones(); }),
                         "max_theta must be one angle or one for each of the 2 sections, got 3");
   CHECK_THROWS_SENTENCE(with([](auto& o) { o.max_theta = Eigen::Vector2d(1.0, 0.0); }),
-                        "max_theta[1] must be > 0 and at most 3 pi rad, got 0");
+                        "max_theta[1] (section 2) must be > 0 and at most 3 pi rad, got 0");
   CHECK_THROWS_SENTENCE(with([](auto& o) { o.orientation_weight = 0.0; }),
                         "orientation_weight must be > 0 m and finite, got 0");
   CHECK_THROWS_SENTENCE(with([&](auto& o) { o.tolerance = nan; }),

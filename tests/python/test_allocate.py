@@ -155,7 +155,7 @@ def test_section_by_section_is_the_search() -> None:
     ("force", "limits", "sentence"),
     [
         ([1.0, 2.0, 3.0], {}, "force must have shape (2,), got (3,)"),
-        ([1.0, math.nan], {}, "force[1] must be finite, got nan"),
+        ([1.0, math.nan], {}, "force[1] (section 1) must be finite, got nan"),
         ([0.0, 0.0], {"min_tension": -1.0}, "min_tension must be >= 0 N (a cable cannot push)"),
         ([0.0, 0.0], {"min_tension": math.nan}, "min_tension must be >= 0 N (a cable cannot push)"),
         (

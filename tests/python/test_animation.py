@@ -6,13 +6,17 @@ import re
 import shutil
 import stat
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from PIL import Image
 
 import cdcr
-from cdcr.plotting.animation import draw_frames, frame_times
+from cdcr.plotting import plot_robot
+from cdcr.plotting.animation import Film, draw_frames, frame_times
+from cdcr.plotting.letters import have_room
+from words import words_outside
 
 
 @pytest.fixture(scope="module")
@@ -160,3 +164,26 @@ def test_html_holds_every_frame(run: cdcr.Trajectory, tmp_path: Path) -> None:
     assert frames[0] != frames[-1]
     assert "1000 / 5)" in text
     assert "http" not in text
+
+
+@pytest.mark.parametrize("size", [None, "journal", "slide", (17.0, 12.0), (15.0, 9.0)])
+def test_no_word_of_a_film_is_cut(size: Any) -> None:
+    """Whichever way the robot leans; and none is on another."""
+    model = cdcr.Model(cdcr.robots.amouri2020())
+    for theta, phi in ((0.0, 0.0), (1.5, 0.0), (1.5, 2.1), (2.5, 3.5), (1.5, 5.0)):
+        q = cdcr.bending(theta, phi).ravel()
+        run = cdcr.simulate(model, q, [0.0, 0.0], t=[0.0, 1e-3])
+        film = Film(run, run.t, size)
+        film.frame(0.0, q, run.tension[0])
+        for text in film.figure.texts:
+            text.set_animated(False)  # else it is drawn by `frame` alone
+        assert words_outside(film.figure) == []
+        assert have_room(film.figure)
+
+
+def test_the_box_round_the_robot_is_closed() -> None:
+    """No line of its grid ends without an edge."""
+    axes = plot_robot(cdcr.Model(cdcr.robots.amouri2020()), [0.5, 0.0])
+    for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
+        assert axis.pane.get_closed()
+        assert axis.pane.get_edgecolor()[3] == 1.0

@@ -96,8 +96,8 @@ def test_what_its_methods_raise_leaves_the_run_as_it_is() -> None:
     ("value", "sentence"),
     [
         ([0.0, 0.0], r"update must (have|be numbers of) shape \(3,\), got \(2,\)"),
-        ([0.0, -1.0, 0.0], r"update\[1\] must be >= 0 \(a cable cannot push\), got -1"),
-        ([0.0, np.nan, 0.0], r"update\[1\] must be finite, got nan"),
+        ([0.0, -1.0, 0.0], r"update\[1\] \(cable 2\) must be >= 0 \(a cable cannot push\), got -1"),
+        ([0.0, np.nan, 0.0], r"update\[1\] \(cable 2\) must be finite, got nan"),
         (None, r"update must (have|be numbers of) shape \(3,\)"),
     ],
 )

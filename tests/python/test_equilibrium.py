@@ -83,7 +83,7 @@ def test_refusals() -> None:
         model.equilibrium(np.zeros(9), wrenches=[cdcr.Wrench(section=3)])
     with pytest.raises(ValueError, match=r"^wrenches\[0\] must be a cdcr.Wrench, got int$"):
         model.equilibrium(np.zeros(9), wrenches=[1])  # type: ignore[list-item]
-    with pytest.raises(ValueError, match=r"^q\[0\] must be finite, got nan$"):
+    with pytest.raises(ValueError, match=r"^q\[0\] \(section 1\) must be finite, got nan$"):
         model.commands([math.nan] * 6, np.zeros(9))
     with pytest.raises(cdcr.ConvergenceError, match="bent beyond 3 pi"):
         cdcr.Model(cdcr.robots.rao2021()).equilibrium([0.0, 0.0, 0.0, 200.0, 0.0, 0.0])

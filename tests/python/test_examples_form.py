@@ -25,6 +25,7 @@ def test_an_example_is_a_page_and_uses_public_names_alone(script: Path) -> None:
     assert any(paragraph.startswith("Look at ") for paragraph in paragraphs)
     assert text.count("\n# %%\n") >= 3
     assert len(text.splitlines()) <= 100
+    assert text.endswith("\ncdcr.plotting.show_or_save(fig, sys.argv[1:])\n")
     for node in ast.walk(tree):
         if isinstance(node, ast.Attribute):
             assert not node.attr.startswith("_") or node.attr == "__init__"

@@ -149,13 +149,16 @@ REFUSED: list[tuple[dict[str, Any], str]] = [
     ),
     ({"R": -np.eye(3)}, "R must be a rotation matrix, but its determinant is -1: it mirrors"),
     ({"q0": [0.0, 0.0]}, "q0 must have shape (4,), got (2,)"),
-    ({"q0": [0.0, 0.0, 0.0, math.nan]}, "q0[3] must be finite, got nan"),
+    ({"q0": [0.0, 0.0, 0.0, math.nan]}, "q0[3] (section 2) must be finite, got nan"),
     (
         {"q0": [0.0, 0.0, 10.0, 0.0]},
         "q0 must bend each section by at most 3 pi rad, got 10 rad in section 2",
     ),
     ({"max_theta": 0.0}, "max_theta must be > 0 and at most 3 pi rad, got 0"),
-    ({"max_theta": [1.0, 10.0]}, "max_theta[1] must be > 0 and at most 3 pi rad, got 10"),
+    (
+        {"max_theta": [1.0, 10.0]},
+        "max_theta[1] (section 2) must be > 0 and at most 3 pi rad, got 10",
+    ),
     ({"max_theta": [1.0] * 3}, "max_theta must have shape (2,), got (3,)"),
     ({"max_theta": "wide"}, "max_theta must be numbers of shape (2,), got str"),
     ({"orientation_weight": -1.0}, "orientation_weight must be > 0 m and finite, got -1"),

@@ -63,10 +63,6 @@ CASES: dict[str, tuple[Callable[[], object], str]] = {
         lambda: cdcr.Pid(MODEL, kp=cast("Any", "a"), kd=1.0),
         "kp must be a number, got 'a' (str)",
     ),
-    "no gain": (
-        lambda: cast("Any", cdcr.Pid)(MODEL),
-        "Pid.__init__() missing 1 required keyword-only argument: 'kp'",
-    ),
     "switch": (
         lambda: cdcr.Pid(MODEL, kp=1.0, anti_windup=cast("Any", 1)),
         "anti_windup must be True or False, got 1 (int)",

@@ -73,9 +73,9 @@ LENGTH = "m (the length commanded of a length-driven cable)"
 @pytest.mark.parametrize(
     ("command", "sentence"),
     [
-        ([-0.1, 0.8, 0.8], f"tension[0] must be >= 0 {LENGTH}, got -0.1"),
-        ([0.8, np.nan, 0.8], "tension[1] must be finite, got nan"),
-        ([0.8, 0.8, np.inf], "tension[2] must be finite, got inf"),
+        ([-0.1, 0.8, 0.8], f"tension[0] (cable 1) must be >= 0 {LENGTH}, got -0.1"),
+        ([0.8, np.nan, 0.8], "tension[1] (cable 2) must be finite, got nan"),
+        ([0.8, 0.8, np.inf], "tension[2] (cable 3) must be finite, got inf"),
     ],
 )
 def test_bad_lengths_are_refused_and_all_goes_on(

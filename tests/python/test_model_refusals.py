@@ -46,7 +46,7 @@ def test_a_bad_bending_vector_is_refused(model: cdcr.Model, name: str) -> None:
         call(model, [[1.0], [2.0]])
     with refuses("q must have shape (..., 2), got ()"):
         call(model, 1.0)
-    with refuses("q[1] must be finite, got nan"):
+    with refuses("q[1] (section 1) must be finite, got nan"):
         call(model, [0.0, math.nan])
     with refuses("q must be numbers of shape (..., 2), got str"):
         call(model, "bent")
@@ -60,14 +60,14 @@ def test_a_bad_bending_vector_is_refused(model: cdcr.Model, name: str) -> None:
 def test_a_bad_rate_is_refused(model: cdcr.Model, name: str) -> None:
     with refuses("qd must have shape (..., 2), got (1,)"):
         OF_QD[name](model, [1.0])
-    with refuses("qd[0] must be finite, got -inf"):
+    with refuses("qd[0] (section 1) must be finite, got -inf"):
         OF_QD[name](model, [-math.inf, 0.0])
 
 
 def test_a_bad_acceleration_is_refused(model: cdcr.Model) -> None:
     with refuses("qdd must have shape (..., 2), got (0,)"):
         model.inverse_dynamics(Q, QD, [])
-    with refuses("qdd[0] must be finite, got inf"):
+    with refuses("qdd[0] (section 1) must be finite, got inf"):
         model.inverse_dynamics(Q, QD, [math.inf, 0.0])
 
 
@@ -76,9 +76,9 @@ def test_a_bad_tension_is_refused(model: cdcr.Model, name: str) -> None:
     wanted = "(3,)" if "equilibrium" in name else "(..., 3)"
     with refuses(f"tension must have shape {wanted}, got (2,)"):
         OF_TENSION[name](model, [1.0, 2.0])
-    with refuses("tension[2] must be finite, got nan"):
+    with refuses("tension[2] (cable 3) must be finite, got nan"):
         OF_TENSION[name](model, [1.0, 2.0, math.nan])
-    with refuses("tension[1] must be >= 0 N (a cable cannot push), got -0.5"):
+    with refuses("tension[1] (cable 2) must be >= 0 N (a cable cannot push), got -0.5"):
         OF_TENSION[name](model, [1.0, -0.5, 0.0])
 
 

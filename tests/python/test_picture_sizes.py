@@ -15,6 +15,7 @@ from PIL import Image
 from typer.testing import CliRunner
 
 from cdcr.cli.app import app
+from words import words, words_outside
 
 CM = 1.0 / 2.54  # [in]
 LEGIBLE = 5.5  # smallest letters in a journal's column [pt]
@@ -71,23 +72,6 @@ def test_a_run_is_drawn_in_any_size() -> None:
     assert run.plot(size="journal").get_figwidth() == pytest.approx(8.5 * CM)
 
 
-def words(figure: Any) -> list[tuple[str, Any]]:
-    """All words that are drawn in a picture, and the boxes they take."""
-    drawn: list[tuple[str, Any]] = []
-    draw = Text.draw
-
-    def remember(self: Text, renderer: Any) -> None:
-        if self.get_visible() and self.get_text():
-            drawn.append((self.get_text(), Text.get_window_extent(self, renderer)))
-        draw(self, renderer)
-
-    figure.canvas.draw()
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(Text, "draw", remember)
-        figure.canvas.draw()
-    return drawn
-
-
 @pytest.mark.parametrize("name", ["block-diagram", "payload-drop", "pull-release"])
 def test_no_words_of_a_column_cross(name: str) -> None:
     """Of the names in a picture, its numbers and its labels."""
@@ -107,9 +91,7 @@ def test_the_robot_has_any_size() -> None:
     for size, width in (("journal", 8.5), ("slide", 33.87), ((15, 10), 15.0)):
         figure = run.plot_robot(size=size).figure
         assert figure.get_figwidth() == pytest.approx(width * CM)
-        for word, box in words(figure):
-            assert box.x0 >= -1.0, word
-            assert box.x1 <= figure.bbox.width + 1.0, word
+        assert words_outside(figure) == []
     axes = run.plot_robot()
     with pytest.raises(ValueError, match="either ax or size"):
         run.plot_robot(ax=axes, size="slide")
@@ -149,3 +131,21 @@ def test_the_command_line_takes_a_size(tmp_path: Path) -> None:
     refused = CliRunner().invoke(app, [*arguments, "poster", "--overwrite"])
     assert refused.exit_code == 2
     assert "--size must be 'journal'" in refused.stderr
+
+
+@pytest.mark.parametrize("size", [(17.0, 12.0), (15.0, 10.0), (9.0, 16.0), (30.0, 12.0)])
+@pytest.mark.parametrize("name", ["step-tension", "kinetic-energy-terms"])
+def test_any_size_holds_all_words(name: str, size: tuple[float, float]) -> None:
+    assert words_outside(picture(name, size)) == []
+
+
+def test_letters_become_no_smaller_than_the_picture() -> None:
+    """Than in a picture reduced as a whole; and as large as usual where there is room."""
+    usual, small, large = (
+        {str(text.get_text()): text.get_fontsize() for text in picture("pid", size).findobj(Text)}
+        for size in (None, (15.0, 11.0), (40.0, 30.0))
+    )
+    made = picture("pid", None).get_size_inches()
+    assert large["time [s]"] == usual["time [s]"]
+    share = min(15.0 * CM / made[0], 11.0 * CM / made[1])
+    assert share <= small["time [s]"] / usual["time [s]"] < 1.0

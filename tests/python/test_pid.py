@@ -155,7 +155,7 @@ def test_options_out_of_range(model: cdcr.Model, options: dict[str, float], sent
     ("reference", "sentence"),
     [
         ([0.1], "reference must have shape (2,), got (1,)"),
-        ([0.1, np.nan], "reference[1] must be finite, got nan"),
+        ([0.1, np.nan], "reference[1] (section 1) must be finite, got nan"),
         (
             [0.0, 10.0],
             "reference must be 2 finite values that bend each section by at most 3 pi rad, "
@@ -174,7 +174,7 @@ def test_bad_measurements_are_refused(model: cdcr.Model) -> None:
     pid = cdcr.Pid(model, kp=1.0, ki=1.0)
     with pytest.raises(ValueError, match=r"^q must have shape \(2,\), got \(3,\)$"):
         pid.update(0.0, [0.0, 0.0, 0.0], [0.0, 0.0])
-    with pytest.raises(ValueError, match=r"^qd\[0\] must be finite, got nan$"):
+    with pytest.raises(ValueError, match=r"^qd\[0\] \(section 1\) must be finite, got nan$"):
         pid.update(0.0, [0.0, 0.0], [np.nan, 0.0])
     np.testing.assert_array_equal(pid.integral, [0.0, 0.0])
 

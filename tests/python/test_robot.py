@@ -134,19 +134,6 @@ def test_replace_checks_again() -> None:
         dataclasses.replace(section, length=-1)
 
 
-def test_keywords_are_pythons_business() -> None:
-    section: Any = cdcr.Section
-    robot: Any = cdcr.Robot
-    with pytest.raises(TypeError, match="lenght"):
-        section(**REQUIRED, lenght=1.0)
-    with pytest.raises(TypeError, match="youngs_modulus"):
-        section(length=0.8, backbone_mass=0.03, backbone_diameter=0.005)
-    with pytest.raises(TypeError, match="positional"):
-        section(0.8)
-    with pytest.raises(TypeError, match="positional"):
-        robot([])
-
-
 @pytest.mark.parametrize("name", NUMBERS)
 @pytest.mark.parametrize(
     ("value", "shown"),

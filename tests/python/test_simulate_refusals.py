@@ -30,13 +30,13 @@ def refuses(sentence: str) -> Any:
     ("arguments", "sentence"),
     [
         ({"q0": [0.0]}, "q0 must have shape (2,), got (1,)"),
-        ({"q0": [0.0, NAN]}, "q0[1] must be finite, got nan"),
+        ({"q0": [0.0, NAN]}, "q0[1] (section 1) must be finite, got nan"),
         (
             {"q0": [0.0, 10.0]},
             "q0 must bend each section by at most 3 pi rad, got 10 rad in section 1",
         ),
         ({"qd0": [[0.0, 0.0]]}, "qd0 must have shape (2,), got (1, 2)"),
-        ({"qd0": [INF, 0.0]}, "qd0[0] must be finite, got inf"),
+        ({"qd0": [INF, 0.0]}, "qd0[0] (section 1) must be finite, got inf"),
         ({"qd0": None}, "qd0 must be numbers of shape (2,), got NoneType"),
         ({"t": 1.0}, "t must have shape (any,), got ()"),
         ({"t": []}, "t must hold at least one time, got none"),
@@ -75,8 +75,8 @@ ROWS = np.ones((2, 3))
     [
         ([1.0, 2.0], "tension must have shape (3,), got (2,)"),
         (5.0, "tension must have shape (3,), got ()"),
-        ([1.0, NAN, 0.0], "tension[1] must be finite, got nan"),
-        ([1.0, 0.0, -2.0], "tension[2] must be >= 0 N (a cable cannot push), got -2"),
+        ([1.0, NAN, 0.0], "tension[1] (cable 2) must be finite, got nan"),
+        ([1.0, 0.0, -2.0], "tension[2] (cable 3) must be >= 0 N (a cable cannot push), got -2"),
         ("much", "tension must be numbers of shape (3,), got str"),
         (ROWS, "tension must have shape (3,), got (2, 3)"),
         (
@@ -99,12 +99,13 @@ ROWS = np.ones((2, 3))
         ),
         (
             ([0.0, 1.0], [[0.0, 0.0, 0.0], [0.0, -1.0, 0.0]]),
-            "tension[1, 1] must be finite and >= 0 N (a cable cannot push), or >= 0 m where driven "
+            "tension[1, 1] (cable 2) must be finite and >= 0 N (a cable cannot push), "
+            "or >= 0 m where driven "
             "by length, got -1",
         ),
         (
             ([0.0, 1.0], [[0.0, NAN, 0.0], [0.0, 0.0, 0.0]]),
-            "the table's tension[0, 1] must be finite, got nan",
+            "the table's tension[0, 1] (cable 2) must be finite, got nan",
         ),
         (
             ([], np.zeros((0, 3))),
@@ -129,7 +130,7 @@ ROWS = np.ones((2, 3))
         ),
         (
             lambda t: [0.0, 0.0, INF],
-            "the value of the tension function[2] must be finite, got inf",
+            "the value of the tension function[2] (cable 3) must be finite, got inf",
         ),
         (
             lambda t, q, qd: [1.0, -2.0, 0.5],
@@ -187,7 +188,7 @@ def test_tension_and_controller(model: cdcr.Model) -> None:
 
 
 def test_messages_call_the_commands_what_the_caller_does(model: cdcr.Model) -> None:
-    sentence = r"^command\[1\] must be >= 0 N \(a cable cannot push\), got -1$"
+    sentence = r"^command\[1\] \(cable 2\) must be >= 0 N \(a cable cannot push\), got -1$"
     with pytest.raises(ValueError, match=sentence):
         run(model, command=[0.0, -1.0, 0.0])
     simulator = cdcr.Simulator(model)
@@ -199,5 +200,5 @@ def test_messages_call_the_commands_what_the_caller_does(model: cdcr.Model) -> N
 def test_a_table_is_refused_where_it_is_made() -> None:
     with refuses("the table's tension must have shape (2, num_cables), got (1, 3)"):
         cdcr.TensionTable([0.0, 1.0], [[1.0, 2.0, 3.0]])
-    with pytest.raises(ValueError, match=r"tension\[0, 1\] must be finite and >= 0 N"):
+    with pytest.raises(ValueError, match=r"tension\[0, 1\] \(cable 2\) must be finite and >= 0 N"):
         cdcr.TensionTable([0.0], [[0.0, -1.0, 0.0]])

@@ -96,9 +96,9 @@ def test_bad_tensions_are_refused_and_change_nothing(model: cdcr.Model) -> None:
     sim.reset(Q0, QD0)
     with refuses("tension must have shape (3,), got (2,)"):
         sim.step([1.0, 2.0])
-    with refuses("tension[0] must be finite, got inf"):
+    with refuses("tension[0] (cable 1) must be finite, got inf"):
         sim.step([math.inf, 0.0, 0.0])
-    with refuses("tension[2] must be >= 0 N (a cable cannot push), got -1"):
+    with refuses("tension[2] (cable 3) must be >= 0 N (a cable cannot push), got -1"):
         sim.step([0.0, 0.0, -1.0])
     np.testing.assert_array_equal(sim.q, Q0)
     assert sim.time == 0.0
@@ -111,7 +111,7 @@ def test_bad_states_are_refused_and_change_nothing(model: cdcr.Model) -> None:
         sim.reset([0.0], QD0)
     with refuses("q must bend each section by at most 3 pi rad, got 10 rad in section 1"):
         sim.reset([10.0, 0.0], QD0)
-    with refuses("qd[1] must be finite, got nan"):
+    with refuses("qd[1] (section 1) must be finite, got nan"):
         sim.reset(Q0, [0.0, math.nan])
     with refuses("time must be finite, got nan"):
         sim.reset(Q0, QD0, math.nan)

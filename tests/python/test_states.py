@@ -166,7 +166,7 @@ def test_the_gradient_is_that_of_the_energy(model: cdcr.Model) -> None:
         ),
         (
             ([[0.0, 0.0], [math.inf, 0.0]], [0.0, 0.0]),
-            "q[1, 0] must be finite, got inf",
+            "q[1, 0] (section 1) must be finite, got inf",
         ),
         (
             ([[0.0, 0.0], [6.0, 8.0]], [0.0, 0.0]),
@@ -183,6 +183,6 @@ def test_arrays_that_are_no_states_are_refused(arguments: tuple[Any, Any], sente
 
 def test_a_cable_that_pushes_is_named_with_its_state() -> None:
     model = cdcr.Model(one_section())
-    sentence = "tension[1, 2] must be >= 0 N (a cable cannot push), got -1"
+    sentence = "tension[1, 2] (cable 3) must be >= 0 N (a cable cannot push), got -1"
     with pytest.raises(ValueError, match=f"^{re.escape(sentence)}$"):
         model.cable_energy([0.0, 0.0], [[0.0, 0.0, 0.0], [0.0, 0.0, -1.0]])

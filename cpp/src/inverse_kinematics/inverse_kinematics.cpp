@@ -77,7 +77,7 @@ void check_max_theta(const VectorXd& max_theta, Index num_sections) {
           num_sections, " sections, got ", size);
   for (Index i = 0; i < size; ++i) {
     require(max_theta[i] > 0.0 && max_theta[i] <= max_bending, "max_theta",
-            size > 1 ? detail::sentence("[", i, "]") : "",
+            size > 1 ? detail::sentence("[", i, "] (section ", i + 1, ")") : "",
             " must be > 0 and at most 3 pi rad, got ", max_theta[i]);
   }
 }

@@ -18,7 +18,7 @@ void require_pulling(double value, const Item& item) {
 
 CommandInput CommandInput::constant(const VectorXd& tension) {
   for (Index j = 0; j < tension.size(); ++j) {
-    require_pulling(tension[j], detail::sentence("tension[", j, "]"));
+    require_pulling(tension[j], detail::sentence("tension[", j, "] (cable ", j + 1, ")"));
   }
   return CommandInput(Signal::constant(tension));
 }
@@ -28,7 +28,8 @@ CommandInput CommandInput::table(const VectorXd& times, const MatrixXd& tensions
   CommandInput input(Signal::table("a tension table", times, tensions, interpolation));
   for (Index i = 0; i < tensions.rows(); ++i) {
     for (Index j = 0; j < tensions.cols(); ++j) {
-      require_pulling(tensions(i, j), detail::sentence("tension[", i, ", ", j, "]"));
+      require_pulling(tensions(i, j),
+                      detail::sentence("tension[", i, ", ", j, "] (cable ", j + 1, ")"));
     }
   }
   return input;

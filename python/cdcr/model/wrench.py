@@ -11,11 +11,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from cdcr import _core
 from cdcr.base.check import Check, format_value, one_of
+from cdcr.base.keywords import by_keyword
 
 Frame = Literal["base", "local"]
 Profile: TypeAlias = "Callable[[float], float] | tuple[ArrayLike, ArrayLike] | None"
 
 
+@by_keyword
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Wrench:
     """A force and a moment on the backbone at a fraction of a section's length.

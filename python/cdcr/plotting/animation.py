@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cdcr.base.arrays import FloatArray
-from cdcr.files.new_file import new_file
+from cdcr.base.check import Check
+from cdcr.files.new_file import file_path, new_file
 from cdcr.plotting import panels, space
 from cdcr.plotting.geometry import states_at
 from cdcr.plotting.robot3d import RobotArtists, show_robot
@@ -25,7 +26,8 @@ if TYPE_CHECKING:
 
 SIZE = (11.0, 5.6)  # of the picture [in]
 DPI, SHARP = 100, 144  # of that size, and of others that are wide: a slide has 1080 lines
-ROBOT_ROOM = np.array([5.6, 5.4])  # of the robot's part, left [in]
+ROBOT_ROOM = np.array([5.6, 5.2])  # of the robot's part, left and under the clock [in]
+MOST_FRAMES = 100_000  # an hour of film, near enough
 NUM_FITTED = 50  # shapes that must fit into the picture, besides all tips
 
 
@@ -65,13 +67,15 @@ def animate(
     ...     print(cdcr.plotting.animate(run, Path(folder) / "pull.gif", fps=2).name)
     pull.gif
     """
-    path = film_path(Path(path))
+    path = film_path(file_path(path))
+    check = Check()
     for name, value in {"fps": fps, "speed": speed}.items():
-        if not (math.isfinite(value) and value > 0.0):
-            raise ValueError(f"{name} must be > 0 and finite, got {value!r}")
-    if path.suffix == ".gif" and fps > MAX_GIF_FPS:
+        check.number(name, value, "a number > 0 and finite", above=0.0)
+    check.done()
+    if path.suffix.lower() == ".gif" and fps > MAX_GIF_FPS:
         raise ValueError(f"fps must be at most {MAX_GIF_FPS:g} in a .gif, got {fps!r}")
     checked_size(size)
+    frame_times(run, speed / fps)
     with new_file(path, overwrite=overwrite) as partial:
         write_frames(run, partial, path.suffix, fps=fps, speed=speed, size=size, progress=progress)
     return path
@@ -102,7 +106,13 @@ def write_frames(
 def frame_times(run: Trajectory, step: float) -> FloatArray:
     """Return the times of the frames: every `step` [s] from the start, as far as the run goes."""
     start, end = run.t[0], run.t[-1]
-    count = math.floor((end - start) / step + 1e-6) + 1  # rounding must not lose the last frame
+    frames = (end - start) / step if step > 0.0 else math.inf
+    if frames > MOST_FRAMES:
+        raise ValueError(
+            f"a film has at most {MOST_FRAMES} pictures, of {end - start:g} s it would have "
+            f"{frames:.3g}: take fewer a second (fps), or a higher speed"
+        )
+    count = math.floor(frames + 1e-6) + 1  # rounding must not lose the last frame
     times: FloatArray = np.minimum(start + step * np.arange(count), end)
     return times
 
@@ -115,25 +125,38 @@ def draw_frames(
     What stands still is drawn once; each frame only draws what moves on a copy of it.
     """
     with style():
-        film = _Film(run, times, size)
+        film = Film(run, times, size)
     states = states_at(run, times)
     samples = np.searchsorted(run.t, times, side="right") - 1  # tensions hold until the next one
     for time, q, sample in zip(times, states, samples, strict=True):
         yield film.frame(time, q, run.tension[sample])
 
 
-class _Film:
+def _paper(sides: Any) -> tuple[tuple[float, float], float]:
+    """Return width and height to draw on [in] and the dots [1/in], for a checked size.
+
+    A film in a size that is less than usual, yet not narrow, is the usual one in finer dots, so
+    that its words keep their room.
+    """
+    if sides is None:
+        return SIZE, DPI
+    if is_narrow(sides):
+        return SIZE, PRINTED
+    larger = max(1.0, *(usual / side for usual, side in zip(SIZE, sides, strict=True)))
+    return (larger * sides[0], larger * sides[1]), SHARP / larger
+
+
+class Film:
     """The picture with its moving parts."""
 
     def __init__(self, run: Trajectory, times: FloatArray, size: Size) -> None:
-        sides = checked_size(size)
-        dpi = DPI if sides is None else PRINTED if is_narrow(sides) else SHARP
-        figure = StyledFigure(figsize=SIZE, dpi=dpi)
+        paper, dpi = _paper(checked_size(size))
+        self.figure = figure = StyledFigure(figsize=paper, dpi=dpi)
         self._canvas = cast(Any, figure.canvas)
         robot_axes = space.add_axes(figure)
         chosen = np.linspace(0, len(run) - 1, min(len(run), NUM_FITTED)).astype(int)
         show_robot(robot_axes, run.model, run.q[chosen], run.tip)
-        space.fill(robot_axes, ROBOT_ROOM)
+        space.fill(robot_axes, ROBOT_ROOM * np.array(paper) / SIZE)
         self._robot = RobotArtists(robot_axes, run.model, run.q[0])
         self._largest = np.max(run.tension, initial=0.0)
 
@@ -145,10 +168,9 @@ class _Film:
             panels.show_time(axes, run, named=axes is charts[-1])
         figure.align_ylabels(charts)
         self._marks = [axes.axvline(run.t[0], color=BLACK, linewidth=1.0) for axes in charts]
-        self._clock = figure.text(0.02, 0.95, "", fontsize=12)
-        resize(figure, size)
-        if isinstance(sides, tuple) and not is_narrow(sides):
-            space.fill(robot_axes, ROBOT_ROOM * np.array(sides) / SIZE)
+        self._clock = figure.suptitle("", x=0.02, y=0.985, ha="left", va="top", fontsize=12)
+        if is_narrow(checked_size(size)):
+            resize(figure, size)
         step = np.ptp(times) / max(1, len(times) - 1) or 1.0
         self._decimals = max(2, math.ceil(-math.log10(step)))  # slow motion needs more
 

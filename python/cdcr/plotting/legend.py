@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from matplotlib.figure import Figure
 from matplotlib.legend import Legend
 from matplotlib.legend_handler import HandlerTuple
 from matplotlib.lines import Line2D
+
+from cdcr.plotting.style import StyledFigure
 
 
 class ShapeSample(Line2D):
@@ -27,6 +29,47 @@ class _SampleHandler(HandlerTuple):
 
     def create_artists(self, legend: Any, orig_handle: Any, *where: Any) -> Any:
         return super().create_artists(legend, orig_handle.pieces, *where)
+
+
+def redraw_above(axes: Any, fontsize: float, ncols: int) -> None:
+    """Draw the legend over a panel anew, in letters of that size [pt] and close together."""
+    axes.legend(
+        *axes.get_legend_handles_labels(),
+        loc="lower right",
+        bbox_to_anchor=(1.0, 1.0),
+        ncols=ncols,
+        borderaxespad=0.1,
+        fontsize=fontsize,
+        columnspacing=0.7,
+        handlelength=1.5,
+        handletextpad=0.4,
+    )
+
+
+class FittingLegend:
+    """A legend that belongs to a whole picture, in as many columns as its width has room for."""
+
+    def __init__(
+        self, figure: StyledFigure, draw: Callable[..., Legend], ncols: int, share: float = 1.0
+    ) -> None:
+        """Draw it in at most `ncols` columns, no wider than a share of the picture.
+
+        `draw` adds it to the figure, with ``ncols`` and perhaps ``fontsize``.
+        """
+        self._figure, self._draw, self._ncols, self._share = figure, draw, ncols, share
+        self._legend = draw(ncols=ncols)
+        figure.arrangements.append(self._arrange)
+
+    def _arrange(self) -> None:
+        if self._legend not in self._figure.legends:
+            return  # a column has put it elsewhere
+        letters = self._legend.get_texts()[0].get_fontsize()
+        for ncols in range(self._ncols, 0, -1):
+            self._legend.remove()
+            self._legend = self._draw(ncols=ncols, fontsize=letters)
+            width = self._legend.get_window_extent().width
+            if width <= self._share * self._figure.bbox.width:
+                return
 
 
 def legend_of(figure: Figure, axes: Any, **look: Any) -> Legend:

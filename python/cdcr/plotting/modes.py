@@ -9,7 +9,8 @@ import numpy as np
 from cdcr.base.arrays import FloatArray
 from cdcr.plotting import space
 from cdcr.plotting.geometry import PIECES
-from cdcr.plotting.sizes import COLUMN, TEXT, Size, checked_size, is_narrow, shrink_letters
+from cdcr.plotting.letters import shrink_letters
+from cdcr.plotting.sizes import COLUMN, TEXT, Size, checked_size, is_narrow
 from cdcr.plotting.style import ALARM, BLACK, GREY, StyledFigure, line_colors, style
 
 if TYPE_CHECKING:
@@ -103,7 +104,7 @@ def plot_modes(
             figure.text(0.01, 0.01, "not stable", color=ALARM)
         figure.text(0.99, 0.01, "black: at rest", color=GREY, ha="right")
         if is_narrow(sides):
-            shrink_letters(figure)
+            shrink_letters(figure, TEXT)
     return figure
 
 

@@ -14,7 +14,8 @@ from matplotlib.legend import Legend
 from matplotlib.text import Annotation, Text
 
 from cdcr.plotting import space
-from cdcr.plotting.legend import legend_of
+from cdcr.plotting.legend import legend_of, redraw_above
+from cdcr.plotting.letters import arrange, find_room, shrink_letters
 from cdcr.plotting.style import NARROW, style
 
 Size = str | tuple[float, float] | None
@@ -64,13 +65,6 @@ def is_narrow(sides: tuple[float, float] | Literal["journal"] | None) -> bool:
     return sides is not None and (isinstance(sides, str) or sides[0] < NARROW)
 
 
-def shrink_letters(figure: Figure) -> None:
-    """Make all letters of a figure those of a column."""
-    figure.canvas.draw()  # settles ticks and layout
-    for text in figure.findobj(Text):
-        text.set_fontsize(TEXT * float(text.get_fontsize()))
-
-
 def resize(figure: Figure, size: Size) -> Figure:
     """Give a figure a size, as `Scenario.figure` does; return it.
 
@@ -104,19 +98,24 @@ def resize(figure: Figure, size: Size) -> Figure:
     if sides is None:
         return figure
     with style():
-        width = COLUMN if isinstance(sides, str) else sides[0]
-        if is_narrow(sides):
+        narrow = is_narrow(sides)
+        if narrow:
+            width = COLUMN if isinstance(sides, str) else sides[0]
             (getattr(figure, "narrow", None) or partial(_stack, figure))(width)
         if not isinstance(sides, str):
+            share = float(np.min(np.array(sides) / figure.get_size_inches()))
             figure.set_size_inches(*sides)
-        for arrange in getattr(figure, "arrangements", ()):
-            arrange()
+            arrange(figure)
+            find_room(figure, *((0.9 * share, TEXT) if narrow else (share, 1.0)))
+        if narrow and not getattr(figure, "narrow", None):
+            _keep_all_inside(figure)
+        arrange(figure)
     return figure
 
 
 def _stack(figure: Figure, width: float) -> None:
     """Put robot and panels one above the other, and make the letters small."""
-    shrink_letters(figure)
+    shrink_letters(figure, TEXT)
     figure.set_layout_engine("none")
     letters = round((width - LEFT) / LETTER)  # of a line over a panel
     title: Text | None = getattr(figure, "_suptitle")  # noqa: B009 - unknown to its types
@@ -149,10 +148,16 @@ def _stack(figure: Figure, width: float) -> None:
         top -= over + high
         _place(axes, (LEFT, top, width - LEFT - RIGHT, high))
         top -= under
+    _keep_all_inside(figure)
+
+
+def _keep_all_inside(figure: Figure) -> None:
+    """Narrow panels whose words leave the picture, and part names that lie on each other."""
     figure.canvas.draw()
-    for axes in charts:
-        _keep_inside(axes, width)
-        _part_names(axes)
+    for axes in figure.axes:
+        if axes.name != "3d":
+            _keep_inside(axes, figure.get_figwidth())
+            _part_names(axes)
 
 
 def _keep_inside(axes: Any, width: float) -> None:
@@ -200,19 +205,9 @@ def _retell(axes: Any, letters: int) -> int:
     told = textwrap.fill(note, letters)
     axes.set_title(told, loc="left", fontsize=size, pad=(size + 5.0) if legend else None)
     if legend is not None:
-        handles, labels = axes.get_legend_handles_labels()
-        axes.legend(
-            handles,
-            labels,
-            loc="lower right",
-            bbox_to_anchor=(1.0, 1.0),
-            ncols=len(labels) if sum(map(len, labels)) + 4 * len(labels) < letters else 9,
-            borderaxespad=0.1,
-            fontsize=TEXT * 9.5,
-            columnspacing=0.7,
-            handlelength=1.5,
-            handletextpad=0.4,
-        )
+        labels = axes.get_legend_handles_labels()[1]
+        fits = sum(map(len, labels)) + 4 * len(labels) < letters
+        redraw_above(axes, size, len(labels) if fits else 9)
     shared = axes.get_shared_y_axes().get_siblings(axes)
     name = axes.get_ylabel() or next((one.get_ylabel() for one in shared if one.get_ylabel()), "")
     axes.tick_params(labelleft=True)

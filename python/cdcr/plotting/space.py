@@ -11,6 +11,7 @@ from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d import proj3d  # type: ignore[import-untyped]
 
 from cdcr.base.arrays import FloatArray
+from cdcr.plotting.style import LIGHT_GREY
 
 # Of three cables, the first along X, none hides another.
 VIEW = {"elev": 24.0, "azim": -74.0}  # [deg]
@@ -32,7 +33,8 @@ def add_axes(figure: Figure) -> Any:
     label(axes)
     for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
         axis.pane.fill = False
-        axis.pane.set_edgecolor("none")
+        # An outline, without which the lines of the grid end as if cut off.
+        axis.pane.set(closed=True, edgecolor=LIGHT_GREY, linewidth=0.6, alpha=1.0)
     return axes
 
 
@@ -65,10 +67,10 @@ def _number_axes(axes: Any, low: FloatArray, high: FloatArray) -> None:
         ticks = MaxNLocator(max(2, round(room)), steps=[1, 2, 5, 10]).tick_values(low[k], high[k])
         corner = low[k] + 0.15 * size[k] * (k == 1)  # where x and y meet, x is numbered
         axis.set_ticks(ticks[(ticks >= corner) & (ticks <= high[k])])
-    _keep_off(axes)
+    keep_off(axes)
 
 
-def _keep_off(axes: Any, letters: float = 1.0) -> None:
+def keep_off(axes: Any, letters: float = 1.0) -> None:
     """Set how far labels and numbers stand off, for letters that many times as large."""
     size = np.ptp(_limits(axes), axis=1)
     cube = size / np.sqrt(np.mean(size**2))  # 1 for a cube
@@ -134,7 +136,7 @@ def _thin_numbers(axes: Any, scale: float, letters: float) -> None:
 
 def fill(axes: Any, room: FloatArray, letters: float = 1.0) -> None:
     """Let Axes3D fill a room (width, height) [in] at the left of its figure."""
-    _keep_off(axes, letters)
+    keep_off(axes, letters)
     scale, _ = fit(axes, room, letters)
     place(axes, scale, room, letters)
 

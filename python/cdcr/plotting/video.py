@@ -19,23 +19,35 @@ Frame = NDArray[np.uint8]  # (height, width, 4): red, green, blue, opacity
 MAX_GIF_FPS = 50.0  # browsers slow down anything faster
 
 
+def find_ffmpeg() -> str | None:
+    """Return the program ffmpeg: that of the PATH, or of the package imageio-ffmpeg."""
+    found = shutil.which("ffmpeg")
+    if found is None:
+        with suppress(ImportError, RuntimeError):  # not installed, or without its program
+            import imageio_ffmpeg  # type: ignore[import-not-found, unused-ignore]
+
+            found = str(imageio_ffmpeg.get_ffmpeg_exe())
+    return found
+
+
 def film_path(path: Path) -> Path:
     """Return the path with the suffix of the format to write, or say why it cannot be written."""
     if not path.suffix:
-        return path.with_suffix(".mp4" if shutil.which("ffmpeg") else ".gif")
-    if path.suffix not in _WRITERS:
+        return path.with_suffix(".mp4" if find_ffmpeg() else ".gif")
+    suffix = path.suffix.lower()
+    if suffix not in _WRITERS:
         raise ValueError(f"the file name must end in .gif, .mp4 or .html, got {path.name!r}")
-    if path.suffix == ".mp4" and not shutil.which("ffmpeg"):
+    if suffix == ".mp4" and not find_ffmpeg():
         raise RuntimeError(
-            f"writing {path.name} needs the program ffmpeg, which is not on the PATH; "
-            "install it, or write a .gif"
+            f"writing {path.name} needs the program ffmpeg, which is not on the PATH; install it "
+            "(pip install imageio-ffmpeg does too), or write a .gif or .html"
         )
     return path
 
 
 def write_film(path: Path, suffix: str, frames: Iterable[Frame], fps: float) -> None:
     """Write frames, at least one, as a film of that suffix to a file of any name."""
-    _WRITERS[suffix](path, iter(frames), fps)
+    _WRITERS[suffix.lower()](path, iter(frames), fps)
 
 
 def _write_gif(path: Path, frames: Iterator[Frame], fps: float) -> None:
@@ -65,7 +77,7 @@ def _rgb(frame: Frame) -> Image.Image:
 def _write_mp4(path: Path, frames: Iterator[Frame], fps: float) -> None:
     first = next(frames)
     height, width, _ = first.shape
-    command = ["ffmpeg", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgba"]
+    command = [find_ffmpeg() or "ffmpeg", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgba"]
     command += ["-s", f"{width}x{height}", "-r", f"{fps:.12g}", "-i", "-"]
     command += ["-c:v", "h264", "-pix_fmt", "yuv420p"]  # what every player understands
     command += ["-f", "mp4", "-y", str(path)]

@@ -8,11 +8,13 @@ from typing import TYPE_CHECKING
 
 from cdcr import _core
 from cdcr.base.check import Check
+from cdcr.base.keywords import by_keyword
 from cdcr.base.quantity import quantity
 
 Pairs = tuple[tuple[float, float], ...]
 
 
+@by_keyword
 @dataclass(frozen=True, kw_only=True)
 class Cable:
     """One cable, from the base through the holes of all sections up to the end of its last one.

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from cdcr import _core
 from cdcr.base.check import Check
+from cdcr.base.keywords import by_keyword
 from cdcr.base.quantity import quantity
 from cdcr.robot.cable import Cable
 from cdcr.robot.filed import Filed
@@ -32,6 +33,7 @@ SCREEN = 1600  # characters
 _ZERO: Vector = (0.0, 0.0, 0.0)
 
 
+@by_keyword
 @dataclass(frozen=True, kw_only=True)
 class Robot(Filed):
     """A cable-driven continuum robot: its sections from base to tip, and what acts on all of them.

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from cdcr import _core
 from cdcr.base.check import Check
+from cdcr.base.keywords import by_keyword
 from cdcr.base.quantity import quantity
 
 
@@ -36,6 +37,7 @@ def _given(about: str, unit: str) -> Any:
     return quantity(about, unit, requirement, kind="number or none", default=None, advanced=True)
 
 
+@by_keyword
 @dataclass(frozen=True, kw_only=True)
 class Section:
     """One section: a backbone, its disks and the cables that end at its end.

@@ -22,7 +22,7 @@ FARTHEST = 10.0  # commanded length over that of the straight robot, or the othe
 def ask_about_robot(robot: Robot) -> None:
     """Warn of angles that may be degrees and of moduli that may be in GPa."""
     for question in _questions(robot):
-        warnings.warn(question, UserWarning, stacklevel=4)  # where the robot is described
+        warnings.warn(question, UserWarning, stacklevel=5)  # where the robot is described
 
 
 def _questions(robot: Robot) -> Iterator[str]:

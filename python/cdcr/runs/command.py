@@ -78,8 +78,8 @@ class TensionTable:
         if np.any(rows < 0.0):
             k, j = np.argwhere(rows < 0.0)[0]
             raise ValueError(
-                f"tension[{k}, {j}] must be finite and >= 0 N (a cable cannot push), or >= 0 m "
-                f"where driven by length, got {rows[k, j]:g}"
+                f"tension[{k}, {j}] (cable {j + 1}) must be finite and >= 0 N (a cable cannot "
+                f"push), or >= 0 m where driven by length, got {rows[k, j]:g}"
             )
 
     def __repr__(self) -> str:

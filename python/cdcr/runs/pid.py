@@ -9,12 +9,14 @@ import numpy as np
 
 from cdcr import _core
 from cdcr.base.check import Check
+from cdcr.base.keywords import by_keyword
 from cdcr.model.model import Model
 
 _NUMBERS = ("kp", "ki", "kd", "period", "min_tension", "max_tension")
 _SWITCHES = ("feed_forward", "anti_windup")
 
 
+@by_keyword
 class Pid(_core.Pid):
     """PID loop on the bending vectors; its output is a generalised force, allocated to tensions.
 

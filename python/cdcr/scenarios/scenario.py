@@ -12,6 +12,7 @@ import numpy as np
 from cdcr._core import Controller
 from cdcr.base.arrays import MAX_SAMPLES, FloatArray
 from cdcr.base.check import Check
+from cdcr.base.keywords import by_keyword
 from cdcr.model.model import Model
 from cdcr.model.wrench import Wrench
 from cdcr.robot.robot import Robot
@@ -53,6 +54,7 @@ class InputSource(Protocol):
         """Run the robot from a state and sample it at output times (N,) [s]."""
 
 
+@by_keyword
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Scenario:
     """Something to see that can be repeated: data, and how to summarise and draw it.

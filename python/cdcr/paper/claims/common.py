@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cdcr._core import taylor_range
+from cdcr.base.keywords import by_keyword
 from cdcr.model.model import Model
 from cdcr.robots import amouri2020
 
@@ -31,6 +32,7 @@ DISK_INERTIA = SECTION.disk_mass * SECTION.disk_diameter**2 / 16.0
 SAME = 1e-11
 
 
+@by_keyword
 @dataclass(frozen=True, kw_only=True)
 class Claim:
     """A claim of the paper beside what its own equations give.

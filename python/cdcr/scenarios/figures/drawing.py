@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,7 +13,7 @@ from matplotlib.figure import Figure
 from cdcr._core import taylor_range
 from cdcr.base.arrays import FloatArray
 from cdcr.plotting import panels
-from cdcr.plotting.legend import legend_of
+from cdcr.plotting.legend import FittingLegend, legend_of
 from cdcr.plotting.style import StyledFigure
 
 if TYPE_CHECKING:
@@ -43,18 +44,20 @@ def show_angle(axes: Axes, *, named: bool = True) -> None:
         axes.set_xlabel(r"bending angle $\theta$ [deg]")
 
 
-def legend_below(figure: Any, axes: Axes, ncols: int = 4) -> None:
+def legend_below(figure: StyledFigure, axes: Axes, ncols: int = 4) -> None:
     """Put the legend of one panel under the whole figure."""
     handles, labels = axes.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=ncols, handlelength=2.6)
+    look = {"loc": "outside lower center", "handlelength": 2.6}
+    FittingLegend(figure, partial(figure.legend, handles, labels, **look), ncols)
 
 
 def legend_over(
-    figure: Figure, axes: Any, room: FloatArray, height: float, *, ncols: int = 2, **look: Any
+    figure: StyledFigure, axes: Any, room: FloatArray, height: float, *, ncols: int = 2, **look: Any
 ) -> None:
     """Put the legend of Axes3D over the middle of its room [in], at a share of the height."""
-    place = (room[0] / figure.get_figwidth() / 2.0, height)
-    legend_of(figure, axes, loc="upper center", bbox_to_anchor=place, ncols=ncols, **look)
+    share = room[0] / figure.get_figwidth()
+    look |= {"loc": "upper center", "bbox_to_anchor": (share / 2.0, height)}
+    FittingLegend(figure, partial(legend_of, figure, axes, **look), ncols, share)
 
 
 def share_time(figure: Figure, charts: Sequence[Axes], run: Trajectory) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,7 +11,7 @@ from matplotlib.axes import Axes
 
 from cdcr.base.arrays import FloatArray
 from cdcr.plotting import panels, plot_run_robot, space
-from cdcr.plotting.legend import legend_of
+from cdcr.plotting.legend import FittingLegend, legend_of
 from cdcr.plotting.style import BLACK, StyledFigure, line_colors, style
 from cdcr.scenarios.figures.drawing import note, share_time
 from cdcr.scenarios.figures.workspace import add_panels, new_figure
@@ -43,7 +44,8 @@ def _draw_robot(figure: StyledFigure, run: Trajectory, times: FloatArray) -> Non
     plot_run_robot(run, times, ax=axes)
     space.fill(axes, ROBOT_ROOM)
     beside = (ROBOT_ROOM[0] / SIZE[0], 0.5)
-    legend_of(figure, axes, loc="center left", bbox_to_anchor=beside, handlelength=1.4)
+    look = {"loc": "center left", "bbox_to_anchor": beside, "handlelength": 1.4}
+    FittingLegend(figure, partial(legend_of, figure, axes, **look), ncols=1)
 
 
 def _draw_panels(figure: StyledFigure, run: Trajectory, wrenches: Sequence[Wrench]) -> None:
