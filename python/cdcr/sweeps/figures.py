@@ -208,7 +208,7 @@ def _draw_lines(
             look: dict[str, Any] = {"ha": "center", "va": side, "fontsize": 9, "bbox": box}
             axes.annotate(f"{value:.3g}", (x, y), offset, textcoords="offset points", **look)
     axes.set(xlim=(-0.4, len(names) - 0.6), ylim=(-0.1, 1.1), yticks=[])
-    axes.set_xticks(place, [label(result, name).replace(" [", "\n[") for name in names])
+    axes.set_xticks(place, [_in_lines(label(result, name)) for name in names])
     axes.tick_params(axis="x", length=0)
     axes.grid(visible=False)
     axes.spines[["left", "bottom"]].set_visible(False)
@@ -217,6 +217,14 @@ def _draw_lines(
     missing = len(values) - len(whole)
     told += [f"left out, without a value: {missing} of {len(values)} runs"] if missing else []
     axes.set_title("; ".join(told), loc="left", fontsize=9.5)
+
+
+def _in_lines(words: str) -> str:
+    """Return a name with its last part and its unit in lines of their own."""
+    name, bracket, unit = words.partition(" [")
+    owner, dot, last = name.rpartition(".")
+    lines = [f"{owner}{dot}", last, f"[{unit}" if bracket else ""]
+    return "\n".join(line for line in lines if line)
 
 
 def _draw_indices(figure: Figure, result: xarray.Dataset, panels: list[Axes]) -> None:

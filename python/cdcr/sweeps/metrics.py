@@ -24,7 +24,23 @@ Function: TypeAlias = Callable[[Trajectory], float]
 
 
 class RunMetric(NamedTuple):
-    """A number of a run: how it is computed, its unit and what it is."""
+    """A number of a run: how it is computed, its unit and what it is.
+
+    Parameters
+    ----------
+    function : callable
+        From a `cdcr.Trajectory` to the number, NaN where the run has none.
+    unit : str
+        Its unit; "1" where it has none.
+    about : str
+        What it is.
+
+    Examples
+    --------
+    >>> import cdcr.sweeps
+    >>> cdcr.sweeps.METRICS["peak_tip_speed"].unit
+    'm/s'
+    """
 
     function: Function
     unit: str
@@ -61,6 +77,7 @@ def _mean_tension(run: Trajectory) -> float:
     return time_mean(run.t, run.tension.mean(axis=1))
 
 
+#: The metrics that a sweep knows by name.
 METRICS: Mapping[str, RunMetric] = MappingProxyType(
     {
         "settling_time": RunMetric(

@@ -92,6 +92,8 @@ def _alone(path: Path) -> Iterator[BinaryIO]:
                 raise FileExistsError(
                     f"another sweep is writing to {path}: wait for it, or name another file"
                 ) from None
+            except OSError:  # a file system without locks
+                pass
             if path.exists() and path.stat().st_ino == os.fstat(file.fileno()).st_ino:
                 yield file
                 return
