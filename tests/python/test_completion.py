@@ -68,6 +68,21 @@ def test_scenarios_files_options_and_values_are_offered(home: Path) -> None:
     assert values == ["dopri5", "dop853"]
 
 
+def test_metrics_parameters_and_samples_of_a_sweep_are_offered(home: Path) -> None:
+    found = offered(
+        home,
+        "cdcr sweep step-tension --metric peak_ti",
+        "cdcr sweep step-tension --metric steps,peak_ti",
+        "cdcr sweep step-tension --param sections.1.cable_ang",
+        "cdcr sweep nowhere --param pay",
+        "cdcr sweep step-tension --samples so",
+        "cdcr sweep step-tension --scheduler ",
+    )
+    angles = [f"sections.1.cable_angles.{k}" for k in (1, 2, 3)]
+    peak = ["peak_tip_speed"]
+    assert found == [peak, [f"steps,{peak[0]}"], angles, [], ["sobol:"], ["local"]]
+
+
 def test_the_shell_is_found_and_told(home: Path) -> None:
     pytest.importorskip("shellingham")
     script = shell(home, "cdcr --show-completion; true")

@@ -42,8 +42,10 @@ def parameters(context: Context, incomplete: str) -> list[str]:
     from cdcr.sweeps.jobs import file_source
     from cdcr.sweeps.paths import numbers
 
+    # What stands before an option without its value is not told apart yet.
+    scenario = context.params.get("scenario") or next(iter(context.args), "")
     try:
-        table = file_source(str(context.params.get("scenario")), ()).table
+        table = file_source(scenario, ()).table
     except (OSError, ValueError):
         return []
     return _begun(tuple(numbers(table)), incomplete)
