@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include "bind.hpp"
+#include "cdcr/allocation.hpp"
 #include "cdcr/cables.hpp"
 #include "docs.hpp"
 #include "states.hpp"
@@ -34,11 +35,13 @@ void bind_model(py::module_& m) {
                docs::bad_argument))
       .def_property_readonly("num_sections", &Model::num_sections, "Number n of sections.")
       .def_property_readonly("num_coordinates", &Model::num_coordinates,
-                             "Number d of coordinates q, two for each section.")
+                             "Number d of coordinates q: two for each section of constant\n"
+                             "curvature, those of cpp/rods.md eq. (51) for others.")
       .def_property_readonly(
           "coordinate_names",
           [](const Model& self) { return py::tuple(py::cast(self.coordinate_names())); },
-          "Names of the coordinates in the order of q, sections from 1: q1_x, q1_y, q2_x, ...")
+          "Names of the coordinates in the order of q, sections from 1: q1_x, q1_y, q2_x, ... of\n"
+          "bending; t1, ... of twist; e1, ... of stretch; higher orders q1_x_1, t1_1, e1_2, ...")
       .def(
           "section_slice",
           [](const Model& self, Index section) {
@@ -53,12 +56,26 @@ void bind_model(py::module_& m) {
       .def_property_readonly("num_cables", &Model::num_cables, "Number of all cables.")
       .def_property_readonly("has_inertia", &Model::has_inertia,
                              "Whether the robot has dynamics: every motion moves some mass.")
+      .def_property_readonly("has_rods", &Model::has_rods,
+                             "Whether its sections are more than arcs, or a cable winds.")
+      .def_property_readonly("has_constant_actuation", &Model::has_constant_actuation,
+                             "Whether the actuation matrix is the same at all q.")
+      .def_property_readonly(
+          "rest_shape", [](const Model& self) { return to_array(self.rest()); },
+          "The unloaded shape (d,): zero but for sections bent or twisted at rest, cpp/rods.md.")
+      .def_property_readonly(
+          "elastic_stiffness", [](const Model& self) { return to_rows(self.elastic_stiffness()); },
+          "Stiffness K of the backbone (d, d): its elastic energy is half of (q - rest)^T K\n"
+          "(q - rest), cpp/README.md eq. (14) and cpp/rods.md eq. (52).")
       .def_property_readonly("has_friction", &Model::has_friction,
                              "Whether a cable rubs in its holes.")
       .def(
           "actuation_matrix",
           [](const Model& self, const py::object& q) {
-            if (q.is_none()) return to_rows(self.actuation_matrix());
+            if (q.is_none()) {
+              require_constant_actuation(self);
+              return to_rows(self.actuation_matrix());
+            }
             return States{read_bendings(self, q)}.matrices(
                 self.num_coordinates(), self.num_cables(),
                 [&](auto& x, auto& B) { actuation_matrix(self, x, B); });
@@ -66,8 +83,8 @@ void bind_model(py::module_& m) {
           "q"_a = py::none(),
           Doc("Matrix B of Q = B F, tensions to generalised force: cpp/README.md eq. (6).",
               {"q : (..., d) array_like, optional\n"
-               "    Bending vectors [rad], on which B does not depend where all sections are of\n"
-               "    constant curvature.\n"},
+               "    Coordinates, which may be left out where B does not depend on them: where no\n"
+               "    cable winds or converges, and none runs through a section that twists.\n"},
               "(..., d, num_cables) array\n    A copy [m].", docs::bad_states));
   bind_cables(model);
   bind_kinematics(model);

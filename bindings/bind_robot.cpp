@@ -1,6 +1,10 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include <array>
+#include <optional>
+#include <variant>
+
 #include "bind.hpp"
 #include "cdcr/robot.hpp"
 #include "docs.hpp"
@@ -19,37 +23,79 @@ constexpr const char* fields_of_cable = "**fields\n    Those of cdcr.Cable, in i
 constexpr const char* fields_of_robot = "**fields\n    Those of cdcr.Robot, in its units.\n";
 constexpr const char* sentences = "list of str\n    Empty when all is sound.";
 
+/// A number, or one (base, tip) pair for each section passed.
+using Pairs = std::vector<std::array<double, 2>>;
+using Route = std::variant<double, Pairs>;
+
+void read_route(const Route& given, double& even, Pairs& pairs) {
+  if (const double* number = std::get_if<double>(&given)) {
+    even = *number;
+  } else {
+    pairs = std::get<Pairs>(given);
+  }
+}
+
 void bind_section(py::module_& m) {
   py::class_<Section>(m, "Section",
                       "One section as the core takes it, unchecked; see cdcr.Section.")
-      .def(py::init([](double length, double backbone_mass, double backbone_diameter,
-                       double youngs_modulus, double disk_mass, double disk_diameter, int num_disks,
-                       Doubles disk_positions, Doubles disk_masses, Doubles disk_diameters,
-                       double cable_radius, Doubles cable_angles, double cable_stiffness,
-                       double cable_damping, double cable_friction, double damping) {
-             Section s;
-             s.length = length;
-             s.backbone_mass = backbone_mass;
-             s.backbone_diameter = backbone_diameter;
-             s.youngs_modulus = youngs_modulus;
-             s.disk_mass = disk_mass;
-             s.disk_diameter = disk_diameter;
-             s.num_disks = num_disks;
-             s.disk_positions = std::move(disk_positions);
-             s.disk_masses = std::move(disk_masses);
-             s.disk_diameters = std::move(disk_diameters);
-             s.cable_radius = cable_radius;
-             s.cable_angles = std::move(cable_angles);
-             s.cable_stiffness = cable_stiffness;
-             s.cable_damping = cable_damping;
-             s.cable_friction = cable_friction;
-             s.damping = damping;
-             return s;
-           }),
+      .def(py::init(
+               [](double length, double backbone_mass,
+                  std::variant<double, std::array<double, 2>> backbone_diameter,
+                  double youngs_modulus, double disk_mass, double disk_diameter, int num_disks,
+                  Doubles disk_positions, Doubles disk_masses, Doubles disk_diameters,
+                  double cable_radius, Doubles cable_angles, double cable_stiffness,
+                  double cable_damping, double cable_friction, double damping,
+                  std::optional<int> bending_order, std::optional<int> twist_order,
+                  std::optional<int> stretch_order, double backbone_inner_diameter,
+                  std::optional<double> shear_modulus, std::optional<double> bending_stiffness,
+                  std::optional<double> twist_stiffness, std::optional<double> stretch_stiffness,
+                  double twist_damping, double stretch_damping, double material_damping,
+                  std::array<double, 2> rest_bending, double rest_twist, std::optional<int> nodes) {
+                 Section s;
+                 s.length = length;
+                 s.backbone_mass = backbone_mass;
+                 if (const auto* ends = std::get_if<1>(&backbone_diameter)) {
+                   s.backbone_diameter = (*ends)[0];
+                   s.backbone_tip_diameter = (*ends)[1];
+                 } else {
+                   s.backbone_diameter = std::get<0>(backbone_diameter);
+                 }
+                 s.youngs_modulus = youngs_modulus;
+                 s.disk_mass = disk_mass;
+                 s.disk_diameter = disk_diameter;
+                 s.num_disks = num_disks;
+                 s.disk_positions = std::move(disk_positions);
+                 s.disk_masses = std::move(disk_masses);
+                 s.disk_diameters = std::move(disk_diameters);
+                 s.cable_radius = cable_radius;
+                 s.cable_angles = std::move(cable_angles);
+                 s.cable_stiffness = cable_stiffness;
+                 s.cable_damping = cable_damping;
+                 s.cable_friction = cable_friction;
+                 s.damping = damping;
+                 s.bending_order = bending_order.value_or(locked);
+                 s.twist_order = twist_order.value_or(locked);
+                 s.stretch_order = stretch_order.value_or(locked);
+                 s.backbone_inner_diameter = backbone_inner_diameter;
+                 s.shear_modulus = shear_modulus;
+                 s.bending_stiffness = bending_stiffness;
+                 s.twist_stiffness = twist_stiffness;
+                 s.stretch_stiffness = stretch_stiffness;
+                 s.twist_damping = twist_damping;
+                 s.stretch_damping = stretch_damping;
+                 s.material_damping = material_damping;
+                 s.rest_bending = rest_bending;
+                 s.rest_twist = rest_twist;
+                 s.nodes = nodes;
+                 return s;
+               }),
            py::kw_only(), "length"_a, "backbone_mass"_a, "backbone_diameter"_a, "youngs_modulus"_a,
            "disk_mass"_a, "disk_diameter"_a, "num_disks"_a, "disk_positions"_a, "disk_masses"_a,
            "disk_diameters"_a, "cable_radius"_a, "cable_angles"_a, "cable_stiffness"_a,
-           "cable_damping"_a, "cable_friction"_a, "damping"_a,
+           "cable_damping"_a, "cable_friction"_a, "damping"_a, "bending_order"_a, "twist_order"_a,
+           "stretch_order"_a, "backbone_inner_diameter"_a, "shear_modulus"_a, "bending_stiffness"_a,
+           "twist_stiffness"_a, "stretch_stiffness"_a, "twist_damping"_a, "stretch_damping"_a,
+           "material_damping"_a, "rest_bending"_a, "rest_twist"_a, "nodes"_a,
            Doc("Take the fields.", {fields_of_section}))
       .def(
           "violations", [](const Section& section) { return violations(section); },
@@ -66,20 +112,37 @@ void bind_section(py::module_& m) {
           Doc("The disks, base to tip in the order given.", {},
               "list of (float, float, float)\n"
               "    Position [fraction of the length], mass [kg] and diameter [m] of each."))
-      .def_property_readonly("stiffness", &Section::stiffness,
-                             "Bending stiffness K = E I / length [N m/rad], paper eq. (23).");
+      .def_property_readonly(
+          "stiffness", &Section::stiffness,
+          "Bending stiffness K = E I / length [N m/rad], paper eq. (23); the mean of a taper.")
+      .def_property_readonly("is_rod", &Section::is_rod,
+                             "Whether it is more than an arc, cpp/rods.md.");
 }
 
 void bind_cable(py::module_& m) {
   py::class_<Cable>(m, "Cable", "One cable as the core takes it, unchecked; see cdcr.Cable.")
-      .def(py::init([](double radius, double angle, int end_section, double stiffness,
-                       double damping, std::optional<double> friction) {
-             return Cable{radius, angle, end_section, stiffness, damping, friction};
+      .def(py::init([](const Route& radius, const Route& angle, int end_section, double stiffness,
+                       double damping, std::optional<double> friction, int start_section) {
+             Cable cable;
+             cable.end_section = end_section;
+             cable.stiffness = stiffness;
+             cable.damping = damping;
+             cable.friction = friction;
+             cable.start_section = start_section;
+             read_route(radius, cable.radius, cable.radii);
+             read_route(angle, cable.angle, cable.angles);
+             return cable;
            }),
            py::kw_only(), "radius"_a, "angle"_a, "end_section"_a, "stiffness"_a, "damping"_a,
-           "friction"_a, Doc("Take the fields.", {fields_of_cable}))
-      .def_readonly("radius", &Cable::radius, "Distance from the backbone [m].")
-      .def_readonly("angle", &Cable::angle, "Angle about Z, from X [rad].")
+           "friction"_a, "start_section"_a, Doc("Take the fields.", {fields_of_cable}))
+      .def_readonly("radius", &Cable::radius, "Distance from the backbone [m], where even.")
+      .def_readonly("angle", &Cable::angle, "Angle about Z, from X [rad], where even.")
+      .def_readonly("radii", &Cable::radii,
+                    "Distances at base and tip of each section passed [m], or none.")
+      .def_readonly("angles", &Cable::angles,
+                    "Angles at base and tip of each section passed [rad], or none.")
+      .def_readonly("start_section", &Cable::start_section,
+                    "Index of the section at whose base it begins.")
       .def_readonly("end_section", &Cable::end_section, "Index of the section where it ends.")
       .def_readonly("stiffness", &Cable::stiffness,
                     "Of the cable and its drive [N/m]; 0: driven by tension.")
@@ -92,6 +155,7 @@ void bind_cable(py::module_& m) {
 
 void bind_robot(py::module_& m) {
   m.attr("max_sections") = max_sections;
+  m.attr("max_order") = max_order;
   bind_section(m);
   bind_cable(m);
   py::class_<Robot>(m, "Robot", "A robot as the core takes it, unchecked; see cdcr.Robot.")

@@ -26,14 +26,16 @@ AllocationMethod read_method(const std::string& name) {
 }
 
 Allocation find_tension(const Model& self, const py::object& force, double min_tension,
-                        double max_tension, const std::string& method) {
+                        double max_tension, const std::string& method, const py::object& q) {
   if (!(min_tension >= 0.0)) {
     std::ostringstream text;
     text << "min_tension must be >= 0 N (a cable cannot push), got " << min_tension;
     throw py::value_error(text.str());
   }
-  return allocate(self, *VectorArgument(force, "force", self.num_coordinates()),
-                  {min_tension, max_tension, {}, read_method(method)});
+  const VectorXd wanted = *VectorArgument(force, "force", self.num_coordinates());
+  const TensionLimits limits{min_tension, max_tension, {}, read_method(method)};
+  if (q.is_none()) return allocate(self, wanted, limits);
+  return allocate_at(self, *read_bending(self, q, "q"), wanted, limits);
 }
 
 void bind_equilibrium(py::module_& m) {
@@ -134,13 +136,17 @@ void bind_statics(py::module_& m, PyModel& model) {
   model
       .def("find_tension", &find_tension, "force"_a, "min_tension"_a = 0.0,
            "max_tension"_a = std::numeric_limits<double>::infinity(), "method"_a = "automatic",
+           "q"_a = py::none(),
            Doc("Least-norm cable tensions within limits for a generalised force, or for the\n"
                "nearest: cpp/README.md eq. (20), cpp/several-sections.md eq. (46).",
                {"force : (d,) array_like\n    Generalised force [N m].\n",
                 "min_tension, max_tension : float, optional\n"
                 "    Limits of every tension [N], 0 <= min_tension <= max_tension.\n",
                 "method : {\"automatic\", \"sections\", \"search\"}, optional\n"
-                "    As for `allocate`.\n"},
+                "    As for `allocate`.\n",
+                "q : (d,) array_like, optional\n"
+                "    Where the robot is [rad]; to be given where its actuation matrix depends on\n"
+                "    it.\n"},
                "Allocation\n    Tensions, the force they give and what limits them.",
                docs::bad_argument))
       .def(

@@ -20,7 +20,9 @@ static_assert(is_noexcept<decltype(&friction_power)>);
 static_assert(is_noexcept<decltype(&cable_energy)>);
 static_assert(is_noexcept<decltype(&rest_command)>);
 static_assert(is_noexcept<decltype(&add_wrench_force)>);
-static_assert(is_noexcept<decltype(&static_stiffness)>);
+using StaticStiffness = void(const Model&, Data&, const ConstVectorRef&, const ConstVectorRef&,
+                             const Wrenches&, MatrixRef) noexcept;
+static_assert(is_noexcept<decltype(static_cast<StaticStiffness*>(&static_stiffness))>);
 static_assert(is_noexcept<decltype(&check_state)>);
 
 volatile double sink = 0.0;  // keeps results alive

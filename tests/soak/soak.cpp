@@ -73,8 +73,8 @@ double short_period(const Subject& s, const ChainState& state) {
         .eigenvalues()
         .maxCoeff();
   };
-  return 0.03 /
-         (std::sqrt(fastest(s.model.coordinate_stiffness())) + fastest(damping) + state.qd.norm());
+  return 0.03 / (std::sqrt(fastest(s.model.elastic_stiffness().diagonal())) + fastest(damping) +
+                 state.qd.norm());
 }
 
 /// Momentum after one step of the simulator against that of Runge-Kutta 4 on the twin, over what
@@ -123,7 +123,7 @@ void soak_equilibrium(Random& random, Tally& tally) {
     const RealVector gradient = s.sum.potential_gradient(q);
     RealVector off = gradient - pull;
     RealVector scale = s.sum.weight_scale() + gradient.cwiseAbs() + pull.cwiseAbs() +
-                       s.model.coordinate_stiffness().cast<Real>();
+                       s.model.elastic_stiffness().diagonal().cast<Real>();
     for (const Wrench& wrench : wrenches) {
       const RealVector part = s.sum.wrench_force(q, wrench);
       off -= part;

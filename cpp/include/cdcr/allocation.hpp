@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,6 +38,8 @@ class Allocator {
  public:
   explicit Allocator(const Model& model, const TensionLimits& limits = {});
 
+  /// Takes B at q (d) from now on. For robots whose B depends on q; made for q = 0. Real-time safe.
+  void set_shape(const ConstVectorRef& q) noexcept;
   /// Solves for force (d) [N m]; true when the force is met. One of another size or not finite is
   /// not, and leaves the last answer in place.
   bool solve(const ConstVectorRef& force) noexcept;
@@ -61,6 +64,7 @@ class Allocator {
     MatrixXd pseudo_inverse;
   };
 
+  void set_actuation() noexcept;
   void find_triples(const Model& model);
   bool solve_triple(const Triple& triple, const Eigen::Vector2d& force) noexcept;
   void initialise_active_set() noexcept;
@@ -72,9 +76,11 @@ class Allocator {
   void polish() noexcept;
   void left_for_free() noexcept;
 
+  std::optional<Model> model_;        // where B depends on q
   std::pair<double, double> limits_;  // of every tension [N]
   double low_ = 0.0, high_ = 0.0;     // the same in the unit of the force at hand
   double scale_ = 1.0;                // largest column of B, so that lengths are near one
+  double softest_ = 0.0;              // least bending stiffness [N m/rad]
   double negligible_ = 0.0;           // force/scale that bends the robot no more than rounding
   MatrixXd B_, normal_;               // B/scale; sum of b b^T over the free cables
   VectorXd Q_, rest_, lambda_;        // Q/scale; what the free cables must give; multipliers
@@ -97,6 +103,11 @@ struct Allocation {
 /// One call of Allocator. Throws std::invalid_argument for wrong sizes and non-finite forces too.
 [[nodiscard]] Allocation allocate(const Model& model, const VectorXd& force,
                                   const TensionLimits& limits = {});
+/// The same with B at q, for robots whose B depends on q.
+[[nodiscard]] Allocation allocate_at(const Model& model, const VectorXd& q, const VectorXd& force,
+                                     const TensionLimits& limits = {});
+/// Throws std::invalid_argument where B depends on q, for a function that is given none.
+void require_constant_actuation(const Model& model);
 
 /// "cable 2 of section 1": the second of those that end there. Counts from 1, in their order.
 /// Throws std::invalid_argument for a cable that the robot has not.

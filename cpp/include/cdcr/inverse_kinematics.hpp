@@ -100,6 +100,7 @@ class InverseSolver {
   double weight_ = 0.0;                 // of the orientation
   double goal_ = 0.0, accepted_ = 0.0;  // costs: where a descent ends, and the search
   VectorXd max_theta_;                  // (n) [rad]
+  VectorXd metric_;                     // (d) how much each coordinate is damped
   Vector3d p_ = Vector3d::Zero();       // as asked for [m]
   Matrix3d R_ = Matrix3d::Identity();
   bool with_rotation_ = false;

@@ -27,37 +27,49 @@ class Model {
   [[nodiscard]] const Robot& robot() const noexcept { return *robot_; }
   [[nodiscard]] Formulation formulation() const noexcept { return formulation_; }
   [[nodiscard]] Index num_sections() const noexcept { return stiffness_.size(); }
-  /// The size d of q: two for each section of constant curvature.
+  /// The size d of q: two for each section of constant curvature, cpp/rods.md for others.
   [[nodiscard]] Index num_coordinates() const noexcept { return actuation_.rows(); }
   /// Where the coordinates of a section begin in q; for num_sections, where they end.
   [[nodiscard]] Index first_coordinate(Index section) const noexcept {
     assert(section >= 0 && section <= num_sections());
     return first_[section];
   }
-  /// Names of the coordinates, in the order of q: q1_x, q1_y, q2_x, ..., sections from 1.
+  /// Names of the coordinates, in the order of q, sections from 1: q1_x, q1_y, q2_x, ... of
+  /// bending; t1, ... of twist; e1, ... of stretch. Higher orders are q1_x_1, q1_y_1, t1_1, e1_2,
+  /// ...
   [[nodiscard]] std::vector<std::string> coordinate_names() const;
   [[nodiscard]] Index num_cables() const noexcept { return actuation_.cols(); }
 
   /// Every cable, in the order of tensions (num_cables).
   [[nodiscard]] const std::vector<Cable>& cables() const noexcept { return cables_; }
-  /// B of Q = B F (d, num_cables) [m]: tensions to generalised force. Constant.
+  /// B of Q = B F (d, num_cables) [m]: tensions to generalised force. Where
+  /// has_constant_actuation() is false it is that of q = 0, and actuation_matrix(model, q, B) gives
+  /// that of any q.
   [[nodiscard]] const MatrixXd& actuation_matrix() const noexcept { return actuation_; }
   /// Rows of B that are not zero by construction, one number for each cable.
   [[nodiscard]] const std::vector<Index>& cable_rows() const noexcept { return cable_rows_; }
+  /// Whether B is the same at all q: no cable winds or converges, and none runs through a section
+  /// that twists.
+  [[nodiscard]] bool has_constant_actuation() const noexcept { return has_constant_actuation_; }
+  /// Whether the sections are rods, all of them, since one of them is one or a cable winds.
+  [[nodiscard]] bool has_rods() const noexcept { return has_rods_; }
+  /// Whether all cables pull alike on each section from the base to their end.
+  [[nodiscard]] bool has_nested_cables() const noexcept { return has_nested_cables_; }
+  /// The unloaded shape (d): zero but for sections that are bent or twisted at rest.
+  [[nodiscard]] const VectorXd& rest() const noexcept;
+  /// Stiffness of the backbone (d, d): its elastic energy is (q - rest)^T K (q - rest)/2.
+  [[nodiscard]] const MatrixXd& elastic_stiffness() const noexcept;
   /// Cable lengths of the straight robot (num_cables) [m].
   [[nodiscard]] const VectorXd& straight_lengths() const noexcept { return straight_lengths_; }
   /// Bending stiffness K of each section (n) [N m/rad].
   [[nodiscard]] const VectorXd& stiffness() const noexcept { return stiffness_; }
-  /// Elastic stiffness of each coordinate (num_coordinates) [N m/rad].
-  [[nodiscard]] const VectorXd& coordinate_stiffness() const noexcept {
-    return coordinate_stiffness_;
-  }
   /// Viscous damping of each section (n) [N m s/rad].
   [[nodiscard]] const VectorXd& damping() const noexcept { return damping_; }
   /// Coulomb's coefficient of each cable in the holes of each section (n, num_cables).
   [[nodiscard]] const MatrixXd& friction() const noexcept { return friction_; }
   [[nodiscard]] bool has_friction() const noexcept { return has_friction_; }
-  /// Whether every cable is driven by tension and free of friction: then Q = B F.
+  /// Whether every cable is driven by tension and free of friction, and B is constant: then Q = B F
+  /// depends on the tensions alone.
   [[nodiscard]] bool has_plain_cables() const noexcept { return has_plain_cables_; }
   /// False when nothing resists some acceleration: such a robot has statics but no dynamics.
   [[nodiscard]] bool has_inertia() const noexcept { return singular_section_ < 0; }
@@ -81,6 +93,8 @@ class Model {
   [[nodiscard]] const std::shared_ptr<const Parts>& parts() const noexcept { return parts_; }
 
  private:
+  void set_elasticity(Parts& parts);
+  void set_cables(Parts& parts);
   void set_gravity(const Vector3d& gravity, const std::shared_ptr<Parts>& parts);
 
   std::shared_ptr<const Robot> robot_;  // shared by copies of a model
@@ -89,13 +103,14 @@ class Model {
   Formulation formulation_;
   std::shared_ptr<const Parts> parts_;
   std::vector<Index> first_;
-  VectorXd stiffness_, coordinate_stiffness_, damping_, straight_lengths_;
+  VectorXd stiffness_, damping_, straight_lengths_;
   MatrixXd actuation_, friction_;
   Vector3d root_gravity_ = Vector3d::Zero();
   Index singular_section_ = -1;
   double base_energy_ = 0.0;
   bool has_gravity_ = false, has_friction_ = false, has_plain_cables_ = true, has_tool_ = false,
-       has_closed_form_ = false;
+       has_closed_form_ = false, has_rods_ = false, has_constant_actuation_ = true,
+       has_nested_cables_ = true;
 };
 
 /// Throws std::invalid_argument with a sentence when the model cannot be accelerated.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,8 +12,14 @@ namespace CDCR_EXPORT cdcr {
 
 /// Largest number of sections of a robot.
 inline constexpr Index max_sections = 32;
-/// Of all sections together, two each.
-inline constexpr Index max_coordinates = 2 * max_sections;
+/// Largest order of a strain of a section.
+inline constexpr int max_order = 4;
+/// Of all sections together: bending (x, y), twist and stretch of all orders.
+inline constexpr Index max_coordinates = 4 * (max_order + 1) * max_sections;
+/// Places along a section where its mass may be summed up.
+inline constexpr int min_nodes = 3, max_nodes = 32;
+/// Order of a strain that is locked.
+inline constexpr int locked = -1;
 
 /// A thin rigid disk, centred on the backbone and square to it.
 struct Disk {
@@ -21,7 +28,11 @@ struct Disk {
   double diameter = 0.0;  ///< [m]
 };
 
-/// One constant-curvature section: a backbone, its disks, and the cables that end at its end.
+/// One section: a backbone, its disks, and the cables that end at its end.
+///
+/// By default it bends with constant curvature and neither twists nor stretches. The order of a
+/// strain is that of its Legendre polynomials along the section (cpp/rods.md eq. (51)); `locked`
+/// leaves it as it is at rest.
 ///
 /// Without disk_positions, disk k of num_disks sits at fraction k/num_disks of the length. The
 /// cables at cable_angles all have the section's cable_radius, cable_stiffness and cable_damping,
@@ -29,14 +40,14 @@ struct Disk {
 struct Section {
   double length = 0.0;                 ///< arc length of the backbone [m], > 0
   double backbone_mass = 0.0;          ///< spread evenly along the length [kg], >= 0
-  double backbone_diameter = 0.0;      ///< [m], > 0
+  double backbone_diameter = 0.0;      ///< at the base [m], > 0
   double youngs_modulus = 0.0;         ///< [Pa], > 0
   double disk_mass = 0.0;              ///< of each disk [kg], >= 0
   double disk_diameter = 0.0;          ///< [m], >= 0
   int num_disks = 0;                   ///< 0 to 64
   double cable_radius = 0.0;           ///< from backbone to cable [m], > 0 where there are cables
   std::vector<double> cable_angles;    ///< gamma_j about Z from X [rad], 0 to 16 of them
-  double damping = 0.0;                ///< viscous, per bending component [N m s/rad], >= 0
+  double damping = 0.0;                ///< viscous, of each bending component [N m s/rad], >= 0
   std::vector<double> disk_positions;  ///< fractions of the length; empty: equally spaced disks
   std::vector<double> disk_masses;     ///< one for each disk [kg]; empty: disk_mass for all
   std::vector<double> disk_diameters;  ///< one for each disk [m]; empty: disk_diameter for all
@@ -44,14 +55,42 @@ struct Section {
   double cable_damping = 0.0;          ///< see Cable::damping [N s/m], >= 0
   double cable_friction = 0.0;  ///< Coulomb's coefficient mu in this section's cable holes, >= 0
 
-  /// Bending stiffness K = E I / length [N m/rad], paper eq. (23).
+  int bending_order = 0;                        ///< 0 to max_order, or locked
+  int twist_order = locked;                     ///< likewise
+  int stretch_order = locked;                   ///< likewise
+  std::optional<double> backbone_tip_diameter;  ///< of a linear taper [m], > 0; else the base's
+  double backbone_inner_diameter = 0.0;         ///< of a tube [m], >= 0
+  std::optional<double> shear_modulus;          ///< [Pa], > 0; wanted where it twists
+  std::optional<double> bending_stiffness;      ///< E I [N m^2], in place of the material's
+  std::optional<double> twist_stiffness;        ///< G J [N m^2]
+  std::optional<double> stretch_stiffness;      ///< E A [N]
+  double twist_damping = 0.0;                   ///< viscous [N m s/rad], >= 0
+  double stretch_damping = 0.0;                 ///< viscous [N s/m], >= 0
+  double material_damping = 0.0;  ///< Kelvin-Voigt's time: this times the stiffness is damping [s]
+  std::array<double, 2> rest_bending{0.0, 0.0};  ///< bending vector of the unloaded backbone [rad]
+  double rest_twist = 0.0;                       ///< twist of the unloaded backbone [rad]
+  std::optional<int> nodes;  ///< where its mass is summed up, 3 to 32; else enough for about 1e-8
+
+  /// Bending stiffness K = E I / length [N m/rad], paper eq. (23), the mean of a taper.
   [[nodiscard]] double stiffness() const noexcept;
+  /// Whether it is more than an arc: its strains or its diameter vary, it twists, stretches, is
+  /// bent at rest or rigid, or its nodes are given (cpp/rods.md).
+  [[nodiscard]] bool is_rod() const noexcept;
   /// The disks, base to tip in the order given.
   [[nodiscard]] std::vector<Disk> disks() const;
 };
 
-/// One cable, from the base through the holes of all sections up to the end of the one it ends on.
+/// How a cable runs through a section: radius and angle change evenly from its base to its tip.
+struct CableRoute {
+  double base_radius, tip_radius;  ///< [m]
+  double base_angle, tip_angle;    ///< about Z from X [rad]
+};
+
+/// One cable, from the base of its first section through the holes of all sections up to the end
+/// of the one it ends on.
 ///
+/// It runs straight at `radius` and `angle`. With `radii` and `angles` it converges or winds: in
+/// each section passed both change evenly with the length from the base's to the tip's.
 /// A cable with a stiffness is driven by length: a spring of that stiffness, in parallel with the
 /// damping, between the cable and its drive, which pulls and never pushes. One without is driven by
 /// tension.
@@ -62,7 +101,14 @@ struct Cable {
   double stiffness = 0.0;          ///< of the cable and its drive [N/m]; 0: driven by tension
   double damping = 0.0;            ///< along with the stiffness [N s/m], >= 0
   std::optional<double> friction;  ///< mu in all its holes, in place of Section::cable_friction
+  int start_section = 0;           ///< index of the section at whose base it begins
+  /// (base, tip) in each section passed, in place of `radius` [m] and `angle` [rad]; or empty.
+  std::vector<std::array<double, 2>> radii{}, angles{};
 
+  /// How it runs through a section that it passes.
+  [[nodiscard]] CableRoute route(int section) const noexcept;
+  /// Whether radius and angle are the same all along.
+  [[nodiscard]] bool straight() const noexcept;
   [[nodiscard]] bool length_driven() const noexcept { return stiffness > 0.0; }
 };
 
@@ -92,6 +138,9 @@ struct Robot {
 
   /// Every cable: section by section those at cable_angles, then `cables`.
   [[nodiscard]] std::vector<Cable> all_cables() const;
+  /// Whether it is more than arcs with straight cables: a section is a rod, or a cable winds or
+  /// converges.
+  [[nodiscard]] bool has_rods() const noexcept;
   /// The place at an arc length from the base [m]; at a border the end of the section before it.
   /// Throws std::invalid_argument where it is not 0 to the length of the robot.
   [[nodiscard]] Place locate(double arc_length) const;

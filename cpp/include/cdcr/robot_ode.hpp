@@ -72,7 +72,8 @@ class RobotOde {
   bool command_holds_ = false;  // over the whole segment
 };
 
-/// ok, wrong_size, non_finite_state or bending_limit for a state (q, qd) (2d). Real-time safe.
+/// ok, wrong_size, non_finite_state, bending_limit or compression_limit for a state (q, qd) (2d).
+/// Real-time safe.
 [[nodiscard]] Status check_state(const Model& model, const ConstVectorRef& y) noexcept;
 
 /// ok, or invalid_tension for a wrong size, a negative or a non-finite command. Real-time safe.

@@ -43,6 +43,10 @@ struct Equilibrium {
 
 /// Stiffness d(dU/dq - Q)/dq (d, d) [N m/rad] of the robot at rest in q, springs of
 /// length-driven cables and wrenches included. Real-time safe.
+void static_stiffness(const Model& model, Data& data, const ConstVectorRef& q,
+                      const ConstVectorRef& command, const Wrenches& wrenches,
+                      MatrixRef K) noexcept;
+/// The same without room of one's own: it allocates where the model has rods.
 void static_stiffness(const Model& model, const ConstVectorRef& q, const ConstVectorRef& command,
                       const Wrenches& wrenches, MatrixRef K) noexcept;
 

@@ -24,6 +24,7 @@ enum class Status {
   event,              ///< stopped by an event that ends the run
   wrong_size,         ///< a vector that does not fit the robot
   invalid_wrench,     ///< a wrench beyond the robot, or not finite
+  compression_limit,  ///< a section compressed below a tenth of its length
 };
 
 /// One sentence: what happened and what to try next; empty for ok. Real-time safe.

@@ -7,6 +7,7 @@
 
 #include "base/arguments.hpp"
 #include "base/sizes.hpp"
+#include "cdcr/cables.hpp"
 #include "cdcr/kinematics.hpp"
 
 namespace cdcr {
@@ -43,22 +44,38 @@ Allocator::Allocator(const Model& model, const TensionLimits& limits)
   const Index m = model.num_coordinates(), c = model.num_cables();
   place_.assign(static_cast<std::size_t>(c), limits.cables.empty() ? Place::lower : Place::unused);
   for (const Index cable : limits.cables) place_[cable] = Place::lower;
+  if (!model.has_constant_actuation()) model_ = model;
+  softest_ = model.stiffness().minCoeff();
   B_ = model.actuation_matrix();
-  for (Index j = 0; j < c; ++j) {
-    if (place_[j] == Place::unused) B_.col(j).setZero();
-  }
-  if (c > 0) scale_ = B_.colwise().norm().maxCoeff();
-  B_ /= scale_;
-  negligible_ = no_bend * model.stiffness().minCoeff() / scale_;
+  set_actuation();
   normal_ = MatrixXd::Identity(m, m);
   ldlt_.compute(normal_);
   Q_ = rest_ = lambda_ = force_ = VectorXd::Zero(m);
   F_ = tension_ = VectorXd::Zero(c);
 
-  if (limits.method != AllocationMethod::search && limits.cables.empty()) find_triples(model);
+  const bool nested = model.has_nested_cables() && limits.cables.empty();
+  if (limits.method != AllocationMethod::search && nested) find_triples(model);
   detail::require(limits.method != AllocationMethod::sections || !triples_.empty(),
                   "method sections needs three cables, not on one side of the backbone, that end "
                   "at every section, and all of them in use");
+}
+
+void Allocator::set_shape(const ConstVectorRef& q) noexcept {
+  if (!model_) return;
+  actuation_matrix(*model_, q, B_);
+  set_actuation();
+}
+
+/// Leaves out the cables not in use, and scales.
+void Allocator::set_actuation() noexcept {
+  for (Index j = 0; j < B_.cols(); ++j) {
+    if (place_[j] == Place::unused) B_.col(j).setZero();
+  }
+  scale_ = 0.0;
+  for (Index j = 0; j < B_.cols(); ++j) scale_ = std::fmax(scale_, B_.col(j).norm());
+  if (!(scale_ > 0.0)) scale_ = 1.0;
+  B_ /= scale_;
+  negligible_ = no_bend * softest_ / scale_;
 }
 
 void Allocator::find_triples(const Model& model) {
@@ -250,9 +267,26 @@ bool Allocator::solve(const ConstVectorRef& force) noexcept {
   return rest_.norm() <= met * size + negligible_ / unit && tension_.allFinite();
 }
 
+void require_constant_actuation(const Model& model) {
+  detail::require(
+      model.has_constant_actuation(),
+      "q must be given: the actuation matrix of this robot depends on it, since a cable "
+      "winds or converges, or runs through a section that twists");
+}
+
 Allocation allocate(const Model& model, const VectorXd& force, const TensionLimits& limits) {
+  require_constant_actuation(model);
+  return allocate_at(model, model.rest(), force, limits);
+}
+
+Allocation allocate_at(const Model& model, const VectorXd& q, const VectorXd& force,
+                       const TensionLimits& limits) {
   detail::require_finite("force", force, model.num_coordinates());
+  detail::require_finite("q", q, model.num_coordinates());
   Allocator allocator(model, limits);
+  allocator.set_shape(q);
+  MatrixXd B(model.num_coordinates(), model.num_cables());
+  actuation_matrix(model, q, B);
   Allocation result;
   result.feasible = allocator.solve(force);
   result.tension = allocator.tension();
@@ -261,10 +295,10 @@ Allocation allocate(const Model& model, const VectorXd& force, const TensionLimi
   result.distance = missing.norm();
   for (Index j = 0; j < model.num_cables() && !result.feasible; ++j) {
     if (!allocator.at_limit(j)) continue;
-    const double wanted = model.actuation_matrix().col(j).dot(missing);
+    const double wanted = B.col(j).dot(missing);
     const double tension = result.tension[j];
     const bool lower = tension == limits.min_tension, upper = tension == limits.max_tension;
-    const double least = indifferent * model.actuation_matrix().col(j).norm() * result.distance;
+    const double least = indifferent * B.col(j).norm() * result.distance;
     if (!(lower && wanted < -least) && !(upper && wanted > least)) continue;
     result.limiting.push_back(j);
     result.limits.push_back(detail::sentence(cable_name(model, j), " at ", tension, " N (",

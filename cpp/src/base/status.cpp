@@ -37,6 +37,9 @@ const char* message(Status status) noexcept {
     case Status::invalid_wrench:
       return "A wrench must be finite and act on a section of the robot at a fraction from 0 to 1; "
              "the state was left as it was.";
+    case Status::compression_limit:
+      return "A section was compressed below a tenth of its length, past the model's validity: "
+             "lower the tensions, or whatever else compresses it.";
   }
   return "Unknown status.";
 }
@@ -69,6 +72,8 @@ const char* name(Status status) noexcept {
       return "wrong_size";
     case Status::invalid_wrench:
       return "invalid_wrench";
+    case Status::compression_limit:
+      return "compression_limit";
   }
   return "unknown";
 }

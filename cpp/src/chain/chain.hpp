@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <type_traits>
 #include <vector>
 
 #include "cdcr/robot.hpp"
 #include "section/constant_curvature.hpp"
+#include "section/rod.hpp"
 
 // The robot of n sections as a chain of flexible bodies, each carried by the tip of the one before
 // (cpp/several-sections.md eqs. (23) to (34)). The recursions of this room are templates on the
@@ -27,6 +29,8 @@ struct Chain {
 
   [[nodiscard]] Index num_sections() const noexcept { return static_cast<Index>(sections.size()); }
   [[nodiscard]] Index num_coordinates() const noexcept { return first.back(); }
+  /// Whether its sections are rods, all of them; otherwise they are of constant curvature.
+  [[nodiscard]] bool has_rods() const noexcept { return sections.front().rod != nullptr; }
 
   std::vector<SectionParameters> sections;
   std::vector<Index> first;  // coordinate of each section, and past the last
@@ -41,12 +45,25 @@ template <class S>
           Vector3<S>::Zero()};
 }
 
-/// All sections of a chain in one state, by one pass from base to tip for q and one for qd.
+/// Of the state of one section [bytes].
+template <class S>
+constexpr std::size_t largest_section_on_stack() {
+  return 256 * sizeof(S);
+}
+
+/// All sections of a chain in one state, by one pass from base to tip for q and one for qd. States
+/// of large sections are on the heap: made for one chain, they allocate nothing later on.
 template <class Section>
 struct ChainState {
   using S = typename Section::Scalar;
+  using Sections = std::conditional_t<(sizeof(Section) > largest_section_on_stack<S>()),
+                                      std::vector<Section>, std::array<Section, max_sections>>;
+
+  ChainState() = default;
+  explicit ChainState(const Chain& chain) { reserve(chain); }
 
   void update_position(const Chain& chain, const S* q) {
+    reserve(chain);
     tip = root_of<S>(chain);
     for (Index i = 0; i < chain.num_sections(); ++i) {
       sections[i].update_position(chain.sections[i], tip, q + chain.first[i]);
@@ -59,6 +76,7 @@ struct ChainState {
   }
   /// Both in one pass.
   void update(const Chain& chain, const S* q, const S* qd) {
+    reserve(chain);
     tip = root_of<S>(chain);
     for (Index i = 0; i < chain.num_sections(); ++i) {
       const Vector3<S> omega = tip.omega;
@@ -69,10 +87,15 @@ struct ChainState {
     }
   }
 
-  std::array<Section, max_sections> sections;
+  Sections sections;
   FrameState<S> tip;
 
  private:
+  void reserve(const Chain& chain) {
+    if constexpr (std::is_same_v<Sections, std::vector<Section>>) {
+      if (sections.size() < chain.sections.size()) sections.resize(chain.sections.size());
+    }
+  }
   /// Velocity of section i, with tip.omega that of its base and then of its tip.
   void turn(const Chain& chain, Index i, const S* qd) {
     Section& section = sections[i];
@@ -87,5 +110,7 @@ struct ChainState {
 
 template <class S>
 using ArcChainState = ChainState<ConstantCurvature<S>>;
+template <class S>
+using RodChainState = ChainState<Rod<S>>;
 
 }  // namespace cdcr::detail

@@ -50,6 +50,7 @@ Status Pid::update(double /*t*/, const ConstVectorRef& q, const ConstVectorRef& 
   if (!q.allFinite() || !qd.allFinite()) return Status::non_finite_state;
   force_ = hold_ + options_.kp * (reference_ - q) + options_.ki * integral_ - options_.kd * qd;
   if (!force_.allFinite()) return Status::non_finite_state;
+  allocator_.set_shape(q);
   const bool met = allocator_.solve(force_);
   tension = allocator_.tension();
   for (Index i = 0; i < q.size(); ++i) {

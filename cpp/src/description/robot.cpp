@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/arguments.hpp"
 #include "base/constants.hpp"
@@ -14,8 +15,56 @@ using detail::pi;
 }  // namespace
 
 double Section::stiffness() const noexcept {
-  const double d2 = backbone_diameter * backbone_diameter;
-  return youngs_modulus * (pi / 64.0) * d2 * d2 / length;
+  if (bending_stiffness) return *bending_stiffness / length;
+  const double inner = backbone_inner_diameter * backbone_inner_diameter;
+  const double base = backbone_diameter, tip = backbone_tip_diameter.value_or(base);
+  // Mean of d^4 over a taper; where there is none, d^2 squared as it stands.
+  const double b2 = base * base, t2 = tip * tip;
+  const double fourth =
+      base == tip ? b2 * b2
+                  : (b2 * b2 + b2 * base * tip + b2 * t2 + base * tip * t2 + t2 * t2) / 5.0;
+  return youngs_modulus * (pi / 64.0) * (fourth - inner * inner) / length;
+}
+
+bool Section::is_rod() const noexcept {
+  const bool tapers = backbone_tip_diameter.value_or(backbone_diameter) != backbone_diameter;
+  const bool bent_at_rest = rest_bending[0] != 0.0 || rest_bending[1] != 0.0 || rest_twist != 0.0;
+  return bending_order != 0 || twist_order != locked || stretch_order != locked || tapers ||
+         bent_at_rest || nodes.has_value();
+}
+
+CableRoute Cable::route(int section) const noexcept {
+  const auto k = static_cast<std::size_t>(section - start_section);
+  CableRoute route{radius, radius, angle, angle};
+  if (k < radii.size()) {
+    route.base_radius = radii[k][0];
+    route.tip_radius = radii[k][1];
+  }
+  if (k < angles.size()) {
+    route.base_angle = angles[k][0];
+    route.tip_angle = angles[k][1];
+  }
+  return route;
+}
+
+bool Cable::straight() const noexcept {
+  const auto even = [](const std::vector<std::array<double, 2>>& pairs) {
+    for (const auto& pair : pairs) {
+      if (pair[0] != pairs[0][0] || pair[1] != pairs[0][0]) return false;
+    }
+    return true;
+  };
+  return even(radii) && even(angles);
+}
+
+bool Robot::has_rods() const noexcept {
+  for (const Section& section : sections) {
+    if (section.is_rod()) return true;
+  }
+  for (const Cable& cable : cables) {
+    if (!cable.straight()) return true;
+  }
+  return false;
 }
 
 std::vector<Disk> Section::disks() const {
@@ -36,8 +85,13 @@ std::vector<Cable> Robot::all_cables() const {
   for (std::size_t i = 0; i < sections.size(); ++i) {
     const Section& s = sections[i];
     for (const double angle : s.cable_angles) {
-      all.push_back({s.cable_radius, angle, static_cast<int>(i), s.cable_stiffness, s.cable_damping,
-                     std::nullopt});
+      Cable cable;
+      cable.radius = s.cable_radius;
+      cable.angle = angle;
+      cable.end_section = static_cast<int>(i);
+      cable.stiffness = s.cable_stiffness;
+      cable.damping = s.cable_damping;
+      all.push_back(std::move(cable));
     }
   }
   all.insert(all.end(), cables.begin(), cables.end());

@@ -113,21 +113,103 @@ void check_section_cables(const Section& s, const std::string& in, Check& check)
   check.not_negative(in + "cable_friction", s.cable_friction, "");
 }
 
-void check_section(const Section& s, const std::string& in, Check& check) {
+void check_order(const std::string& item, int order, Check& check) {
+  if (order >= locked && order <= max_order) return;
+  check.refuse(item, "0 to " + std::to_string(max_order) + ", or None to lock it", order);
+}
+
+/// The strains of a section: orders, stiffnesses, dampings, and its shape at rest.
+void check_strains(const Section& s, const std::string& in, Check& check) {
+  check_order(in + "bending_order", s.bending_order, check);
+  check_order(in + "twist_order", s.twist_order, check);
+  check_order(in + "stretch_order", s.stretch_order, check);
+  if (s.shear_modulus) check.positive(in + "shear_modulus", *s.shear_modulus, "Pa");
+  if (s.twist_order != locked && !s.shear_modulus && !s.twist_stiffness) {
+    check.found.push_back(in +
+                          "a section that twists must have a shear_modulus [Pa] or a "
+                          "twist_stiffness [N m^2]");
+  }
+  if (s.bending_stiffness) {
+    check.positive(in + "bending_stiffness", *s.bending_stiffness, "N m^2");
+  }
+  if (s.twist_stiffness) check.positive(in + "twist_stiffness", *s.twist_stiffness, "N m^2");
+  if (s.stretch_stiffness) check.positive(in + "stretch_stiffness", *s.stretch_stiffness, "N");
+  check.not_negative(in + "damping", s.damping, "N m s/rad");
+  check.not_negative(in + "twist_damping", s.twist_damping, "N m s/rad");
+  check.not_negative(in + "stretch_damping", s.stretch_damping, "N s/m");
+  check.not_negative(in + "material_damping", s.material_damping, "s");
+  for (std::size_t k = 0; k < 2; ++k) {
+    check.finite(indexed(in + "rest_bending", k), s.rest_bending[k], "rad");
+  }
+  check.finite(in + "rest_twist", s.rest_twist, "rad");
+  const double turning = std::hypot(s.rest_bending[0], s.rest_bending[1], s.rest_twist);
+  if (turning > max_bending) {
+    check.refuse(in + "rest_bending and rest_twist", "together at most 3 pi rad", turning);
+  }
+  if (s.nodes) check.count(in + "nodes", *s.nodes, min_nodes, max_nodes);
+}
+
+void check_backbone(const Section& s, const std::string& in, Check& check) {
   check.positive(in + "length", s.length, "m");
   check.not_negative(in + "backbone_mass", s.backbone_mass, "kg");
   check.positive(in + "backbone_diameter", s.backbone_diameter, "m");
+  double least = s.backbone_diameter;
+  if (s.backbone_tip_diameter) {
+    check.positive(in + "backbone_diameter at the tip", *s.backbone_tip_diameter, "m");
+    least = std::fmin(least, *s.backbone_tip_diameter);
+  }
+  check.not_negative(in + "backbone_inner_diameter", s.backbone_inner_diameter, "m");
+  if (least > 0.0 && s.backbone_inner_diameter >= least && std::isfinite(least)) {
+    std::ostringstream wanted;
+    wanted.precision(12);
+    wanted << "below the outer diameter, " << least << " m";
+    check.refuse(in + "backbone_inner_diameter", wanted.str(), s.backbone_inner_diameter);
+  }
   check.positive(in + "youngs_modulus", s.youngs_modulus, "Pa");
+}
+
+void check_section(const Section& s, const std::string& in, Check& check) {
+  check_backbone(s, in, check);
   check_disks(s, in, check);
   check_section_cables(s, in, check);
-  check.not_negative(in + "damping", s.damping, "N m s/rad");
+  check_strains(s, in, check);
+}
+
+/// Values at the base and the tip of each section that a cable passes.
+template <class CheckOne>
+void check_pairs(const std::string& item, const std::vector<std::array<double, 2>>& pairs,
+                 long long num_passed, Check& check, const CheckOne& check_one) {
+  const auto count = static_cast<long long>(pairs.size());
+  if (count != 0 && num_passed > 0 && count != num_passed) {
+    check.refuse("the number of (base, tip) pairs of " + item,
+                 std::to_string(num_passed) + ", one for each section passed", count);
+  }
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      check_one(indexed(indexed(item, k), end), pairs[k][end]);
+    }
+  }
 }
 
 /// `last` is the index of the robot's last section, negative for a robot without any.
 void check_cable(const Cable& cable, const std::string& in, long long last, Check& check) {
-  check.positive(in + "radius", cable.radius, "m");
-  check.finite(in + "angle", cable.angle, "rad");
-  if (last >= 0) check.count(in + "end_section", cable.end_section, 0, last);
+  if (last >= 0) {
+    check.count(in + "end_section", cable.end_section, 0, last);
+    if (cable.end_section >= 0 && cable.end_section <= last) {
+      check.count(in + "start_section", cable.start_section, 0, cable.end_section);
+    }
+  }
+  const long long num_passed = cable.end_section - cable.start_section + 1LL;
+  const auto radius = [&](const std::string& item, double value) {
+    check.positive(item, value, "m");
+  };
+  const auto angle = [&](const std::string& item, double value) {
+    check.finite(item, value, "rad");
+  };
+  if (cable.radii.empty()) radius(in + "radius", cable.radius);
+  if (cable.angles.empty()) angle(in + "angle", cable.angle);
+  check_pairs(in + "radius", cable.radii, num_passed, check, radius);
+  check_pairs(in + "angle", cable.angles, num_passed, check, angle);
   check.not_negative(in + "stiffness", cable.stiffness, "N/m");
   check.not_negative(in + "damping", cable.damping, "N s/m");
   if (cable.friction) check.not_negative(in + "friction", *cable.friction, "");
@@ -213,6 +295,15 @@ std::vector<std::string> violations(const Robot& robot) {
   check.count("the number of sections", num_sections, 1, max_sections);
   for (std::size_t i = 0; i < robot.sections.size(); ++i) {
     check_section(robot.sections[i], "section " + std::to_string(i + 1) + ": ", check);
+  }
+  bool rigid = num_sections > 0;
+  for (const Section& s : robot.sections) {
+    rigid =
+        rigid && s.bending_order == locked && s.twist_order == locked && s.stretch_order == locked;
+  }
+  if (rigid) {
+    check.found.emplace_back(
+        "a robot must bend, twist or stretch somewhere: all strains of all sections are locked");
   }
   check.count("the number of cables", static_cast<long long>(robot.cables.size()), 0, max_cables);
   for (std::size_t j = 0; j < robot.cables.size(); ++j) {

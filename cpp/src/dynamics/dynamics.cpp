@@ -1,15 +1,13 @@
 #include "cdcr/dynamics.hpp"
 
 #include "base/sizes.hpp"
-#include "chain/dual.hpp"
-#include "chain/gradient.hpp"
+#include "dynamics/gradient_slopes.hpp"
 #include "dynamics/kept.hpp"
 #include "loads/cable_force.hpp"
 
 namespace cdcr {
 
 namespace closed_form = detail::closed_form;
-using detail::chain_of;
 using detail::of_coordinates;
 using detail::single_of;
 
@@ -17,15 +15,18 @@ void mass_matrix(const Model& model, Data& data, const ConstVectorRef& q, Matrix
   assert(data.belongs_to(model) && of_coordinates(model, q));
   assert(detail::has_size(M, model.num_coordinates(), model.num_coordinates()));
   if (model.has_closed_form()) return closed_form::mass_matrix(single_of(model), q, M);
-  detail::mass_matrix(chain_of(model), data.kept()->at(model, q.data()), M);
+  data.kept()->with(
+      model, [&](auto& chain, auto& state) { detail::mass_matrix(chain, state, M); }, q.data());
 }
 
 void bias(const Model& model, Data& data, const ConstVectorRef& q, const ConstVectorRef& qd,
           VectorRef h) noexcept {
   assert(data.belongs_to(model) && of_coordinates(model, q, qd, h));
   if (model.has_closed_form()) return closed_form::bias(single_of(model), q, qd, h);
-  const auto& state = data.kept()->at(model, q.data(), qd.data());
-  detail::inverse_motion(chain_of(model), state, nullptr, h.data());
+  data.kept()->with(
+      model,
+      [&](auto& chain, auto& state) { detail::inverse_motion(chain, state, nullptr, h.data()); },
+      q.data(), qd.data());
 }
 
 void forward_dynamics_force(const Model& model, Data& data, const ConstVectorRef& q,
@@ -36,8 +37,12 @@ void forward_dynamics_force(const Model& model, Data& data, const ConstVectorRef
     closed_form::forward_dynamics(single_of(model), q.data(), qd.data(), force.data(), qdd.data());
     return;
   }
-  const auto& state = data.kept()->at(model, q.data(), qd.data());
-  detail::forward_motion(chain_of(model), state, force.data(), qdd.data());
+  data.kept()->with(
+      model,
+      [&](auto& chain, auto& state) {
+        detail::forward_motion(chain, state, force.data(), qdd.data());
+      },
+      q.data(), qd.data());
 }
 
 void forward_dynamics(const Model& model, Data& data, const ConstVectorRef& q,
@@ -71,8 +76,12 @@ void inverse_dynamics(const Model& model, Data& data, const ConstVectorRef& q,
     closed_form::inverse_dynamics(single_of(model), q.data(), qd.data(), qdd.data(), force.data());
     return;
   }
-  const auto& state = data.kept()->at(model, q.data(), qd.data());
-  detail::inverse_motion(chain_of(model), state, qdd.data(), force.data());
+  data.kept()->with(
+      model,
+      [&](auto& chain, auto& state) {
+        detail::inverse_motion(chain, state, qdd.data(), force.data());
+      },
+      q.data(), qd.data());
 }
 
 void inverse_dynamics(const Model& model, Data& data, const ConstVectorRef& q,
@@ -88,14 +97,19 @@ double kinetic_energy(const Model& model, Data& data, const ConstVectorRef& q,
                       const ConstVectorRef& qd) noexcept {
   assert(data.belongs_to(model) && of_coordinates(model, q, qd));
   if (model.has_closed_form()) return closed_form::kinetic_energy(single_of(model), q, qd);
-  const auto& state = data.kept()->at(model, q.data(), qd.data());
-  return detail::kinetic_energy(chain_of(model), state, qd.data());
+  return data.kept()->with(
+      model,
+      [&](auto& chain, auto& state) { return detail::kinetic_energy(chain, state, qd.data()); },
+      q.data(), qd.data());
 }
 
 double detail::energy_from_base(const Model& model, Data& data, const ConstVectorRef& q) noexcept {
   assert(data.belongs_to(model) && of_coordinates(model, q));
   if (model.has_closed_form()) return closed_form::potential_energy(single_of(model), q);
-  return potential_energy(chain_of(model), data.kept()->at(model, q.data()), q.data());
+  return data.kept()->with(
+      model,
+      [&](auto& chain, auto& state) { return detail::potential_energy(chain, state, q.data()); },
+      q.data());
 }
 
 double potential_energy(const Model& model, Data& data, const ConstVectorRef& q) noexcept {
@@ -108,21 +122,20 @@ void potential_gradient(const Model& model, Data& data, const ConstVectorRef& q,
   if (model.has_closed_form()) {
     return closed_form::potential_gradient(single_of(model), q, gradient);
   }
-  const auto& state = data.kept()->at(model, q.data());
-  detail::potential_gradient(chain_of(model), state, q.data(), gradient.data());
+  data.kept()->with(
+      model,
+      [&](auto& chain, auto& state) {
+        detail::weight_gradient(chain, state, q.data(), gradient.data());
+      },
+      q.data());
 }
 
-void potential_hessian(const Model& model, Data& /*data*/, const ConstVectorRef& q,
+void potential_hessian(const Model& model, Data& data, const ConstVectorRef& q,
                        MatrixRef H) noexcept {
   assert(of_coordinates(model, q));
   assert(detail::has_size(H, model.num_coordinates(), model.num_coordinates()));
   if (model.has_closed_form()) return closed_form::potential_hessian(single_of(model), q, H);
-  const auto m = static_cast<int>(model.num_coordinates());
-  detail::ArcChainState<detail::Dual> state;
-  detail::differentiate(m, m, q.data(), H, [&](const detail::Dual* x, detail::Dual* y) {
-    state.update_position(chain_of(model), x);
-    detail::potential_gradient(chain_of(model), state, x, y);
-  });
+  detail::gradient_slopes(model, data.kept()->dual_rods, q, H, [](const auto*, auto*) {});
 }
 
 }  // namespace cdcr

@@ -1,54 +1,89 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
+#include <vector>
 
 #include "cdcr/model.hpp"
+#include "chain/dual.hpp"
 #include "chain/functions.hpp"
 #include "dynamics/parts.hpp"
 
 namespace cdcr {
 
-/// The chain of one model at the last position and velocity it was asked for.
-class Data::Kept {
+namespace detail {
+
+/// A chain at the last position and velocity it was asked for.
+template <class State>
+class KeptState {
  public:
-  explicit Kept(const Model& model) : own_(&detail::chain_of(model)) {}
+  explicit KeptState(const Chain& chain)
+      : state_(chain), q_(chain.num_coordinates()), qd_(chain.num_coordinates()), own_(&chain) {}
 
   /// For functions of position alone.
-  const detail::MotionState& at(const Model& model, const double* q) noexcept {
-    const detail::Chain& chain = detail::chain_of(model);
+  const State& at(const Chain& chain, const double* q) noexcept {
     if (!holds(chain, q)) {
-      state_.update_position(chain, q);
-      std::copy_n(q, chain.num_coordinates(), q_);
+      update_position(chain, state_, q);
+      std::copy_n(q, q_.size(), q_.begin());
       has_position_ = &chain == own_;  // another model's is used, but not kept
       has_velocity_ = false;
     }
     return state_;
   }
 
-  const detail::MotionState& at(const Model& model, const double* q, const double* qd) noexcept {
-    const detail::Chain& chain = detail::chain_of(model);
+  const State& at(const Chain& chain, const double* q, const double* qd) noexcept {
     if (!holds(chain, q)) {
-      state_.update(chain, q, qd);
-      std::copy_n(q, chain.num_coordinates(), q_);
-      std::copy_n(qd, chain.num_coordinates(), qd_);
+      update_motion(chain, state_, q, qd);
+      std::copy_n(q, q_.size(), q_.begin());
+      std::copy_n(qd, qd_.size(), qd_.begin());
       has_position_ = has_velocity_ = &chain == own_;
-    } else if (!has_velocity_ || !std::equal(qd, qd + chain.num_coordinates(), qd_)) {
-      state_.update_velocity(chain, qd);
-      std::copy_n(qd, chain.num_coordinates(), qd_);
+    } else if (!has_velocity_ || !std::equal(qd_.begin(), qd_.end(), qd)) {
+      update_velocity(chain, state_, qd);
+      std::copy_n(qd, qd_.size(), qd_.begin());
       has_velocity_ = true;
     }
     return state_;
   }
 
  private:
-  [[nodiscard]] bool holds(const detail::Chain& chain, const double* q) const noexcept {
-    return has_position_ && &chain == own_ && std::equal(q, q + chain.num_coordinates(), q_);
+  [[nodiscard]] bool holds(const Chain& chain, const double* q) const noexcept {
+    return has_position_ && &chain == own_ && std::equal(q_.begin(), q_.end(), q);
   }
 
-  detail::MotionState state_;
-  double q_[max_coordinates], qd_[max_coordinates];
-  const detail::Chain* own_;  // Data keeps it alive
+  State state_;
+  std::vector<double> q_, qd_;
+  const Chain* own_;  // Data keeps it alive
   bool has_position_ = false, has_velocity_ = false;
+};
+
+}  // namespace detail
+
+/// The chain of one model as it was last asked for, and room for its derivatives.
+class Data::Kept {
+ public:
+  explicit Kept(const Model& model) {
+    const detail::Chain& chain = detail::chain_of(model);
+    if (chain.has_rods()) {
+      rods_.emplace(chain);
+      dual_rods.emplace(chain);
+    } else {
+      arcs_.emplace(chain);
+    }
+  }
+
+  /// f(chain, state) at a position, or at a position and a velocity.
+  template <class F, class... Positions>
+  auto with(const Model& model, const F& f, const Positions*... at) noexcept {
+    const detail::Chain& chain = detail::chain_of(model);
+    if (arcs_) return f(chain, arcs_->at(chain, at...));
+    return f(chain, rods_->at(chain, at...));
+  }
+
+  std::optional<detail::RodChainState<detail::Dual>> dual_rods;
+
+ private:
+  std::optional<detail::KeptState<detail::MotionState>> arcs_;
+  std::optional<detail::KeptState<detail::RodMotionState>> rods_;
 };
 
 }  // namespace cdcr

@@ -1,24 +1,25 @@
 #include "cdcr/kinematics.hpp"
 
 #include "base/sizes.hpp"
-#include "chain/arcs.hpp"
+#include "chain/reach.hpp"
 #include "dynamics/parts.hpp"
 
 namespace cdcr {
 
 namespace {
 
-/// Columns of the Jacobian of a point that the last of the arcs carries, p from the base, eq. (5).
-inline void jacobian_of(const Model& model, const detail::Arcs<double>& arcs, const Vector3d& p,
-                        MatrixRef& J) noexcept {
+/// Columns of the Jacobian of a point that the last of the parts carries, p from the base, eq. (5).
+template <class Reach>
+void jacobian_of(const Model& model, const Reach& reach, const Vector3d& p, MatrixRef& J) noexcept {
   J.setZero();
-  for (Index i = 0; i <= arcs.last; ++i) {
-    const auto& arc = arcs.arcs[i];
-    const Vector3d beyond = p - arcs.ends[i];  // what the end of this arc carries along
-    for (Index k = 0; k < arc.J_omega.cols(); ++k) {
+  for (Index i = 0; i <= reach.last; ++i) {
+    const auto& part = reach.parts[i];
+    const Vector3d beyond = p - reach.ends[i];  // what the end of this part carries along
+    for (Index k = 0; k < part.J_omega.cols(); ++k) {
+      const Vector3d turning = part.J_omega.col(k);
       auto column = J.col(model.first_coordinate(i) + k);
-      column.head<3>() = arc.J_v.col(k) + arc.J_omega.col(k).cross(beyond);
-      column.tail<3>() = arc.J_omega.col(k);
+      column.template head<3>() = part.J_v.col(k) + turning.cross(beyond);
+      column.template tail<3>() = turning;
     }
   }
 }
@@ -28,9 +29,10 @@ inline void jacobian_of(const Model& model, const detail::Arcs<double>& arcs, co
 Pose pose(const Model& model, const ConstVectorRef& q, Index section, double fraction) noexcept {
   assert(detail::of_coordinates(model, q) && detail::is_section(model, section));
   assert(detail::is_fraction(fraction));
-  detail::Arcs<double> arcs;
-  arcs.update(detail::chain_of(model), q.data(), section, fraction);
-  return {arcs.frame.rotation(), arcs.p + model.robot().base_position};
+  return detail::with_reach(
+      detail::chain_of(model), q.data(), section, fraction, [&](const auto& reach) {
+        return Pose{reach.frame.rotation(), reach.p + model.robot().base_position};
+      });
 }
 
 Pose tip(const Model& model, const ConstVectorRef& q) noexcept {
@@ -47,23 +49,16 @@ void jacobian(const Model& model, const ConstVectorRef& q, Index section, double
               MatrixRef J) noexcept {
   assert(detail::of_coordinates(model, q) && detail::is_section(model, section));
   assert(detail::is_fraction(fraction) && detail::has_size(J, 6, model.num_coordinates()));
-  detail::Arcs<double> arcs;
-  arcs.update(detail::chain_of(model), q.data(), section, fraction);
-  jacobian_of(model, arcs, arcs.p, J);
+  detail::with_reach(detail::chain_of(model), q.data(), section, fraction,
+                     [&](const auto& reach) { jacobian_of(model, reach, reach.p, J); });
 }
 
 void tip_jacobian(const Model& model, const ConstVectorRef& q, MatrixRef J) noexcept {
   assert(detail::of_coordinates(model, q) && detail::has_size(J, 6, model.num_coordinates()));
-  detail::Arcs<double> arcs;
-  arcs.update(detail::chain_of(model), q.data(), model.num_sections() - 1, 1.0);
   const Vector3d tool = model.robot().tool.topRightCorner<3, 1>();
-  jacobian_of(model, arcs, arcs.p + arcs.frame.rotate(tool), J);
-}
-
-void cable_lengths(const Model& model, const ConstVectorRef& q, VectorRef lengths) noexcept {
-  assert(detail::of_coordinates(model, q) && detail::of_cables(model, lengths));
-  lengths = model.straight_lengths();
-  lengths.noalias() -= model.actuation_matrix().transpose() * q;
+  detail::with_reach(
+      detail::chain_of(model), q.data(), model.num_sections() - 1, 1.0,
+      [&](const auto& reach) { jacobian_of(model, reach, reach.p + reach.frame.rotate(tool), J); });
 }
 
 }  // namespace cdcr

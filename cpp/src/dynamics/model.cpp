@@ -30,42 +30,19 @@ Model::Model(Robot robot, Formulation formulation) : formulation_(formulation) {
   robot.tool.topLeftCorner<3, 3>() = detail::nearest_rotation(robot.tool.topLeftCorner<3, 3>());
   robot_ = std::make_shared<const Robot>(std::move(robot));
   const auto n = static_cast<Index>(robot_->sections.size());
-  cables_ = robot_->all_cables();
-  stiffness_.resize(n);
-  damping_.resize(n);
-  const auto parts = std::make_shared<Parts>(Parts{detail::Chain(*robot_), std::nullopt});
+  const auto parts =
+      std::make_shared<Parts>(Parts{detail::Chain(*robot_), std::nullopt, {}, {}, {}});
+  parts_ = parts;
   first_ = parts->chain.first;
-  coordinate_stiffness_.resize(parts->chain.num_coordinates());
-  for (Index i = 0; i < n; ++i) {
-    stiffness_[i] = robot_->sections[i].stiffness();
-    damping_[i] = robot_->sections[i].damping;
-    coordinate_stiffness_.segment(first_[i], first_[i + 1] - first_[i]).setConstant(stiffness_[i]);
-  }
-
-  // A cable runs from the base to the end of its own section: Q_k += r e(gamma) F for k <= i.
-  const auto num_cables = static_cast<Index>(cables_.size());
-  actuation_.setZero(parts->chain.num_coordinates(), num_cables);
-  straight_lengths_.setZero(num_cables);
-  friction_.setZero(n, num_cables);
-  for (Index j = 0; j < num_cables; ++j) {
-    const Cable& cable = cables_[j];
-    cable_rows_.push_back(first_[cable.end_section + 1]);
-    for (Index k = 0; k <= cable.end_section; ++k) {
-      actuation_.col(j).segment<detail::ConstantCurvature<double>::m>(first_[k]) =
-          detail::ConstantCurvature<double>::actuation(cable.radius, cable.angle);
-      straight_lengths_[j] += robot_->sections[k].length;
-      friction_(k, j) = cable.friction.value_or(robot_->sections[k].cable_friction);
-    }
-    if (cable.length_driven()) has_plain_cables_ = false;
-  }
-  has_friction_ = (friction_.array() > 0.0).any();
-  has_plain_cables_ = has_plain_cables_ && !has_friction_;
+  has_rods_ = parts->chain.has_rods();
+  set_elasticity(*parts);
+  set_cables(*parts);
 
   const bool point = robot_->payload_position.isZero(0.0) && robot_->payload_inertia.isZero(0.0);
   const Section& first = robot_->sections[0];
   const bool alike =
       first.disk_positions.empty() && first.disk_masses.empty() && first.disk_diameters.empty();
-  if (n == 1 && point && (alike || formulation == Formulation::exact)) {
+  if (n == 1 && point && !has_rods_ && (alike || formulation == Formulation::exact)) {
     const detail::ShapeTable table(series_of(first, robot_->payload, formulation));
     parts->single = detail::SingleSection{table,       first.length,     stiffness_[0],
                                           damping_[0], Vector3d::Zero(), false};
@@ -78,6 +55,64 @@ Model::Model(Robot robot, Formulation formulation) : formulation_(formulation) {
   }
   singular_section_ = detail::find_singular_section(parts->chain);
   set_gravity(robot_->gravity, parts);
+}
+
+void Model::set_elasticity(Parts& parts) {
+  const detail::Chain& chain = parts.chain;
+  const Index d = chain.num_coordinates(), n = chain.num_sections();
+  stiffness_.resize(n);
+  damping_.resize(n);
+  parts.rest = VectorXd::Zero(d);
+  parts.elastic_stiffness = MatrixXd::Zero(d, d);
+  for (Index i = 0; i < n; ++i) {
+    const detail::SectionParameters& section = chain.sections[i];
+    const Index at = first_[i], size = first_[i + 1] - at;
+    stiffness_[i] = section.stiffness;
+    damping_[i] = section.damping;
+    if (has_rods_) {
+      parts.elastic_stiffness.block(at, at, size, size) = section.rod->stiffness;
+      parts.rest.segment(at, size) = section.rod->rest;
+    } else {
+      parts.elastic_stiffness.diagonal().segment(at, size).setConstant(section.stiffness);
+    }
+  }
+}
+
+/// A cable runs from the base of its first section to the end of its last: Q_k += r e(gamma) F.
+void Model::set_cables(Parts& parts) {
+  const detail::Chain& chain = parts.chain;
+  const Index d = chain.num_coordinates(), n = chain.num_sections();
+  cables_ = robot_->all_cables();
+  const auto num_cables = static_cast<Index>(cables_.size());
+  actuation_.setZero(d, num_cables);
+  straight_lengths_.setZero(num_cables);
+  friction_.setZero(n, num_cables);
+  const VectorXd straight = VectorXd::Zero(d);
+  for (Index j = 0; j < num_cables; ++j) {
+    const Cable& cable = cables_[j];
+    cable_rows_.push_back(first_[cable.end_section + 1]);
+    for (Index k = cable.start_section; k <= cable.end_section; ++k) {
+      friction_(k, j) = cable.friction.value_or(robot_->sections[k].cable_friction);
+      const bool twists =
+          robot_->sections[k].twist_order != locked || robot_->sections[k].rest_twist != 0.0;
+      if (twists || !cable.straight()) has_constant_actuation_ = false;
+      if (has_rods_) continue;
+      const CableRoute route = cable.route(static_cast<int>(k));
+      actuation_.col(j).segment<detail::ConstantCurvature<double>::m>(first_[k]) =
+          detail::ConstantCurvature<double>::actuation(route.base_radius, route.base_angle);
+      straight_lengths_[j] += robot_->sections[k].length;
+    }
+    if (has_rods_) {
+      parts.paths.emplace_back(chain, cable);
+      straight_lengths_[j] =
+          parts.paths.back().length(chain, straight.data(), 1.0, actuation_.col(j).data());
+    }
+    if (cable.length_driven()) has_plain_cables_ = false;
+    if (cable.start_section > 0) has_nested_cables_ = false;
+  }
+  has_friction_ = (friction_.array() > 0.0).any();
+  has_plain_cables_ = has_plain_cables_ && !has_friction_ && has_constant_actuation_;
+  has_nested_cables_ = has_nested_cables_ && !has_rods_;
 }
 
 void Model::set_gravity(const Vector3d& gravity, const std::shared_ptr<Parts>& parts) {
@@ -94,6 +129,13 @@ void Model::set_gravity(const Vector3d& gravity, const std::shared_ptr<Parts>& p
   parts_ = parts;
 }
 
+const VectorXd& Model::rest() const noexcept {
+  return parts_->rest;
+}
+const MatrixXd& Model::elastic_stiffness() const noexcept {
+  return parts_->elastic_stiffness;
+}
+
 Model Model::with_gravity(const Vector3d& gravity) const {
   const auto robot = std::make_shared<Robot>(*robot_);
   robot->gravity = gravity;
@@ -106,10 +148,19 @@ Model Model::with_gravity(const Vector3d& gravity) const {
 
 std::vector<std::string> Model::coordinate_names() const {
   std::vector<std::string> names;
-  for (Index i = 1; i <= num_sections(); ++i) {
-    for (const char* component : detail::ConstantCurvature<double>::component_names) {
-      names.push_back("q" + std::to_string(i) + "_" + component);
+  const auto add = [&](const std::string& strain, int order) {
+    names.push_back(order == 0 ? strain : strain + "_" + std::to_string(order));
+  };
+  for (Index i = 0; i < num_sections(); ++i) {
+    const Section& section = robot_->sections[i];
+    const std::string number = std::to_string(i + 1);
+    for (int k = 0; k <= section.bending_order; ++k) {
+      for (const char* component : detail::ConstantCurvature<double>::component_names) {
+        add("q" + number + "_" + component, k);
+      }
     }
+    for (int k = 0; k <= section.twist_order; ++k) add("t" + number, k);
+    for (int k = 0; k <= section.stretch_order; ++k) add("e" + number, k);
   }
   return names;
 }
@@ -118,7 +169,8 @@ void require_inertia(const Model& model) {
   if (model.has_inertia()) return;
   throw std::invalid_argument(
       "the robot has no dynamics, because section " + std::to_string(model.singular_section() + 1) +
-      " can bend without moving any mass: give it a backbone_mass or disks with a disk_mass, or "
+      (model.has_rods() ? " can move" : " can bend") +
+      " without moving any mass: give it a backbone_mass or disks with a disk_mass, or "
       "the robot a payload");
 }
 

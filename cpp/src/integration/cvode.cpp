@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/arguments.hpp"
+#include "dynamics/bending.hpp"
 #include "integration/small_vector.hpp"
 #include "integration/sundials_handles.hpp"
 #include "integration/sundials_spare.hpp"
@@ -307,9 +308,9 @@ Status Cvode::attempt() {
   restarts_.step();
   // Against the bending limit CVODE cuts its step, grows it and cuts it again, ever nearer to the
   // limit and never there.
-  if (rhs_status_ == Status::bending_limit) limit_hits_.happens();
+  if (detail::is_shape_limit(rhs_status_)) limit_hits_.happens();
   limit_hits_.step();
-  return limit_hits_.too_long() ? Status::bending_limit : Status::ok;
+  return limit_hits_.too_long() ? rhs_status_ : Status::ok;
 }
 
 void Cvode::interpolate(double t, VectorXd& y) {

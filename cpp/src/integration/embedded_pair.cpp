@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "dynamics/bending.hpp"
+
 namespace cdcr::detail {
 namespace {
 
@@ -71,8 +73,8 @@ double EmbeddedPair::first_step() {
 Status EmbeddedPair::failure_status() const {
   if (trial_.allFinite() && new_slope_.allFinite()) return Status::step_too_small;
   const VectorXd beyond = 1.001 * y_;
-  return ode_.check(beyond.data()) == Status::bending_limit ? Status::bending_limit
-                                                            : Status::non_finite_state;
+  const Status status = ode_.check(beyond.data());
+  return is_shape_limit(status) ? status : Status::non_finite_state;
 }
 
 Status EmbeddedPair::step() {

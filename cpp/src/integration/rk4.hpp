@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cdcr/integrator.hpp"
+#include "dynamics/bending.hpp"
 
 namespace cdcr::detail {
 
@@ -27,7 +28,7 @@ struct Rk4Stages {
                         VectorXd& next) {
     if (status != Status::non_finite_state) return status;
     const auto looking = [&](double at, const double* stage, double* dydt) {
-      if (check(stage) == Status::bending_limit) status = Status::bending_limit;
+      if (is_shape_limit(check(stage))) status = check(stage);
       f(at, stage, dydt);
     };
     step(looking, t, h, y, next);

@@ -159,8 +159,8 @@ Status RobotOde::check(const double* y) const noexcept {
 Status check_state(const Model& model, const ConstVectorRef& y) noexcept {
   if (y.size() != 2 * model.num_coordinates()) return Status::wrong_size;
   if (!y.allFinite()) return Status::non_finite_state;
-  const bool within = detail::largest_bending(model, y) <= max_bending;
-  return within ? Status::ok : Status::bending_limit;
+  if (!(detail::largest_bending(model, y) <= max_bending)) return Status::bending_limit;
+  return detail::keeps_length(model, y) ? Status::ok : Status::compression_limit;
 }
 
 Status check_tension(const Model& model, const ConstVectorRef& tension) noexcept {

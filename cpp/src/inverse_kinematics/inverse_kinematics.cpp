@@ -1,6 +1,7 @@
 #include "cdcr/inverse_kinematics.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -119,6 +120,10 @@ InverseSolver::InverseSolver(const Model& model, const InverseKinematicsOptions&
   max_theta_ = VectorXd::Constant(n, full_circle);
   if (options.max_theta.size() == 1) max_theta_.setConstant(options.max_theta[0]);
   if (options.max_theta.size() == n) max_theta_ = options.max_theta;
+  metric_ = VectorXd::Ones(m);
+  if (model.has_rods()) {  // what is stiff moves little: stretch far less than bending
+    metric_ = model.elastic_stiffness().diagonal() / model.stiffness().minCoeff();
+  }
   q_ = best_ = trial_ = step_ = g_ = held_g_ = answer_.q = VectorXd::Zero(m);
   J_ = MatrixXd::Zero(6, m);
   H_ = held_H_ = MatrixXd::Zero(m, m);
@@ -132,7 +137,7 @@ const InverseKinematics& InverseSolver::solve(const Vector3d& p, const std::opti
   const bool fits = q0.size() == 0 || q0.size() == q_.size();
   const bool finite = p.allFinite() && R_.allFinite() && q0.allFinite();
   asked_ = !fits ? IkStatus::wrong_size : finite ? IkStatus::reached : IkStatus::not_finite;
-  const bool on_arc = model_->num_sections() == 1 && tool_reach_ == 0.0;
+  const bool on_arc = model_->num_sections() == 1 && tool_reach_ == 0.0 && !model_->has_rods();
   if (asked_ == IkStatus::reached && on_arc && !with_rotation_) {
     best_ = one_section_angle(rho_, z_, max_theta_[0]) * towards_;
     keep_within_limits(best_);
@@ -178,12 +183,17 @@ double InverseSolver::distance_from_base() const noexcept {
 IkStatus InverseSolver::why() const noexcept {
   if (asked_ != IkStatus::reached) return asked_;
   if (answer_.reachable) return IkStatus::reached;
-  if (distance_from_base() > length_ + tool_reach_ + tolerance_) return IkStatus::too_far;
+  const bool stretches =
+      std::any_of(model_->robot().sections.begin(), model_->robot().sections.end(),
+                  [](const Section& section) { return section.stretch_order >= 0; });
+  if (!stretches && distance_from_base() > length_ + tool_reach_ + tolerance_) {
+    return IkStatus::too_far;
+  }
   for (Index i = 0; i < max_theta_.size(); ++i) {
     if (stands_at_limit(best_, i)) return IkStatus::at_limit;
   }
-  if (with_rotation_ && model_->num_sections() < 3) return IkStatus::too_few_sections;
-  return model_->num_sections() == 1 ? IkStatus::off_surface : IkStatus::not_found;
+  if (with_rotation_ && model_->num_coordinates() < 6) return IkStatus::too_few_sections;
+  return model_->num_coordinates() == 2 ? IkStatus::off_surface : IkStatus::not_found;
 }
 
 std::string InverseSolver::message() const {

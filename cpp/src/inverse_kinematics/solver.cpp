@@ -10,7 +10,7 @@
 namespace cdcr {
 namespace {
 
-using Bend = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_coordinates, 1>;
+using Bend = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2, 1>;
 
 // The Jacobian is of the size of one, and so is what damping is added to.
 constexpr double first_damping = 1e-2, least_damping = 1e-13, most_damping = 1e12;
@@ -36,6 +36,13 @@ Matrix3d inverse_left_jacobian(const Vector3d& u) noexcept {
   Matrix3d hat;
   hat << 0.0, -u[2], u[1], u[2], 0.0, -u[0], -u[1], u[0], 0.0;
   return Matrix3d::Identity() - 0.5 * hat + factor * hat * hat;
+}
+
+/// The bending vector of a section, of a rod the first one; empty where its bending is locked.
+template <class Vector>
+auto bend_of(const Model& model, Vector& q, Index section) noexcept {
+  const bool bends = model.robot().sections[static_cast<std::size_t>(section)].bending_order >= 0;
+  return q.segment(model.first_coordinate(section), bends ? 2 : 0);
 }
 
 }  // namespace
@@ -91,7 +98,7 @@ void InverseSolver::keep_within_limits(VectorXd& q) const noexcept {
   // A hair less than the limit, so that rounding cannot put the length above it.
   constexpr double inside = 1.0 - 4.0 * std::numeric_limits<double>::epsilon();
   for (Index i = 0; i < max_theta_.size(); ++i) {
-    auto bend = detail::of_section(*model_, q, i);
+    auto bend = bend_of(*model_, q, i);
     const double theta = bend.norm();
     if (theta > inside * max_theta_[i]) bend *= inside * max_theta_[i] / theta;
   }
@@ -99,7 +106,7 @@ void InverseSolver::keep_within_limits(VectorXd& q) const noexcept {
 
 bool InverseSolver::stands_at_limit(const VectorXd& q, Index section) const noexcept {
   constexpr double near = 1.0 - 1e-12;
-  return detail::bending_angle(*model_, q, section) >= near * max_theta_[section];
+  return bend_of(*model_, q, section).norm() >= near * max_theta_[section];
 }
 
 /// Takes the outward direction n from a section that stands at its limit and would go on, in the
@@ -110,11 +117,11 @@ void InverseSolver::hold_at_limits() noexcept {
   held_g_ = g_;
   for (Index i = 0; i < max_theta_.size(); ++i) {
     if (!stands_at_limit(q_, i)) continue;
-    Bend n = detail::of_section(*model_, q_, i);
+    Bend n = bend_of(*model_, q_, i);
     n.normalize();
-    const double pull = -n.dot(detail::of_section(*model_, g_, i));
+    const double pull = -n.dot(bend_of(*model_, g_, i));
     if (!(pull > 0.0)) continue;
-    detail::of_section(*model_, held_g_, i) += pull * n;
+    bend_of(*model_, held_g_, i) += pull * n;
     const Index first = model_->first_coordinate(i), size = n.size();
     auto rows = held_H_.middleRows(first, size);
     for (Index k = 0; k < q_.size(); ++k) rows.col(k) -= n.dot(rows.col(k)) * n;
@@ -132,7 +139,7 @@ void InverseSolver::hold_at_limits() noexcept {
 /// Tries one damped step; true when it lowers the cost, and is taken.
 bool InverseSolver::step() noexcept {
   hold_at_limits();
-  held_H_.diagonal().array() += damping_;
+  held_H_.diagonal() += damping_ * metric_;
   llt_.compute(held_H_);
   bool taken = false;
   double ratio = 0.0;
@@ -206,8 +213,10 @@ void InverseSolver::place_start(int seed) noexcept {
   // target on its axis.
   constexpr double least_bend = 0.2;
   const double arc = std::fmax(2.0 * std::atan2(rho_, z_), least_bend) / static_cast<double>(n);
+  q_ = model_->rest();
   for (Index i = 0; i < n; ++i) {
-    auto bend = detail::of_section(*model_, q_, i);
+    auto bend = bend_of(*model_, q_, i);
+    if (bend.size() == 0) continue;
     if (seed == 0) {
       bend = arc * towards_;
     } else if (seed == 1) {

@@ -3,9 +3,11 @@
 #include <cmath>
 
 #include "cdcr/model.hpp"
+#include "dynamics/parts.hpp"
 #include "section/constant_curvature.hpp"
 
-// Forces of cables, cpp/several-sections.md eqs. (36) to (39), on any scalar.
+// Forces of cables, cpp/several-sections.md eqs. (36) to (39) and cpp/rods.md eqs. (63) to (67), on
+// any scalar.
 
 namespace cdcr::detail {
 
@@ -22,6 +24,9 @@ template <class S>
 /// Length that a cable driven by length misses, l - l_commanded [m]; negative when it hangs slack.
 template <class S>
 [[nodiscard]] S elongation(const Model& model, Index j, const S* q, const S& command) {
+  if (model.has_rods()) {
+    return CableSlope<S>(chain_of(model), path_of(model, j), q).length - command;
+  }
   S length(model.straight_lengths()[j]);
   for (Index k = 0; k <= model.cables()[static_cast<std::size_t>(j)].end_section; ++k) {
     length -= shortening(model, j, k, q);
@@ -34,6 +39,11 @@ template <class S>
 [[nodiscard]] S spring_force(const Model& model, Index j, const S* q, const S* qd,
                              const S& command) {
   const Cable& cable = model.cables()[static_cast<std::size_t>(j)];
+  if (model.has_rods()) {
+    const CableSlope<S> slope(chain_of(model), path_of(model, j), q);
+    return cable.stiffness * (slope.length - command) +
+           cable.damping * slope.rate(chain_of(model), qd);
+  }
   S rate(0.0);
   for (Index k = 0; k <= cable.end_section; ++k) {
     rate -= shortening(model, j, k, qd);
@@ -119,14 +129,38 @@ void add_capstan_force(const Model& model, Index j, const S* q, const S* qd, S t
   }
 }
 
-/// Q = B F. A cable pulls alike on every section that it runs through, so each pulls on the one it
-/// ends on, and what a section feels is passed on to the one before.
+/// The force of a cable through rods; the tension that is left beyond each section goes to
+/// `beyond_sections` where that is wanted.
+template <class S>
+void add_rod_cable_force(const Model& model, Index j, const S* q, const S* qd, const S& tension,
+                         S* force, S* beyond_sections = nullptr) {
+  const Chain& chain = chain_of(model);
+  const CablePath& path = path_of(model, j);
+  if (!model.has_friction() && beyond_sections == nullptr) {
+    static_cast<void>(path.length(chain, q, tension, force));
+    return;
+  }
+  const S rate = CableSlope<S>(chain, path, q).rate(chain, qd);
+  path.rub(chain, q, qd, model.friction().data() + j * model.num_sections(),
+           model.robot().sliding_speed, tension, rate, force, beyond_sections);
+}
+
+/// Q = B F. Cables pull alike on every section from the base to their end, so each pulls on the one
+/// it ends on, and what a section feels is passed on to the one before. Cables of rods, and those
+/// that begin farther out, are added up one by one.
 template <class S>
 void actuation_force(const Model& model, const S* tension, S* force) {
   const double* column = model.actuation_matrix().data();
   const Index d = model.num_coordinates();
   const Index m = model.first_coordinate(1);
   for (Index i = 0; i < d; ++i) force[i] = S(0.0);
+  if (!model.has_nested_cables()) {
+    for (Index j = 0; j < model.num_cables(); ++j, column += d) {
+      const Index rows = model.cable_rows()[static_cast<std::size_t>(j)];
+      for (Index i = 0; i < rows; ++i) force[i] += column[i] * tension[j];
+    }
+    return;
+  }
   for (Index j = 0; j < model.num_cables(); ++j, column += d) {
     const Index rows = model.cable_rows()[static_cast<std::size_t>(j)];
     for (Index i = rows - m; i < rows; ++i) force[i] += column[i] * tension[j];
@@ -155,6 +189,10 @@ void cable_force(const Model& model, const S* q, const S* qd, const S* command, 
   const MatrixXd& B = model.actuation_matrix();
   for (Index j = 0; j < model.num_cables(); ++j) {
     const S tension = base_tension(model, j, q, qd, command[j]);
+    if (model.has_rods()) {
+      add_rod_cable_force(model, j, q, qd, tension, force);
+      continue;
+    }
     if (model.has_friction()) {
       add_capstan_force(model, j, q, qd, tension, force);
       continue;

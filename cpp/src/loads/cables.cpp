@@ -7,15 +7,37 @@ namespace cdcr {
 
 using detail::of_cables, detail::of_coordinates;
 
-void actuation_matrix(const Model& model, [[maybe_unused]] const ConstVectorRef& q,
-                      MatrixRef B) noexcept {
+void actuation_matrix(const Model& model, const ConstVectorRef& q, MatrixRef B) noexcept {
   assert(of_coordinates(model, q));
   assert(detail::has_size(B, model.num_coordinates(), model.num_cables()));
-  B = model.actuation_matrix();
+  if (model.has_constant_actuation()) {
+    B = model.actuation_matrix();
+    return;
+  }
+  for (Index j = 0; j < model.num_cables(); ++j) {
+    const detail::CableSlope<double> slope(detail::chain_of(model), detail::path_of(model, j),
+                                           q.data());
+    for (Index i = 0; i < q.size(); ++i) B(i, j) = slope.column[i];
+  }
+}
+
+void cable_lengths(const Model& model, const ConstVectorRef& q, VectorRef lengths) noexcept {
+  assert(of_coordinates(model, q) && of_cables(model, lengths));
+  if (model.has_constant_actuation()) {
+    lengths = model.straight_lengths();
+    lengths.noalias() -= model.actuation_matrix().transpose() * q;
+    return;
+  }
+  for (Index j = 0; j < model.num_cables(); ++j) {
+    lengths[j] =
+        detail::CableSlope<double>(detail::chain_of(model), detail::path_of(model, j), q.data())
+            .length;
+  }
 }
 
 void actuation_force(const Model& model, const ConstVectorRef& tension, VectorRef force) noexcept {
   assert(of_cables(model, tension) && of_coordinates(model, force));
+  assert(model.has_constant_actuation());
   detail::actuation_force(model, tension.data(), force.data());
 }
 
@@ -47,6 +69,11 @@ void tensions_along(const Model& model, const ConstVectorRef& q, const ConstVect
   tension.setZero();
   for (Index j = 0; j < model.num_cables(); ++j) {
     tension(0, j) = detail::base_tension(model, j, q.data(), qd.data(), command[j]);
+    if (model.has_rods()) {
+      detail::add_rod_cable_force(model, j, q.data(), qd.data(), double{tension(0, j)}, unused,
+                                  &tension(1, j));
+      continue;
+    }
     detail::add_capstan_force(model, j, q.data(), qd.data(), double{tension(0, j)}, unused,
                               &tension(1, j));
   }
@@ -57,8 +84,15 @@ double friction_power(const Model& model, const ConstVectorRef& q, const ConstVe
   assert(of_coordinates(model, q, qd) && of_cables(model, command));
   if (!model.has_friction()) return 0.0;
   double lost = 0.0, force[max_coordinates] = {};
+  const detail::Chain& chain = detail::chain_of(model);
   for (Index j = 0; j < model.num_cables(); ++j) {
     const double tension = detail::base_tension(model, j, q.data(), qd.data(), command[j]);
+    if (model.has_rods()) {
+      const detail::CableSlope<double> slope(chain, detail::path_of(model, j), q.data());
+      lost -= tension * slope.rate(chain, qd.data());
+      detail::add_rod_cable_force(model, j, q.data(), qd.data(), tension, force);
+      continue;
+    }
     lost += tension * model.actuation_matrix().col(j).dot(qd);
     detail::add_capstan_force(model, j, q.data(), qd.data(), tension, force);
   }

@@ -15,10 +15,11 @@ class MassMoments {
     return moments;
   }
 
-  /// sum I_t x^p of disks and of slices of the backbone, m d^2/16 each; I_a = 2 I_t for both.
+  /// sum I_t x^p of disks, m d^2/16 each, and of slices of the backbone, where the square of the
+  /// inner diameter adds to that; I_a = 2 I_t for both.
   static MassMoments of_inertia(const Section& s) {
-    const long double d = s.backbone_diameter;
-    MassMoments moments(s.backbone_mass * d * d / 16.0L, 0.0L);
+    const long double d = s.backbone_diameter, inner = s.backbone_inner_diameter;
+    MassMoments moments(s.backbone_mass * (d * d + inner * inner) / 16.0L, 0.0L);
     moments.add_disks(s, [](const Disk& disk) {
       return static_cast<long double>(disk.mass) * disk.diameter * disk.diameter / 16.0L;
     });

@@ -50,6 +50,7 @@ struct Rod : RodFrames<S> {
     move(qd);
     bias = elastic;
     for (int i = 0; i < rod->size(); ++i) bias[i] += rod->damping[i] * qd[i];
+    if (rod->material_damping > 0.0) add_material_damping(qd);
     if constexpr (turns) {
       const double inertia = rod->nodes[0].inertia;
       force.setZero();
@@ -139,19 +140,27 @@ struct Rod : RodFrames<S> {
     return M;
   }
 
+  void add_material_damping(const S* qd) {
+    for (int i = 0; i < rod->size(); ++i) {
+      for (int j = 0; j < rod->size(); ++j) {
+        bias[i] += rod->material_damping * rod->stiffness(i, j) * qd[j];
+      }
+    }
+  }
   [[nodiscard]] static Vectorm elastic_force(const SectionParameters& section, const S* q) {
     const RodParameters& rod = *section.rod;
     Vectorm force(rod.size());
     for (int i = 0; i < rod.size(); ++i) {
       force[i] = S(0.0);
-      for (int j = 0; j < rod.size(); ++j) force[i] += rod.stiffness(i, j) * q[j];
+      for (int j = 0; j < rod.size(); ++j) force[i] += rod.stiffness(i, j) * (q[j] - rod.rest[j]);
     }
     return force;
   }
   [[nodiscard]] static S elastic_energy(const SectionParameters& section, const S* q) {
+    const RodParameters& rod = *section.rod;
     const Vectorm force = elastic_force(section, q);
     S twice(0.0);
-    for (int i = 0; i < force.size(); ++i) twice += force[i] * q[i];
+    for (int i = 0; i < force.size(); ++i) twice += force[i] * (q[i] - rod.rest[i]);
     return 0.5 * twice;
   }
 };

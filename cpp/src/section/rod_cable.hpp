@@ -7,12 +7,6 @@
 
 namespace cdcr::detail {
 
-/// How a cable runs through a section: radius and angle change evenly from its base to its tip.
-struct CableRoute {
-  double base_radius, tip_radius;  // [m]
-  double base_angle, tip_angle;    // about Z from X [rad]
-};
-
 /// A cable in one rod, its length summed up at Gauss points, cpp/rods.md eqs. (63), (64).
 class RodCable {
  public:
@@ -26,7 +20,8 @@ class RodCable {
     S sum(0.0);
     for (const Point& point : points_) {
       // s = (0, 0, l + e) + u x d + d' of the path.
-      S q_x(0.0), q_y(0.0), twist(0.0), along(rod.length);
+      S q_x(rod.locked_turning[1]), q_y(-rod.locked_turning[0]), twist(rod.locked_turning[2]);
+      S along(rod.length);
       for (Index i = 0; i < rod.num_bending; ++i) {
         q_x += point.legendre[i] * q[2 * i];
         q_y += point.legendre[i] * q[2 * i + 1];

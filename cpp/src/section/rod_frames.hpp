@@ -40,6 +40,8 @@ struct RodFrames {
       if (k > 0) turn(*section.arcs, k - 1, q);
       const RodNode& node = rod->nodes[k];
       local[k] = strain_of(k, q);
+      local[k].q_x += rod->locked_turning[1];
+      local[k].q_y -= rod->locked_turning[0];
       const Strain& e = local[k];
       const auto x = axes.col(0), y = axes.col(1), z = axes.col(2);
       const S length = rod->length + e.stretch;
@@ -173,8 +175,11 @@ struct RodFrames {
   void turn(const ArcTable& arcs, int k, const S* q) {
     const auto& weight = rod->nodes[k + 1].step;
     Step& step = steps[k];
-    step.magnus =
-        Magnus<S>(turning_of(weight[0], q), turning_of(weight[1], q), turning_of(weight[2], q));
+    const Vector3<S> locked = rod->locked_turning.template cast<S>();
+    const auto turning = [&](std::size_t i) -> Vector3<S> {
+      return turning_of(weight[i], q) + weight[i][0] * locked;
+    };
+    step.magnus = Magnus<S>(turning(0), turning(1), turning(2));
     step.from = axes;
     const Vector3<S>& Omega = step.magnus.Omega;
     read(arcs, S(Omega.squaredNorm()), step.f);

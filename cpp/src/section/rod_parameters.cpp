@@ -21,6 +21,30 @@ void add_stiffness(MatrixXd& stiffness, int first, int stride, int count, const 
 
 }  // namespace
 
+RodDescription described(const Section& s) {
+  RodDescription rod;
+  rod.length = s.length;
+  rod.mass = {s.backbone_mass, s.backbone_diameter,
+              s.backbone_tip_diameter.value_or(s.backbone_diameter), s.backbone_inner_diameter,
+              s.disks()};
+  rod.youngs_modulus = s.youngs_modulus;
+  rod.shear_modulus = s.shear_modulus.value_or(0.0);
+  rod.damping = s.damping;
+  rod.twist_damping = s.twist_damping;
+  rod.stretch_damping = s.stretch_damping;
+  rod.bending_order = s.bending_order;
+  rod.twist_order = s.twist_order;
+  rod.stretch_order = s.stretch_order;
+  rod.num_nodes = s.nodes.value_or(rod.num_nodes);
+  rod.bending_stiffness = s.bending_stiffness;
+  rod.twist_stiffness = s.twist_stiffness;
+  rod.stretch_stiffness = s.stretch_stiffness;
+  rod.material_damping = s.material_damping;
+  rod.rest_bending = s.rest_bending;
+  rod.rest_twist = s.rest_twist;
+  return rod;
+}
+
 RodParameters::RodParameters(const RodDescription& rod)
     : num_bending(rod.bending_order + 1),
       num_twist(rod.twist_order + 1),
@@ -40,11 +64,16 @@ RodParameters::RodParameters(const RodDescription& rod)
     const long double d = diameter(x);
     return pi / 64.0L * (d * d * d * d - inner * inner * inner * inner);
   };
-  const auto bend = [&](long double x) { return rod.youngs_modulus / length * second_moment(x); };
+  const auto bend = [&](long double x) {
+    if (rod.bending_stiffness) return static_cast<long double>(*rod.bending_stiffness) / length;
+    return rod.youngs_modulus / length * second_moment(x);
+  };
   const auto turn = [&](long double x) {
+    if (rod.twist_stiffness) return static_cast<long double>(*rod.twist_stiffness) / length;
     return 2.0L * rod.shear_modulus / length * second_moment(x);
   };
   const auto pull = [&](long double x) {
+    if (rod.stretch_stiffness) return static_cast<long double>(*rod.stretch_stiffness) / length;
     const long double d = diameter(x);
     return rod.youngs_modulus / length * pi / 4.0L * (d * d - inner * inner);
   };
@@ -61,6 +90,17 @@ RodParameters::RodParameters(const RodDescription& rod)
   for (int i = 0; i < num_stretch; ++i) {
     damping[first_stretch + i] = rod.stretch_damping / (2 * i + 1);
   }
+  material_damping = rod.material_damping;
+
+  const auto [bent_x, bent_y] = rod.rest_bending;
+  rest = VectorXd::Zero(size());
+  locked_turning.setZero();
+  if (num_bending > 0) {
+    rest.head<2>() << bent_x, bent_y;
+  } else {
+    locked_turning << -bent_y, bent_x, 0.0;
+  }
+  (num_twist > 0 ? rest[first_twist] : locked_turning[2]) = rod.rest_twist;
 }
 
 }  // namespace cdcr::detail

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "section/rod_rule.hpp"
@@ -18,7 +20,15 @@ struct RodDescription {
   double damping = 0.0, twist_damping = 0.0, stretch_damping = 0.0;  // of strain rates
   int bending_order = 0, twist_order = -1, stretch_order = -1;       // -1: locked
   int num_nodes = 12;
+  // E I, G J [N m^2] and E A [N], in place of what material and shape give.
+  std::optional<double> bending_stiffness, twist_stiffness, stretch_stiffness;
+  double material_damping = 0.0;                 // Kelvin-Voigt's time [s]
+  std::array<double, 2> rest_bending{0.0, 0.0};  // of the unloaded backbone [rad]
+  double rest_twist = 0.0;
 };
+
+/// The same of a robot's section.
+[[nodiscard]] RodDescription described(const Section& section);
 
 /// What is fixed about a rod. Its coordinates are the Legendre coefficients of the bending vector
 /// (x, y of each order), then of the twist, then of the stretch.
@@ -33,8 +43,11 @@ struct RodParameters {
   int first_twist, first_stretch;           // coordinates
   double length, mass;
   std::vector<RodNode> nodes;
-  MatrixXd stiffness;  // elastic energy q^T stiffness q/2
+  MatrixXd stiffness;  // elastic energy (q - rest)^T stiffness (q - rest)/2
+  VectorXd rest;
   VectorXd damping;
+  double material_damping;  // this times the stiffness is damping too [s]
+  Vector3d locked_turning;  // what a locked bending or twist adds to u
 };
 
 }  // namespace cdcr::detail

@@ -139,20 +139,6 @@ std::vector<RodNode::Weight> hermite_integral(const std::vector<Real>& nodes, Re
   return weights;
 }
 
-/// The Magnus coefficients of a step, from three Gauss points in it.
-std::array<LegendreValues, 3> step_of(Real from, Real to) {
-  const Real h = to - from, centre = (from + to) / 2.0L, root = std::sqrt(15.0L);
-  const auto low = legendre(centre - h * root / 10.0L), middle = legendre(centre),
-             high = legendre(centre + h * root / 10.0L);
-  std::array<LegendreValues, 3> step{};
-  for (std::size_t j = 0; j <= max_legendre_order; ++j) {
-    step[0][j] = static_cast<double>(h * middle[j]);
-    step[1][j] = static_cast<double>(h * root / 3.0L * (high[j] - low[j]));
-    step[2][j] = static_cast<double>(h * 10.0L / 3.0L * (high[j] - 2.0L * middle[j] + low[j]));
-  }
-  return step;
-}
-
 }  // namespace
 
 std::vector<GaussPoint> gauss_legendre(int count) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "cdcr/robot.hpp"
@@ -18,11 +19,10 @@ struct RodMass {
   std::vector<Disk> disks;
 };
 
-inline constexpr int min_rod_nodes = 3;
-inline constexpr int max_rod_nodes = 32;
+inline constexpr int max_rod_nodes = max_nodes;
 /// Nodes whose values and slopes an integral from one node to the next is made of.
 inline constexpr int num_neighbours = 6;
-inline constexpr int max_legendre_order = 4;
+inline constexpr int max_legendre_order = max_order;
 
 /// P_j(2x - 1), j = 0..max_legendre_order.
 using LegendreValues = std::array<double, max_legendre_order + 1>;
@@ -58,7 +58,7 @@ struct GaussPoint {
 /// The same of 40 points, more than anything here needs.
 [[nodiscard]] const std::vector<GaussPoint>& gauss_legendre();
 
-/// P_j(2x - 1) of all orders, and their derivatives with respect to x.
+/// P_j(2x - 1) of all orders, and their first and second derivatives with respect to x.
 template <class Real>
 [[nodiscard]] std::array<Real, max_legendre_order + 1> legendre(Real x) {
   const Real s = 2 * x - 1;
@@ -76,6 +76,32 @@ template <class Real>
     slope[j + 1] = slope[j - 1] + 2 * (2 * j + 1) * P[j];
   }
   return slope;
+}
+
+template <class Real>
+[[nodiscard]] std::array<Real, max_legendre_order + 1> legendre_curve(Real x) {
+  const auto slope = legendre_slope(x);
+  std::array<Real, max_legendre_order + 1> curve{0, 0};
+  for (int j = 1; j < max_legendre_order; ++j) {
+    curve[j + 1] = curve[j - 1] + 2 * (2 * j + 1) * slope[j];
+  }
+  return curve;
+}
+
+/// Weights from one place to another that make alpha_1, alpha_2, alpha_3 of the Magnus series out
+/// of the coefficients u_j, by three Gauss points in between.
+template <class Real>
+[[nodiscard]] std::array<LegendreValues, 3> step_of(Real from, Real to) {
+  const Real h = to - from, centre = (from + to) / 2, root = std::sqrt(Real(15));
+  const auto low = legendre(centre - h * root / 10), middle = legendre(centre),
+             high = legendre(centre + h * root / 10);
+  std::array<LegendreValues, 3> step{};
+  for (std::size_t j = 0; j <= max_legendre_order; ++j) {
+    step[0][j] = static_cast<double>(h * middle[j]);
+    step[1][j] = static_cast<double>(h * root / 3 * (high[j] - low[j]));
+    step[2][j] = static_cast<double>(h * 10 / 3 * (high[j] - 2 * middle[j] + low[j]));
+  }
+  return step;
 }
 
 }  // namespace cdcr::detail

@@ -29,7 +29,8 @@ constexpr int max_load_steps = 400;
 constexpr int max_searches = 64;
 
 bool within_limit(const Model& model, const VectorXd& q) {
-  return q.allFinite() && detail::largest_bending(model, q) <= max_bending;
+  return q.allFinite() && detail::largest_bending(model, q) <= max_bending &&
+         detail::keeps_length(model, q);
 }
 
 /// Newton's method from one start.
@@ -129,7 +130,7 @@ class NewtonSolver {
 
 /// Lets the load grow from nothing to all, each time from the rest before; true when all is on.
 bool continuation(StaticProblem& problem, NewtonSolver& search, VectorXd& q, int& load_steps) {
-  q.setZero();
+  q = problem.model().rest();
   double load = 0.0, step = first_load_step;
   bool arrived = false;
   while (!arrived && load_steps < max_load_steps && step > 1e-6) {
@@ -159,11 +160,12 @@ VectorXd linear_guess(const Model& model, const VectorXd& command) {
     if (model.cables()[static_cast<std::size_t>(j)].length_driven()) continue;
     q += model.actuation_matrix().col(j) * command[j];
   }
-  return q.cwiseQuotient(model.coordinate_stiffness());
+  if (!model.has_rods()) return q.cwiseQuotient(model.elastic_stiffness().diagonal());
+  return model.rest() + model.elastic_stiffness().llt().solve(q);
 }
 
 /// From other places, the same in every call.
-bool multistart(NewtonSolver& search, VectorXd& q, int& searches) {
+bool multistart(const Model& model, NewtonSolver& search, VectorXd& q, int& searches) {
   // Its numbers are the same everywhere.
   std::mt19937 engine(1);  // NOLINT(bugprone-random-generator-seed): so must the answer be
   while (searches < max_searches) {
@@ -171,6 +173,11 @@ bool multistart(NewtonSolver& search, VectorXd& q, int& searches) {
     const double width = searches % 2 == 0 ? 3.0 : 8.0;  // [rad]
     for (double& component : q) {
       component = width * (static_cast<double>(engine()) / 4294967296.0 - 0.5);
+    }
+    if (model.has_rods()) {  // alike in energy: stretch far less than bending
+      const VectorXd stiffness = model.elastic_stiffness().diagonal();
+      q.array() *= (model.stiffness().minCoeff() / stiffness.array()).min(1.0).sqrt();
+      q += model.rest();
     }
     if (search.run(q)) return true;
   }
@@ -182,7 +189,7 @@ void find(StaticProblem& problem, Equilibrium& result) {
   NewtonSolver search(problem);
   VectorXd& q = result.q;
   const bool started_beyond = !within_limit(problem.model(), q);
-  if (started_beyond) q.setZero();
+  if (started_beyond) q = problem.model().rest();
   result.searches = 1;
   bool found = search.run(q);
   result.residual = search.residual();
@@ -191,7 +198,7 @@ void find(StaticProblem& problem, Equilibrium& result) {
     ++result.searches;
     found = continuation(problem, search, other, result.load_steps);
   }
-  if (!found) found = multistart(search, other, result.searches);
+  if (!found) found = multistart(problem.model(), search, other, result.searches);
   result.iterations = search.iterations();
   if (found) {
     q = other;

@@ -7,9 +7,8 @@
 #include "cdcr/dynamics.hpp"
 #include "cdcr/kinematics.hpp"
 #include "cdcr/statics.hpp"
-#include "chain/dual.hpp"
-#include "chain/gradient.hpp"
-#include "dynamics/parts.hpp"
+#include "dynamics/gradient_slopes.hpp"
+#include "dynamics/kept.hpp"
 #include "loads/cable_force.hpp"
 #include "loads/wrench_force.hpp"
 
@@ -29,6 +28,25 @@ double moment_of(const Model& model, const Wrenches& wrenches) {
   return sum + mass * (length + chain.payload.position.norm()) * chain.gravity.norm();
 }
 
+/// Adds the force of the cables of rods at rest, without friction.
+void add_path_forces(const Model& model, const Dual* q, const ConstVectorRef& command,
+                     Dual* force) {
+  const Chain& chain = chain_of(model);
+  for (Index j = 0; j < model.num_cables(); ++j) {
+    const Cable& cable = model.cables()[static_cast<std::size_t>(j)];
+    if (!cable.length_driven()) {
+      static_cast<void>(path_of(model, j).length(chain, q, Dual(command[j]), force));
+      continue;
+    }
+    const CableSlope<Dual> slope(chain, path_of(model, j), q);
+    const Dual longer = slope.length - command[j];
+    if (!(longer > 0.0)) continue;
+    for (Index i = 0; i < model.num_coordinates(); ++i) {
+      force[i] += slope.column[i] * (cable.stiffness * longer);
+    }
+  }
+}
+
 }  // namespace
 
 StaticProblem::StaticProblem(const Model& model, const ConstVectorRef& command,
@@ -38,13 +56,16 @@ StaticProblem::StaticProblem(const Model& model, const ConstVectorRef& command,
       wrenches_(wrenches),
       data_(model),
       constant_force_(VectorXd::Zero(model.num_coordinates())),
-      has_energy_(conservative(wrenches)) {
+      has_energy_(conservative(wrenches)),
+      has_paths_(!model.has_constant_actuation()) {
   const MatrixXd& B = model.actuation_matrix();
   for (Index j = 0; j < model.num_cables(); ++j) {
     const Cable& cable = model.cables()[static_cast<std::size_t>(j)];
     if (cable.length_driven()) {
       has_springs_ = true;
       size_ += B.col(j).lpNorm<Eigen::Infinity>() * cable.stiffness * model.straight_lengths()[j];
+    } else if (has_paths_) {
+      size_ += B.col(j).lpNorm<Eigen::Infinity>() * command[j];
     } else {
       constant_force_ += B.col(j) * command[j];
     }
@@ -55,8 +76,16 @@ StaticProblem::StaticProblem(const Model& model, const ConstVectorRef& command,
 void StaticProblem::residual(const ConstVectorRef& q, VectorRef r) noexcept {
   potential_gradient(model_, data_, q, r);
   r -= constant_force_;
-  for (Index j = 0; has_springs_ && j < model_.num_cables(); ++j) {
+  for (Index j = 0; (has_springs_ || has_paths_) && j < model_.num_cables(); ++j) {
     const Cable& cable = model_.cables()[static_cast<std::size_t>(j)];
+    if (has_paths_) {
+      const CableSlope<double> slope(chain_of(model_), path_of(model_, j), q.data());
+      const double pull = cable.length_driven()
+                              ? cable.stiffness * std::fmax(0.0, slope.length - command_[j])
+                              : command_[j];
+      for (Index i = 0; i < q.size(); ++i) r[i] -= slope.column[i] * pull;
+      continue;
+    }
     if (!cable.length_driven()) continue;
     const double longer = elongation(model_, j, q.data(), double{command_[j]});
     if (longer > 0.0) r -= model_.actuation_matrix().col(j) * (cable.stiffness * longer);
@@ -67,33 +96,38 @@ void StaticProblem::residual(const ConstVectorRef& q, VectorRef r) noexcept {
     r -= data_.force;
   }
   if (load_factor_ == 1.0) return;
-  for (Index i = 0; i < q.size(); ++i) {
-    const double elastic = model_.coordinate_stiffness()[i] * q[i];
-    r[i] = elastic + load_factor_ * (r[i] - elastic);
-  }
+  elastic_.noalias() = model_.elastic_stiffness().lazyProduct(q - model_.rest());
+  r = elastic_ + load_factor_ * (r - elastic_);
 }
 
 void StaticProblem::stiffness(const ConstVectorRef& q, MatrixRef K) noexcept {
-  static_stiffness(model_, q, command_, wrenches_, K);
+  static_stiffness(model_, data_, q, command_, wrenches_, K);
   if (load_factor_ == 1.0) return;
-  K *= load_factor_;
-  for (Index i = 0; i < q.size(); ++i)
-    K(i, i) += (1.0 - load_factor_) * model_.coordinate_stiffness()[i];
+  K = load_factor_ * K + (1.0 - load_factor_) * model_.elastic_stiffness();
 }
 
 double StaticProblem::energy(const ConstVectorRef& q) noexcept {
   double U = energy_from_base(model_, data_, q) - constant_force_.dot(q);
   if (has_springs_) U += cable_energy(model_, q, command_);
+  for (Index j = 0; has_paths_ && j < model_.num_cables(); ++j) {
+    if (model_.cables()[static_cast<std::size_t>(j)].length_driven()) continue;
+    const double shorter =
+        CableSlope<double>(chain_of(model_), path_of(model_, j), q.data()).length -
+        model_.straight_lengths()[j];
+    U += command_[j] * shorter;
+  }
   for (const Wrench& w : wrenches_) U -= w.force.dot(pose(model_, q, w.section, w.fraction).p);
   if (load_factor_ == 1.0) return U;
-  double elastic = 0.0;
-  for (Index i = 0; i < q.size(); ++i)
-    elastic += 0.5 * model_.coordinate_stiffness()[i] * q[i] * q[i];
+  elastic_.noalias() = model_.elastic_stiffness().lazyProduct(q - model_.rest());
+  const double elastic = 0.5 * elastic_.dot(q - model_.rest());
   return elastic + load_factor_ * (U - elastic);
 }
 
 double StaticProblem::rounding_bound(const ConstVectorRef& q) const noexcept {
-  const double elastic = model_.stiffness().maxCoeff() * q.lpNorm<Eigen::Infinity>();
+  const double elastic =
+      model_.has_rods()
+          ? model_.elastic_stiffness().diagonal().cwiseProduct(q).lpNorm<Eigen::Infinity>()
+          : model_.stiffness().maxCoeff() * q.lpNorm<Eigen::Infinity>();
   return 1e-15 * (elastic + size_);
 }
 
@@ -107,28 +141,32 @@ bool conservative(const Wrenches& wrenches) noexcept {
   return true;
 }
 
-void static_stiffness(const Model& model, const ConstVectorRef& q, const ConstVectorRef& command,
-                      const Wrenches& wrenches, MatrixRef K) noexcept {
+namespace {
+
+using Room = std::optional<detail::RodChainState<detail::Dual>>;  // for a robot of rods
+
+void static_stiffness_in(Room& room, const Model& model, const ConstVectorRef& q,
+                         const ConstVectorRef& command, const Wrenches& wrenches,
+                         MatrixRef K) noexcept {
   using detail::Dual;
-  const Index m = model.num_coordinates();
   assert(detail::of_coordinates(model, q) && detail::of_cables(model, command));
-  assert(check_wrenches(model, wrenches) == Status::ok && detail::has_size(K, m, m));
+  assert(check_wrenches(model, wrenches) == Status::ok);
+  assert(detail::has_size(K, model.num_coordinates(), model.num_coordinates()));
+  const bool has_paths = !model.has_constant_actuation();
   if (model.has_closed_form() && wrenches.empty()) {
     detail::closed_form::potential_hessian(detail::single_of(model), q, K);
   } else {
-    const detail::Chain& chain = detail::chain_of(model);
-    const auto size = static_cast<int>(m);
-    detail::ArcChainState<Dual> state;
-    detail::differentiate(size, size, q.data(), K, [&](const Dual* x, Dual* y) {
-      state.update_position(chain, x);
-      detail::potential_gradient(chain, state, x, y);
-      if (wrenches.empty()) return;
+    const auto d = static_cast<int>(model.num_coordinates());
+    detail::gradient_slopes(model, room, q, K, [&](const Dual* x, Dual* y) {
+      if (wrenches.empty() && !has_paths) return;
       Dual pull[max_coordinates];
-      for (int i = 0; i < size; ++i) pull[i] = Dual(0.0);
-      detail::add_wrench_force<Dual>(chain, x, wrenches, pull);
-      for (int i = 0; i < size; ++i) y[i] -= pull[i];
+      for (int i = 0; i < d; ++i) pull[i] = Dual(0.0);
+      detail::add_wrench_force<Dual>(detail::chain_of(model), x, wrenches, pull);
+      if (has_paths) detail::add_path_forces(model, x, command, pull);
+      for (int i = 0; i < d; ++i) y[i] -= pull[i];
     });
   }
+  if (has_paths) return;
   const MatrixXd& B = model.actuation_matrix();
   for (Index j = 0; j < model.num_cables(); ++j) {
     const Cable& cable = model.cables()[static_cast<std::size_t>(j)];
@@ -141,6 +179,24 @@ void static_stiffness(const Model& model, const ConstVectorRef& q, const ConstVe
       K.col(k).head(rows) += B.col(j).head(rows) * (cable.stiffness * B(k, j));
     }
   }
+}
+
+}  // namespace
+
+void static_stiffness(const Model& model, Data& data, const ConstVectorRef& q,
+                      const ConstVectorRef& command, const Wrenches& wrenches,
+                      MatrixRef K) noexcept {
+  assert(data.belongs_to(model));
+  Room none;
+  Room& room = data.kept() != nullptr ? data.kept()->dual_rods : none;
+  static_stiffness_in(room, model, q, command, wrenches, K);
+}
+
+void static_stiffness(const Model& model, const ConstVectorRef& q, const ConstVectorRef& command,
+                      const Wrenches& wrenches, MatrixRef K) noexcept {
+  Room room;
+  if (model.has_rods()) room.emplace(detail::chain_of(model));
+  static_stiffness_in(room, model, q, command, wrenches, K);
 }
 
 }  // namespace cdcr

@@ -35,7 +35,10 @@ class StaticProblem {
   Data data_;
   double load_factor_ = 1.0;
   VectorXd constant_force_;  // of the cables driven by tension
-  bool has_energy_, has_springs_ = false;
+  VectorXd elastic_;
+  bool has_energy_;
+  bool has_paths_;  // cables whose pull changes with the shape
+  bool has_springs_ = false;
   double size_ = 0.0;  // of the moments in balance
 };
 

@@ -166,7 +166,9 @@ class Check:
         kind, requirement = about["kind"], about["requirement"]
         if isinstance(kind, type):
             return self.things(item, value, requirement, kind)
-        if kind in ("whole", "section"):
+        if kind in ("number or none", "whole or none", "order") and value is None:
+            return None
+        if kind in ("whole", "whole or none", "order", "section"):
             return self.whole(item, value, requirement)
         if kind == "numbers":
             return self.numbers(item, value, requirement, about["each"])
@@ -176,9 +178,27 @@ class Check:
             return self.matrix(item, value, requirement)
         if kind == "transform":
             return self.matrix(item, value, requirement, size=4)
-        if kind == "number or none" and value is None:
-            return None
+        if kind == "pair":
+            return self.vector(item, value, requirement, about["each"], size=2)
+        if kind in ("number or pair", "route") and not isinstance(value, Real):
+            return self._ends(item, value, requirement, about["each"], many=kind == "route")
         return self.number(item, value, requirement)
+
+    def _ends(
+        self, item: str, value: object, requirement: str, each: str, *, many: bool
+    ) -> tuple[Any, ...]:
+        """Return a (base, tip) pair, or `many` of them, of which one may stand by itself."""
+        values = self.items(item, value, requirement)
+        if all(isinstance(one, Real) for one in values):
+            pair = self.vector(item, values, requirement, each, size=2)
+            return (pair,) if many and len(pair) == 2 else pair
+        if not many:
+            self.refuse(item, requirement, value)
+            return ()
+        return tuple(
+            self.vector(f"{item}[{i}]", one, "two numbers, base and tip", each, size=2)
+            for i, one in enumerate(values)
+        )
 
     def done(self, violations: Iterable[str] = ()) -> None:
         """Raise a ValueError with all sentences, one a line, where there are any."""

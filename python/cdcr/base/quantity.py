@@ -23,9 +23,10 @@ def quantity(
     about, unit, requirement : str
         What it is, in which unit, and what it must be; "> 0" and ">= 0" are numbers, and finite.
     kind : str or type, optional
-        How `Check.keep` makes it plain: "number", "number or none", "whole", "section" (an index,
-        which files count from 1), "numbers", "vector", "matrix" or "transform" (4 rows of 4); a
-        type is that of every thing in a sequence.
+        How `Check.keep` makes it plain: "number", "number or none", "number or pair", "whole",
+        "whole or none", "order" (None where it is locked), "section" (an index, which files count
+        from 1), "numbers", "pair", "vector", "matrix", "transform" (4 rows of 4) or "route" (a
+        number, or (base, tip) pairs); a type is that of every thing in a sequence.
     each : str, optional
         What every number in a sequence must be.
     default : optional

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING
 
 from cdcr import _core
 from cdcr.base.check import Check
 from cdcr.base.quantity import quantity
+
+Pairs = tuple[tuple[float, float], ...]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -18,12 +21,15 @@ class Cable:
     stiffness lies between cable and drive, which pulls and never pushes. One without is driven by
     tension: its command is a tension [N]. Ranges are checked by the Robot that the cable is for.
 
+    It runs straight where radius and angle are numbers. Where they are pairs it converges or winds:
+    both then change evenly with the arc length from the base of each section passed to its tip.
+
     Parameters
     ----------
-    radius : float
-        Distance from backbone to cable [m], > 0.
-    angle : float
-        Angle about Z, from X [rad].
+    radius : float or sequence of (float, float)
+        Distance from backbone to cable [m], > 0; or one (base, tip) pair for each section passed.
+    angle : float or sequence of (float, float)
+        Angle about Z, from X [rad]; or one (base, tip) pair for each section passed.
     end_section : int
         Index of the section, from 0, at whose end the cable ends; files count from 1.
     stiffness : float, default 0
@@ -32,6 +38,8 @@ class Cable:
         Along with a stiffness [N s/m], >= 0.
     friction : float or None, default None
         Coulomb's coefficient in all of its holes, >= 0; None for that of each section.
+    start_section : int, default 0
+        Index of the section, from 0, at whose base the cable begins; files count from 1.
 
     Raises
     ------
@@ -46,10 +54,29 @@ class Cable:
     >>> cables = [cdcr.Cable(radius=0.01, angle=0.0, end_section=1, stiffness=5e4)]
     >>> cdcr.Robot(sections=[section, section], cables=cables).num_cables
     1
+
+    A helix of one turn, and a cable that converges to half its distance:
+
+    >>> helix = cdcr.Cable(radius=0.01, angle=[(0.0, 6.283)], end_section=0)
+    >>> cone = cdcr.Cable(radius=[(0.01, 0.005)], angle=0.0, end_section=0)
+    >>> helix.straight, cone.angle
+    (False, 0.0)
     """
 
-    radius: float = quantity("from backbone to cable", "m", "> 0")
-    angle: float = quantity("about Z, from X", "rad", "a finite number of rad")
+    radius: float | Pairs = quantity(
+        "from backbone to cable",
+        "m",
+        "a number in m, or one (base, tip) pair for each section passed",
+        kind="route",
+        each="a number in m",
+    )
+    angle: float | Pairs = quantity(
+        "about Z, from X",
+        "rad",
+        "a number of rad, or one (base, tip) pair for each section passed",
+        kind="route",
+        each="a number of rad",
+    )
     end_section: int = quantity(
         "number of the section where it ends, from 1",
         "",
@@ -66,18 +93,27 @@ class Cable:
         default=None,
         advanced=True,
     )
+    start_section: int = quantity(
+        "number of the section at whose base it begins, from 1",
+        "",
+        "the index of a section, from 0",
+        kind="section",
+        default=0,
+        advanced=True,
+    )
 
     if TYPE_CHECKING:  # to a type checker all fields have a default
 
         def __init__(
             self,
             *,
-            radius: float,
-            angle: float,
+            radius: float | Sequence[Sequence[float]] | Sequence[float],
+            angle: float | Sequence[Sequence[float]] | Sequence[float],
             end_section: int,
             stiffness: float = ...,
             damping: float = ...,
             friction: float | None = ...,
+            start_section: int = ...,
         ) -> None: ...
 
     def __post_init__(self) -> None:
@@ -88,6 +124,40 @@ class Cable:
     def length_driven(self) -> bool:
         """Whether its command is a length [m], not a tension [N]."""
         return self.stiffness > 0.0
+
+    @property
+    def straight(self) -> bool:
+        """Whether radius and angle are the same all along."""
+        return all(
+            isinstance(value, float) or len({end for pair in value for end in pair}) <= 1
+            for value in (self.radius, self.angle)
+        )
+
+    def route(self, section: int) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Return radius [m] and angle [rad] at base and tip of a section that it passes.
+
+        Parameters
+        ----------
+        section : int
+            Its index, ``start_section`` to ``end_section``.
+
+        Returns
+        -------
+        radius, angle : (float, float)
+            At the base and at the tip.
+
+        Examples
+        --------
+        >>> import cdcr
+        >>> cdcr.Cable(radius=0.01, angle=[(0.0, 3.0)], end_section=0).route(0)
+        ((0.01, 0.01), (0.0, 3.0))
+        """
+        k = section - self.start_section
+
+        def ends(value: float | Pairs) -> tuple[float, float]:
+            return (value, value) if isinstance(value, float) else value[k]
+
+        return ends(self.radius), ends(self.angle)
 
     def _to_core(self) -> _core.Cable:
         return _core.Cable(**{item.name: getattr(self, item.name) for item in fields(self)})

@@ -99,6 +99,10 @@ def _fields_of(kind: type[Section | Cable], table: Mapping[str, Any]) -> dict[st
     values = _defaults(kind) | in_radians(table)
     if kind is Cable:
         values["end_section"] -= 1  # counted from 1 in files
+        values["start_section"] = table.get("start_section", 1) - 1
+    for item in fields(kind):
+        if item.metadata["kind"] == "order" and values[item.name] == "locked":
+            values[item.name] = None
     return values
 
 
@@ -107,9 +111,15 @@ def in_radians(table: Mapping[str, Any]) -> dict[str, Any]:
     values = dict(table)
     if "cable_angles_deg" in values:
         values["cable_angles"] = [math.radians(a) for a in values.pop("cable_angles_deg")]
-    if "angle_deg" in values:
-        values["angle"] = math.radians(values.pop("angle_deg"))
+    for name in ("angle", "rest_bending", "rest_twist"):
+        if f"{name}_deg" in values:
+            values[name] = _in_radians(values.pop(f"{name}_deg"))
     return values
+
+
+def _in_radians(degrees: Any) -> Any:
+    """Return an angle, or lists of angles, in radians."""
+    return list(map(_in_radians, degrees)) if isinstance(degrees, list) else math.radians(degrees)
 
 
 def _defaults(kind: type[Robot | Section | Cable]) -> dict[str, Any]:
@@ -170,7 +180,9 @@ def _lines(thing: Robot | Section | Cable, all_fields: bool) -> Iterator[str]:
 
 def _in_file(thing: Robot | Section | Cable, name: str) -> Any:
     value = getattr(thing, name)
-    return value + 1 if name == "end_section" else value
+    if name in ("start_section", "end_section"):
+        return value + 1
+    return "locked" if value is None and name.endswith("_order") else value
 
 
 def _is_written(thing: Robot | Section | Cable, item: Field[Any], all_fields: bool) -> bool:

@@ -208,8 +208,9 @@ class Robot(Filed):
         """Every cable in the order of the commands: section by section, then `cables`."""
         names = [item.name for item in fields(Cable)]
         return tuple(
-            Cable(**{name: getattr(cable, name) for name in names})
+            Cable(**{name: plain.get(name) or getattr(cable, name) for name in names})
             for cable in self._to_core().all_cables()
+            for plain in [{"radius": cable.radii, "angle": cable.angles}]
         )
 
     def locate(self, s: float) -> tuple[int, float]:

@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import MISSING, Field, fields
 from functools import cache
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import pydantic
 
@@ -18,10 +18,16 @@ _Three = Annotated[list[float], pydantic.Field(min_length=3, max_length=3)]
 _Rows = Annotated[list[_Three], pydantic.Field(min_length=3, max_length=3)]
 _Four = Annotated[list[float], pydantic.Field(min_length=4, max_length=4)]
 _FourRows = Annotated[list[_Four], pydantic.Field(min_length=4, max_length=4)]
+_Pair = Annotated[list[float], pydantic.Field(min_length=2, max_length=2)]
 _TYPES: dict[str, Any] = {
     "number": float,
     "number or none": float,
     "whole": _Int,
+    "order": _Int | Literal["locked"],
+    "whole or none": _Int,
+    "number or pair": float | _Pair,
+    "pair": _Pair,
+    "route": float | list[_Pair] | _Pair,
     "section": Annotated[_Int, pydantic.Field(ge=1)],
     "numbers": list[float],
     "vector": _Three,
@@ -29,6 +35,7 @@ _TYPES: dict[str, Any] = {
     "transform": _FourRows,
 }
 _ARRAYS = {
+    "pair": "2 numbers",
     "vector": "3 numbers",
     "matrix": "3 rows of 3 numbers",
     "transform": "4 rows of 4 numbers",
@@ -74,6 +81,7 @@ def _requirement(item: Field[Any], unit: str) -> str:
     if item.metadata["kind"] == "section":
         return "the number of a section, from 1"
     words = str(item.metadata["requirement"]).removesuffix(", or None")
+    words = words.replace("None to lock it", '"locked"').replace("(base, tip)", "[base, tip]")
     # "numbers in kg" and "a number of rad" are "numbers [kg]" and "a number [rad]" there.
     return re.sub(r"(numbers?) (in|of) \S+$", rf"\1 [{unit}]", words).replace(
         "a sequence", "an array"

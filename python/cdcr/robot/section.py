@@ -23,9 +23,27 @@ class Disk(NamedTuple):
     diameter: float  # [m]
 
 
+Pair = tuple[float, float]
+
+
+def _order(about: str, default: int | None = None) -> Any:
+    requirement = "a whole number 0 to 4, or None to lock it"
+    return quantity(f"order {about}", "", requirement, kind="order", default=default, advanced=True)
+
+
+def _given(about: str, unit: str) -> Any:
+    requirement = f"a number > 0 {unit} and finite, or None"
+    return quantity(about, unit, requirement, kind="number or none", default=None, advanced=True)
+
+
 @dataclass(frozen=True, kw_only=True)
 class Section:
-    """One constant-curvature section: a backbone, its disks and the cables that end at its end.
+    """One section: a backbone, its disks and the cables that end at its end.
+
+    By default it bends with constant curvature, and neither twists nor stretches. The order of a
+    strain is that of its Legendre polynomials along the section, cpp/rods.md: bending of order 2
+    has three bending vectors. A strain of order None is locked; a section with all three locked is
+    a rigid link.
 
     Without `disk_positions`, disk k of N sits at fraction k/N of the length. The cables at
     `cable_angles` share radius, stiffness and damping, and run through all sections before; a
@@ -38,8 +56,8 @@ class Section:
         Arc length of the backbone [m], > 0.
     backbone_mass : float
         Mass spread evenly along the length [kg], >= 0.
-    backbone_diameter : float
-        Diameter of the round, solid backbone [m], > 0.
+    backbone_diameter : float or (float, float)
+        Diameter of the round backbone [m], > 0; a pair is that at base and tip of an even taper.
     youngs_modulus : float
         Young's modulus of the backbone [Pa], > 0.
     disk_mass : float, default 0
@@ -66,6 +84,31 @@ class Section:
         Coulomb's coefficient in the holes of this section, for every cable through them, >= 0.
     damping : float, default 0
         Viscous damping of each bending component [N m s/rad], >= 0.
+    bending_order : int or None, default 0
+        Order of its bending, 0 to 4.
+    twist_order, stretch_order : int or None, default None
+        Orders of its twist, which needs a `shear_modulus` or a `twist_stiffness`, and its stretch.
+    backbone_inner_diameter : float, default 0
+        Of a tube [m], >= 0 and below the outer diameter.
+    shear_modulus : float or None, default None
+        Shear modulus of the backbone [Pa], > 0.
+    bending_stiffness, twist_stiffness : float or None, default None
+        E I and G J [N m^2], > 0, in place of what material and shape give.
+    stretch_stiffness : float or None, default None
+        E A [N], > 0, likewise.
+    twist_damping : float, default 0
+        Viscous damping of the twist [N m s/rad], >= 0.
+    stretch_damping : float, default 0
+        Viscous damping of the stretch [N s/m], >= 0.
+    material_damping : float, default 0
+        Kelvin-Voigt's time [s], >= 0: this times each stiffness is damping too.
+    rest_bending : (2,) sequence of float, default (0, 0)
+        Bending vector of the unloaded backbone [rad].
+    rest_twist : float, default 0
+        Twist of the unloaded backbone [rad].
+    nodes : int or None, default None
+        Places where the mass of a section of varying strains is summed up, 3 to 32; None for
+        enough to get accelerations to about 1e-8.
 
     Raises
     ------
@@ -83,7 +126,13 @@ class Section:
 
     length: float = quantity("arc length of the backbone", "m", "> 0")
     backbone_mass: float = quantity("spread evenly along the length", "kg", ">= 0")
-    backbone_diameter: float = quantity("of the round, solid backbone", "m", "> 0")
+    backbone_diameter: float | Pair = quantity(
+        "of the round backbone",
+        "m",
+        "> 0",
+        kind="number or pair",
+        each="a number in m",
+    )
     youngs_modulus: float = quantity("of the backbone", "Pa", "> 0")
     disk_mass: float = quantity("of each disk", "kg", ">= 0", default=0.0)
     disk_diameter: float = quantity("of each disk", "m", ">= 0", default=0.0)
@@ -136,6 +185,39 @@ class Section:
         "coefficient in the holes", "", ">= 0", default=0.0, advanced=True
     )
     damping: float = quantity("viscous, per bending component", "N m s/rad", ">= 0", default=0.0)
+    bending_order: int | None = _order("of the bending along the section", default=0)
+    twist_order: int | None = _order("of the twist")
+    stretch_order: int | None = _order("of the stretch")
+    backbone_inner_diameter: float = quantity("of a tube", "m", ">= 0", default=0.0, advanced=True)
+    shear_modulus: float | None = _given("of the backbone", "Pa")
+    bending_stiffness: float | None = _given("E I, in place of the material's", "N m^2")
+    twist_stiffness: float | None = _given("G J, in place of the material's", "N m^2")
+    stretch_stiffness: float | None = _given("E A, in place of the material's", "N")
+    twist_damping: float = quantity("viscous", "N m s/rad", ">= 0", default=0.0, advanced=True)
+    stretch_damping: float = quantity("viscous", "N s/m", ">= 0", default=0.0, advanced=True)
+    material_damping: float = quantity(
+        "this times each stiffness is damping", "s", ">= 0", default=0.0, advanced=True
+    )
+    rest_bending: Pair = quantity(
+        "bending vector of the unloaded backbone",
+        "rad",
+        "two numbers of rad",
+        kind="pair",
+        each="a number of rad",
+        default=(0.0, 0.0),
+        advanced=True,
+    )
+    rest_twist: float = quantity(
+        "of the unloaded backbone", "rad", "a finite number of rad", default=0.0, advanced=True
+    )
+    nodes: int | None = quantity(
+        "where its mass is summed up",
+        "",
+        "a whole number 3 to 32, or None",
+        kind="whole or none",
+        default=None,
+        advanced=True,
+    )
 
     if TYPE_CHECKING:  # any sequence goes in, a tuple comes out
 
@@ -144,7 +226,7 @@ class Section:
             *,
             length: float,
             backbone_mass: float,
-            backbone_diameter: float,
+            backbone_diameter: float | Sequence[float],
             youngs_modulus: float,
             disk_mass: float = ...,
             disk_diameter: float = ...,
@@ -158,6 +240,20 @@ class Section:
             cable_damping: float = ...,
             cable_friction: float = ...,
             damping: float = ...,
+            bending_order: int | None = ...,
+            twist_order: int | None = ...,
+            stretch_order: int | None = ...,
+            backbone_inner_diameter: float = ...,
+            shear_modulus: float | None = ...,
+            bending_stiffness: float | None = ...,
+            twist_stiffness: float | None = ...,
+            stretch_stiffness: float | None = ...,
+            twist_damping: float = ...,
+            stretch_damping: float = ...,
+            material_damping: float = ...,
+            rest_bending: Sequence[float] | NDArray[np.floating[Any]] = ...,
+            rest_twist: float = ...,
+            nodes: int | None = ...,
         ) -> None: ...
 
     def __post_init__(self) -> None:
@@ -170,13 +266,26 @@ class Section:
 
     @property
     def second_moment_of_area(self) -> float:
-        """Second moment of area of the backbone, I = pi d^4 / 64 [m^4]."""
-        return math.pi / 64.0 * self.backbone_diameter**4
+        """Second moment of area I of the backbone [m^4], paper eq. (23); the mean of a taper."""
+        base, tip = self.diameters
+        fourth = sum(base ** (4 - k) * tip**k for k in range(5)) / 5.0 if base != tip else base**4
+        return math.pi / 64.0 * (fourth - self.backbone_inner_diameter**4)
+
+    @property
+    def diameters(self) -> Pair:
+        """Outer diameter of the backbone at base and tip [m]."""
+        outer = self.backbone_diameter
+        return (outer, outer) if isinstance(outer, float) else outer
 
     @property
     def stiffness(self) -> float:
-        """Bending stiffness K = E I / length [N m/rad], paper eq. (23)."""
-        return self.youngs_modulus * self.second_moment_of_area / self.length
+        """Bending stiffness K = E I / length [N m/rad], paper eq. (23); the mean of a taper."""
+        return self._to_core().stiffness
+
+    @property
+    def is_rod(self) -> bool:
+        """Whether it is more than an arc: its strains or its diameter vary, or it bends at rest."""
+        return self._to_core().is_rod
 
     @property
     def disks(self) -> tuple[Disk, ...]:

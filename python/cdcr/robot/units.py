@@ -37,7 +37,8 @@ def _questions(robot: Robot) -> Iterator[str]:
                 f"{modulus:g} GPa are {1e9 * modulus:g} Pa"
             )
     for j, cable in enumerate(robot.cables):
-        yield from _about_angle(f"{entry('cables', j)}: angle", cable.angle, "angle_deg")
+        if isinstance(cable.angle, float):  # one that winds may wind more than once
+            yield from _about_angle(f"{entry('cables', j)}: angle", cable.angle, "angle_deg")
 
 
 def _about_angle(name: str, angle: float, in_degrees: str) -> Iterator[str]:
@@ -50,14 +51,17 @@ def _about_angle(name: str, angle: float, in_degrees: str) -> Iterator[str]:
 
 def ask_about_commands(robot: Robot, command: FloatArray) -> None:
     """Warn of commands (..., num_cables) to cables driven by length that may be tensions."""
-    ends = list(accumulate(section.length for section in robot.sections))
+    ends = list(accumulate((section.length for section in robot.sections), initial=0.0))
     drives = [
         *(
-            (ends[i], one.cable_stiffness)
+            (ends[i + 1], one.cable_stiffness)
             for i, one in enumerate(robot.sections)
             for _ in one.cable_angles
         ),
-        *((ends[cable.end_section], cable.stiffness) for cable in robot.cables),
+        *(
+            (ends[cable.end_section + 1] - ends[cable.start_section], cable.stiffness)
+            for cable in robot.cables
+        ),
     ]
     for j, (length, stiffness) in enumerate(drives):
         if not stiffness:

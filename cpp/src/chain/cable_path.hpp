@@ -1,0 +1,73 @@
+#pragma once
+
+#include "chain/chain.hpp"
+#include "section/rod_cable.hpp"
+#include "section/rubbing_path.hpp"
+
+// A cable through rods: its length and its pull depend on the shape (cpp/rods.md eqs. (63) to
+// (67)).
+
+namespace cdcr::detail {
+
+/// The path of one cable through the rods that it passes.
+class CablePath {
+ public:
+  CablePath(const Chain& chain, const Cable& cable) : first_(cable.start_section) {
+    for (int k = first_; k <= cable.end_section; ++k) {
+      const RodParameters& rod = *chain.sections[static_cast<std::size_t>(k)].rod;
+      smooth_.emplace_back(rod, cable.route(k));
+      rubbing_.emplace_back(rod, cable.route(k));
+    }
+  }
+
+  /// Length [m] at q; adds `pull` times -dl/dq to the force.
+  template <class S>
+  S length(const Chain& chain, const S* q, const S& pull, S* force) const {
+    S sum(0.0);
+    for (std::size_t i = 0; i < smooth_.size(); ++i) {
+      const auto k = static_cast<std::size_t>(first_) + i;
+      sum += smooth_[i].length(*chain.sections[k].rod, q + chain.first[k], pull,
+                               force + chain.first[k]);
+    }
+    return sum;
+  }
+
+  /// Adds the force of a cable that rubs, with `tension` at its base while its length changes at
+  /// `rate`. The tension that is left beyond each section goes to `beyond_sections` where wanted.
+  template <class S>
+  void rub(const Chain& chain, const S* q, const S* qd, const double* friction,
+           double sliding_speed, S tension, S rate, S* force, S* beyond_sections) const {
+    for (std::size_t i = 0; i < rubbing_.size(); ++i) {
+      const auto k = static_cast<std::size_t>(first_) + i;
+      const Index at = chain.first[k];
+      tension = rubbing_[i].pull(*chain.sections[k].rod, q + at, qd + at, friction[k],
+                                 sliding_speed, tension, rate, force + at);
+      if (beyond_sections != nullptr) beyond_sections[k] = tension;
+    }
+  }
+
+ private:
+  int first_;
+  std::vector<RodCable> smooth_;
+  std::vector<RubbingPath> rubbing_;
+};
+
+/// -dl/dq of a cable at q (d), and its length.
+template <class S>
+struct CableSlope {
+  S length;
+  S column[max_coordinates];
+
+  CableSlope(const Chain& chain, const CablePath& path, const S* q) : length(0.0) {
+    for (Index i = 0; i < chain.num_coordinates(); ++i) column[i] = S(0.0);
+    length = path.length(chain, q, S(1.0), column);
+  }
+  /// How fast the cable grows longer [m/s].
+  [[nodiscard]] S rate(const Chain& chain, const S* qd) const {
+    S sum(0.0);
+    for (Index i = 0; i < chain.num_coordinates(); ++i) sum -= column[i] * qd[i];
+    return sum;
+  }
+};
+
+}  // namespace cdcr::detail
