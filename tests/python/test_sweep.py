@@ -67,6 +67,19 @@ def test_a_grid_is_the_runs_of_its_values(file: Path) -> None:
     assert set(found.status.values.ravel()) == {"ok"}
 
 
+@pytest.mark.parametrize("name", cdcr.robots.names())
+def test_the_table_of_a_robot_is_the_robot(name: str) -> None:
+    from cdcr.robot.file import robot_from_table, robot_table
+
+    robot = cdcr.robots.get(name)
+    section = replace(
+        robot.sections[-1], cable_friction=0.1, num_disks=2, disk_positions=(0.5, 1.0)
+    )
+    cable = cdcr.Cable(radius=0.02, angle=1.0, end_section=0)
+    robot = replace(robot, sections=(*robot.sections[:-1], section), cables=(cable,))
+    assert robot_from_table(cdcr.Robot, robot_table(robot), "table") == robot
+
+
 def changed(file: Path, **parameters: Any) -> Any:
     """The scenario of the only run of a sweep."""
     from cdcr.sweeps.jobs import file_source

@@ -40,12 +40,6 @@ def read_toml(path: Path, what: str) -> dict[str, Any]:
     return {key: _plain(value, f"{path}: {key}") for key, value in table.items()}
 
 
-def toml_table(text: str) -> dict[str, Any]:
-    """Return the table of a text that is known to be TOML."""
-    table: dict[str, Any] = _TOML.loads(text)
-    return table
-
-
 def _plain(value: Any, where: str, depth: int = 1) -> Any:
     """Return a value with integers of more than 64 bits, TOML's own, as the floats nearest them."""
     if depth > MAX_DEPTH:

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from cdcr.files.toml import read_toml, toml_table
-from cdcr.robot.file import robot_lines
+from cdcr.files.toml import read_toml
+from cdcr.robot.file import robot_table
 from cdcr.runs.command import TensionTable
 from cdcr.scenarios.file.reader import load_scenario, scenario_from_table
 from cdcr.scenarios.file.trajectory import read_csv
@@ -32,7 +32,7 @@ def whole_table(path: str | PathLike[str]) -> dict[str, Any]:
     file = Path(path)
     scenario = load_scenario(file)
     table = read_toml(file, "scenario file")
-    table["robot"] = toml_table("\n".join(robot_lines(scenario.robot, all_fields=True)))
+    table["robot"] = robot_table(scenario.robot)
     tension, motion = table.get("tension"), table.get("trajectory", {})
     if isinstance(tension, dict) and "file" in tension:
         table["tension"] = _without_file(tension, _rows(scenario))
