@@ -47,9 +47,10 @@ from cdcr.runs.simulate import simulate
 from cdcr.runs.trajectory import Trajectory
 
 if TYPE_CHECKING:
-    from cdcr import control, export, paper, scenarios
+    from cdcr import control, export, paper, scenarios, sweeps
     from cdcr import gym as gym
     from cdcr import plotting as plotting
+    from cdcr.sweeps import sweep
 
 __version__: str = _core.__version__
 
@@ -90,14 +91,18 @@ __all__ = [
     "stable_step",
     "subdivide_state",
     "subdivide_wrench",
+    "sweep",
+    "sweeps",
     "taylor_range",
 ]
 
 
 def __getattr__(name: str) -> Any:
     """Load what few programs need when it is asked for."""
-    if name in ("control", "export", "gym", "paper", "plotting", "scenarios"):
+    if name in ("control", "export", "gym", "paper", "plotting", "scenarios", "sweeps"):
         return import_module(f"cdcr.{name}")
+    if name == "sweep":
+        return import_module("cdcr.sweeps").sweep
     hint = {"load_robot": "; use cdcr.Robot.load"}.get(name, "")
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}{hint}")
 

@@ -15,7 +15,8 @@ from matplotlib.figure import Figure
 from rich.console import Console
 from typer.testing import Result
 
-from cdcr.cli import figures, page, processes
+from cdcr.base import processes
+from cdcr.cli import figures, page
 from cdcr.cli.run import Mistake
 from command import cdcr_
 

@@ -24,6 +24,7 @@ REFERENCE = DOCS / "reference"
 MODULES = (
     *(cdcr, cdcr.control, cdcr.export, cdcr.gym, cdcr.paper, cdcr.plotting, cdcr.robots),
     cdcr.scenarios,
+    cdcr.sweeps,
 )
 RETURNED = {"cdcr.view.View"}  # by public names
 FLAGS = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS

@@ -20,6 +20,7 @@ from cdcr.cli import (
     new,
     run,
     schema,
+    sweep,
     tables,
     validate,
     view,
@@ -34,7 +35,7 @@ app = typer.Typer(
     rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-for group in (validate, schema, doctor, export, view):
+for group in (sweep, validate, schema, doctor, export, view):
     app.add_typer(group.commands)
 
 

@@ -20,8 +20,8 @@ from rich.text import Text
 
 import cdcr
 from cdcr import _core
+from cdcr.base.processes import usable
 from cdcr.cli.plain import AsJson, print_json, told_plainly
-from cdcr.cli.processes import usable
 from cdcr.cli.run import DelayedBar
 from cdcr.cli.self_test import Outcome, self_test, step_time
 from cdcr.cli.tables import new_table

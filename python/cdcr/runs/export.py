@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import io
 import json
 from collections.abc import Sequence
 from dataclasses import asdict
@@ -15,6 +14,7 @@ import numpy as np
 from cdcr import _core
 from cdcr.base.arrays import FloatArray
 from cdcr.base.extras import require
+from cdcr.files import netcdf
 from cdcr.files.number_csv import RUN_TIME
 from cdcr.runs.stats import STATS
 
@@ -138,13 +138,7 @@ def attributes(run: Trajectory) -> dict[str, str | int]:
 
 def write_netcdf(run: Trajectory, path: Path) -> None:
     """Write the run as netCDF to a file of any name."""
-    h5netcdf: Any = require("h5netcdf", "data")
-    xr: Any = require("xarray", "data")
-    # In memory: the library crashes where a disk is full, and cannot write to a nameless file.
-    whole = io.BytesIO()
-    with h5netcdf.File(whole, "w") as stored:
-        to_xarray(run).dump_to_store(xr.backends.H5NetCDFStore(stored))
-    path.write_bytes(whole.getbuffer())
+    netcdf.write_netcdf(to_xarray(run), path)
 
 
 def to_dataframe(run: Trajectory) -> pandas.DataFrame:

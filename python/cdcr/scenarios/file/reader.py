@@ -68,10 +68,17 @@ def load_scenario(path: str | PathLike[str]) -> Scenario:
             f"{file} is a robot file: `cdcr info` and `cdcr view` take it, or name it in a scenario"
         )
     with with_lines(file):
-        return _scenario(file, table)
+        return scenario_from_table(table, file)
 
 
-def _scenario(file: Path, table: dict[str, Any]) -> Scenario:
+def scenario_from_table(table: dict[str, Any], file: Path) -> Scenario:
+    """Return the scenario of the table of a file; it may be changed, and the file need not exist.
+
+    Raises
+    ------
+    ValueError
+        As `load_scenario` does, without lines.
+    """
     from cdcr.scenarios.file.schema import ScenarioTable
 
     refuse(

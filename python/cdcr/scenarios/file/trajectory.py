@@ -178,7 +178,7 @@ def _samples(table: dict[str, Any], model: Model, file: Path) -> Reference:
     if "file" in table:
         path = file.parent / table["file"]
         with named_by(f"{file}, {AT}.file"):
-            t, given = _read_csv(path, model)
+            t, given = read_csv(path, model)
             with error_prefix(str(path)):
                 return _reference(t, given)
     given = {
@@ -220,7 +220,8 @@ def _reference(t: list[float], given: Mapping[str, FloatArray]) -> Reference:
     return Reference.from_angles(t, angles["theta"], angles["phi"])
 
 
-def _read_csv(path: Path, model: Model) -> tuple[list[float], dict[str, FloatArray]]:
+def read_csv(path: Path, model: Model) -> tuple[list[float], dict[str, FloatArray]]:
+    """Return the times of a file of samples, and its rows by the keys of a [trajectory]."""
     sections = range(1, model.num_sections + 1)
     layouts = []
     for theta, phi, unit in (("theta_deg", "phi_deg", "deg"), ("theta", "phi", "rad")):
