@@ -47,9 +47,10 @@ from cdcr.runs.simulate import simulate
 from cdcr.runs.trajectory import Trajectory
 
 if TYPE_CHECKING:
-    from cdcr import control, export, paper, scenarios
+    from cdcr import control, export, identification, paper, scenarios
     from cdcr import gym as gym
     from cdcr import plotting as plotting
+    from cdcr.identification import identify
 
 __version__: str = _core.__version__
 
@@ -79,6 +80,8 @@ __all__ = [
     "bending",
     "control",
     "export",
+    "identification",
+    "identify",
     "inverse_run",
     "max_bending",
     "merge_state",
@@ -96,8 +99,10 @@ __all__ = [
 
 def __getattr__(name: str) -> Any:
     """Load what few programs need when it is asked for."""
-    if name in ("control", "export", "gym", "paper", "plotting", "scenarios"):
+    if name in ("control", "export", "gym", "identification", "paper", "plotting", "scenarios"):
         return import_module(f"cdcr.{name}")
+    if name == "identify":
+        return import_module("cdcr.identification").identify
     hint = {"load_robot": "; use cdcr.Robot.load"}.get(name, "")
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}{hint}")
 
