@@ -161,6 +161,30 @@ class Motion(Data):
         """
         return cls(**read_measured(path, robot, timed=True, **options))
 
+    def until(self, time: float) -> Motion:
+        """Return the beginning of the motion: swings of later are easily taken for one another.
+
+        Parameters
+        ----------
+        time : float
+            How long it lasts [s].
+
+        Returns
+        -------
+        Motion
+        """
+        t = cast("FloatArray", self.t)
+        count = int(np.searchsorted(t, t[0] + time, side="right"))
+        names = ("t", "command", "tip", "tension", "length", "q")
+        given: dict[str, Any] = {
+            name: None if getattr(self, name) is None else np.asarray(getattr(self, name))[:count]
+            for name in names
+        }
+        given["markers"] = {
+            place: np.asarray(one)[:count] for place, one in (self.markers or {}).items()
+        }
+        return replace(self, **given)
+
     @property
     def places(self) -> tuple[Place, ...]:
         """Section and fraction of each marker."""
