@@ -27,7 +27,7 @@ class Row:
     fitted : int
         Numbers that were fitted.
     used, held_out : float
-        RMS distance [mm] on data that were used for the fit, and on others; NaN where there are none.
+        RMS distance [mm] on data used for the fit, and on others; NaN where there are none.
     percent : float
         The error held out, or else the one used, in percent of what `of` says.
     of : str
@@ -63,7 +63,11 @@ def show(rows: Sequence[Row]) -> None:
     ]  # fmt: skip
     widths = [max(len(one[k]) for one in [HEAD, *cells]) for k in range(len(HEAD))]
     for k, line in enumerate([HEAD, *cells]):
-        print("| " + " | ".join(one.ljust(width) for one, width in zip(line, widths, strict=True)) + " |")
+        print(
+            "| "
+            + " | ".join(one.ljust(width) for one, width in zip(line, widths, strict=True))
+            + " |"
+        )
         if k == 0:
             print("|" + "|".join("-" * (width + 2) for width in widths) + "|")
 

@@ -2,8 +2,8 @@
 
 from cdcr.identification.crossing import CrossValidation
 from cdcr.identification.design import Design, informative_commands
-from cdcr.identification.frequencies import Frequencies
 from cdcr.identification.fit import identify as identify
+from cdcr.identification.frequencies import Frequencies
 from cdcr.identification.motions import Motion
 from cdcr.identification.parameter import Parameter
 from cdcr.identification.poses import Poses

@@ -157,7 +157,8 @@ def _slots(
     if home in ("sections", "cables") and field is not None and pick is not None:
         things = plain[home]
         groups: Groups = []
-        for who, chosen in _picked(path, home, pick, len(things), first):
+        for i, chosen in _picked(path, pick, len(things), first):
+            who = f"all {home}" if i is None else entry(home, i)
             groups += _of_things(path, robot, plain, home, who, chosen, field, inner, first)
         return groups
     if field is None and home in plain and home not in ("sections", "cables"):
@@ -166,9 +167,10 @@ def _slots(
                 raise ValueError(
                     f"parameter {path!r}: {home} has several numbers, pick one: {home}[{first}]"
                 )
-            noun = "cables" if home.startswith("command_") else "entries"
-            picked = _picked(path, noun, pick, len(plain[home]), first)
-            return [(f"{who}: {home}", tuple((home, i) for i in chosen)) for who, chosen in picked]
+            return [
+                (home if i is None else f"{home} {i + 1}", tuple((home, k) for k in chosen))
+                for i, chosen in _picked(path, pick, len(plain[home]), first)
+            ]
         return [(home, ((home,),))]
     raise ValueError(_unknown(path, robot))
 
@@ -200,10 +202,12 @@ def _of_things(
         if len(sizes) > 1:
             raise ValueError(f"parameter {path!r}: sections have differing numbers of {field}")
         return [
-            (f"{who}: {field} {part.rpartition(' ')[2]}",
-             tuple((home, i, field, k) for i in chosen for k in inside))
-            for part, inside in _picked(path, field, inner, sizes.pop(), first)
-        ]  # fmt: skip
+            (
+                f"{who}: {field}" if k is None else f"{who}: {field} {k + 1}",
+                tuple((home, i, field, one) for i in chosen for one in inside),
+            )
+            for k, inside in _picked(path, inner, sizes.pop(), first)
+        ]
     if inner is not None or isinstance(value, bool | int | str):
         raise ValueError(f"parameter {path!r}: {field} is no number that can be sought")
     if any(thing[field] is None for thing in things):
@@ -223,23 +227,18 @@ def _shared(robot: Robot, chosen: tuple[int, ...], field: str) -> Iterator[Slot]
 
 
 def _picked(
-    path: str, noun: str, pick: str, count: int, first: int
-) -> list[tuple[str, tuple[int, ...]]]:
-    """Return who is picked, in words, and their indices from 0; one group for each unknown."""
+    path: str, pick: str, count: int, first: int
+) -> list[tuple[int | None, tuple[int, ...]]]:
+    """Return the indices from 0 that each unknown stands for, and which it is, None for all."""
     if pick == "*":
-        return [(f"all {noun}" if count > 1 else entry_name(noun, 0), tuple(range(count)))]
+        return [(None if count > 1 else 0, tuple(range(count)))]
     if pick == ":":
-        return [(entry_name(noun, i), (i,)) for i in range(count)]
+        return [(i, (i,)) for i in range(count)]
     if not pick.isdigit() or not 0 <= int(pick) - first < count:
         last = first + count - 1
         allowed = f"{first} to {last}, * or :" if count else "none, as there are no such things"
         raise ValueError(f"parameter {path!r}: [{pick}] must be one of {allowed}")
-    return [(entry_name(noun, int(pick) - first), (int(pick) - first,))]
-
-
-def entry_name(noun: str, i: int) -> str:
-    """Name one of several from 1: 'section 1', 'cable 2 of cables', 'entry 3'."""
-    return f"entry {i + 1}" if noun == "entries" else entry(noun, i)
+    return [(int(pick) - first, (int(pick) - first,))]
 
 
 def _quantity(

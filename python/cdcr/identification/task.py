@@ -25,8 +25,8 @@ from cdcr import robots
 from cdcr.files.refusals import named_by, with_lines
 from cdcr.files.toml import Faults, read_toml, refuse, schema_errors
 from cdcr.identification.data import Data
-from cdcr.identification.frequencies import Frequencies
 from cdcr.identification.fit import fit
+from cdcr.identification.frequencies import Frequencies
 from cdcr.identification.motions import Motion
 from cdcr.identification.poses import Poses
 from cdcr.identification.result import Identified
