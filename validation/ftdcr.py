@@ -24,6 +24,7 @@ from cdcr.identification import Identified, Poses
 LENGTHS = 0.06, 0.0625, 0.064  # [m]; robot.json beside the data
 OFFSETS = -3.0589, -2.5615, -2.0506  # angle of the first cable of each section [rad]
 CIRCLE = 4.5e-3  # [m]
+NEAR = 0.08  # tips that are bent little [m]
 SERVOS = 4, 3, 9, 5, 2, 8, 6, 1, 7  # of the cables, section by section
 # Of the disks nothing is known but the total of 50 g, drives and all; this one is a start.
 DISK = 1e-4  # [kg]
@@ -73,6 +74,25 @@ def fit(train: Poses) -> Identified:
     return cdcr.identify(train, robot(), PARAMETERS)
 
 
+def near_and_far(train: Path) -> None:
+    """Print how a fit to tips near the axis predicts the others."""
+    every = np.asarray(poses(train).tip)
+    near = np.linalg.norm(every[:, :2], axis=1) < NEAR
+    found = fit(some(train, near))
+    used, far = rms(found.residuals[0].values), rms(found.errors(some(train, ~near))[0].values)
+    print(f"fitted to tips within {1e3 * NEAR:.0f} mm of the axis to {used:.2f} mm RMS")
+    print(f"predicts the others to {far:.2f} mm\n")
+
+
+def some(train: Path, chosen: np.ndarray) -> Poses:
+    """Return some of the poses of a file."""
+    told = poses(train)
+    return Poses(
+        np.asarray(told.command)[chosen], tip=np.asarray(told.tip)[chosen], pulled=True,
+        name=told.name,
+    )  # fmt: skip
+
+
 def rows(train: Path, test: Path | None, out: Path | None = None) -> list[Row]:
     """Return the row of the table."""
     used = poses(train)
@@ -99,8 +119,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--train", type=Path, required=True, help="poses to fit")
     parser.add_argument("--test", type=Path, help="poses to predict")
+    parser.add_argument("--far", action="store_true", help="predict large bends from small ones")
     parser.add_argument("--out", type=Path, help="a picture of the fit")
     given = parser.parse_args()
+    if given.far:
+        near_and_far(given.train)
     script(lambda: rows(given.train, given.test, given.out))
 
 
