@@ -10,7 +10,7 @@ IN_VENV := PATH="$(CURDIR)/$(VENV)/bin:$$PATH"
 SPHINX := python -m sphinx -W --keep-going -q
 
 .NOTPARALLEL:
-.PHONY: help demo test lint format bench bench-smoke view-test wheel docs docs-links asan tsan fuzz builds lock audit clean setup setup-dev setup-docs test-cpp types test-python
+.PHONY: help demo test lint format validate bench bench-smoke view-test wheel docs docs-links asan tsan fuzz builds lock audit clean setup setup-dev setup-docs test-cpp types test-python
 
 help: ## list the commands
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -30,6 +30,11 @@ lint: setup-dev ## style and static analysis: clang-format, clang-tidy, ruff, my
 
 format: setup-dev ## rewrite all sources in the project's style
 	@$(IN_VENV) tools/format.sh
+
+# Where measurements and results of others are: validation/README.md says which.
+DATA ?= validation/data
+validate: setup-dev ## the table of how true it is, of the sources whose data are in DATA=FOLDER
+	@$(IN_VENV) python validation/all.py $(DATA)
 
 bench: setup-dev ## build and run the benchmarks
 	@$(IN_VENV) cmake --preset bench

@@ -228,6 +228,15 @@ def test_fit(example: Example) -> None:
     assert found["deviation"] == pytest.approx(found["NOISE"], rel=0.15)
 
 
+def test_fit_from_poses(example: Example) -> None:
+    found = example(16)
+    modulus, tilt = found["found"].estimates[:2]
+    assert abs(modulus.value - found["TRUE"][0]) < 4.5 * modulus.standard_error
+    assert abs(tilt.value - found["TRUE"][1]) < 4.5 * tilt.standard_error
+    # What was promised at the data sheet's numbers, within how far these are off.
+    assert found["error"] == pytest.approx(modulus.standard_error, rel=0.4)
+
+
 def test_sweep(example: Example) -> None:
     found = example(10)
     model, rest = found["model"], found["rest"]

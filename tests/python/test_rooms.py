@@ -12,6 +12,7 @@ TOPS = {
     *("bench", "bindings", "cmake", "cpp", "docs", "examples", "licenses", "packaging", "python"),
     "tests",
     "tools",
+    "validation",
 }
 MADE = {"build", "dist", "out"}  # by make, and in .gitignore
 MOST = 16  # modules at the top of the package

@@ -15,6 +15,7 @@ from cdcr.cli import (
     doctor,
     export,
     figures,
+    identify,
     info,
     info_json,
     new,
@@ -35,7 +36,7 @@ app = typer.Typer(
     rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-for group in (sweep, validate, schema, doctor, export, view):
+for group in (sweep, validate, schema, doctor, export, identify, view):
     app.add_typer(group.commands)
 
 

@@ -35,6 +35,7 @@ GIVES = {
     "cli": "the command cdcr",
     "track": "motions from samples",
     "control": "python-control",
+    "identify": "parameters from measurements",
     "gym": "environments of Gymnasium",
     "mcap": "logs for Foxglove",
     "view": "the live view in the browser",

@@ -77,7 +77,15 @@ def _rgb(frame: Frame) -> Image.Image:
 def _write_mp4(path: Path, frames: Iterator[Frame], fps: float) -> None:
     first = next(frames)
     height, width, _ = first.shape
-    command = [find_ffmpeg() or "ffmpeg", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgba"]
+    command = [
+        find_ffmpeg() or "ffmpeg",
+        "-loglevel",
+        "error",
+        "-f",
+        "rawvideo",
+        "-pix_fmt",
+        "rgba",
+    ]
     command += ["-s", f"{width}x{height}", "-r", f"{fps:.12g}", "-i", "-"]
     command += ["-c:v", "h264", "-pix_fmt", "yuv420p"]  # what every player understands
     command += ["-f", "mp4", "-y", str(path)]
