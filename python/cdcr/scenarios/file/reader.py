@@ -123,7 +123,7 @@ def _of_model(table: Mapping[str, Any], model: Model, file: Path, t_end: float) 
     if "initial" in table or "q0" not in given:
         with faults.kept():
             command = _first_command(given)
-            q0, qd0 = read_start(table.get("initial", {}), model.num_sections, command, file)
+            q0, qd0 = read_start(table.get("initial", {}), model, command, file)
             given |= {"q0": q0, "qd0": qd0}
     faults.done()
     return given
@@ -204,7 +204,7 @@ def _input(table: Mapping[str, Any], model: Model, file: Path) -> dict[str, Any]
     if "trajectory" in table:
         t_end = table["t_end"]
         motion = read_trajectory(table["trajectory"], model, t_end, file)
-        motion.check(np.linspace(0.0, t_end, NUM_CHECKED))
+        motion.check(model, np.linspace(0.0, t_end, NUM_CHECKED))
         q0, qd0 = motion.start()
         fields = {
             "input_source": motion,
