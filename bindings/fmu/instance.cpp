@@ -207,7 +207,9 @@ MatrixXd Instance::partials() {
     of(Kind::tip_rotation).col(k) = omega_R.transpose().reshaped();
   }
 
-  const MatrixXd length_by_q = -model_.actuation_matrix().transpose();
+  MatrixXd actuation(d, m);
+  actuation_matrix(model_, q, actuation);
+  const MatrixXd length_by_q = -actuation.transpose();
   of(Kind::cable_length).leftCols(d) = length_by_q;
   for (Index j = 0; j < m; ++j) {
     auto tension = of(Kind::cable_tension).row(j);

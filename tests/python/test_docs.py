@@ -32,7 +32,10 @@ MODULES = (
     _core,
 )
 # What says what kind of number it is: a unit in brackets, or words in place of one.
-UNIT = re.compile(r"\[[^\]]+\]|unit of `q`|radians|rotation matri|indices|whether", re.I)
+# The class Model says once what coordinates are measured in.
+UNIT = re.compile(
+    r"\[[^\]]+\]|unit of `q`|coordinates|in rad|radians|rotation matri|indices|whether", re.I
+)
 ARRAY = re.compile(r"\b(array|ndarray|array_like)\b")
 SHAPE = re.compile(r"\([^()]*\)")
 

@@ -119,12 +119,12 @@ class RobotEnv(gymnasium.Env[Observation, Action]):
 
     @property
     def q(self) -> FloatArray:
-        """Coordinates (d,)."""
+        """Coordinates (d,) [rad, m]."""
         return np.array(self._task.q[0])
 
     @property
     def qd(self) -> FloatArray:
-        """Their rates (d,)."""
+        """Their rates (d,) [rad/s, m/s]."""
         return np.array(self._task.qd[0])
 
     @property

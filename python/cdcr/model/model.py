@@ -156,7 +156,7 @@ class Model(StateSpaceModel):
             Cable tensions [N]; lengths [m] for cables driven by length. None: no tension, the
             lengths of the straight robot.
         q0 : (d,) array_like, optional
-            Where to start; by default the answer without gravity.
+            Where to start [rad, m]; by default the answer without gravity.
         wrenches : Wrench or sequence of Wrench, optional
             Constant forces and moments on the backbone.
         throw : bool, optional
@@ -195,7 +195,7 @@ class Model(StateSpaceModel):
         Parameters
         ----------
         q : (..., d) array_like
-            The shape, at rest there or held; or an array of shapes.
+            The shape, at rest there or held [rad, m]; or an array of shapes.
         tension : (..., num_cables) array_like, optional
             Cable tensions [N]; lengths [m] for cables driven by length. None: as in `equilibrium`.
         wrenches : Wrench or sequence of Wrench, optional
@@ -273,7 +273,7 @@ class Model(StateSpaceModel):
             section; the search takes any cables. Both give the same; by default the first is taken
             where it applies.
         q : (d,) array_like, optional
-            Where the robot is; to be given where the actuation matrix depends on it.
+            Where the robot is [rad, m]; to be given where the actuation matrix depends on it.
         throw : bool, optional
             False: return all that was found, the nearest tensions where none give that force. The
             old name of that is `find_tension`.
@@ -319,7 +319,7 @@ class Model(StateSpaceModel):
         R : (3, 3) array_like, optional
             Tip orientation in the base frame, a rotation matrix.
         q0 : (d,) array_like, optional
-            Where to start first.
+            Where to start first [rad, m].
         max_theta : float or (n,) array_like, optional
             Largest bending angle, of all or of each section [rad]; by default 2 pi.
         orientation_weight : float, optional

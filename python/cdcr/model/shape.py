@@ -21,7 +21,8 @@ class ShapeModel(_core.Model):
     def bending_vectors(self, q: ArrayLike) -> FloatArray:
         """Bending vector of each section, the first one where its bending varies.
 
-        Integrated over a section that does not twist, bending of any order is that of this vector.
+        Integrated over a section that does not twist, bending of any order is that of this vector,
+        cpp/rods.md eq. (51).
 
         Parameters
         ----------
@@ -101,7 +102,7 @@ class ShapeModel(_core.Model):
         Returns
         -------
         (..., d) array
-            With these as first bending vectors, and zeros.
+            Coordinates with these as first bending vectors, and zeros.
 
         Raises
         ------

@@ -91,7 +91,7 @@ class InverseRun(ReadOnlyArrays):
 
     @property
     def q(self) -> FloatArray:
-        """Coordinates asked for (N, d)."""
+        """Coordinates asked for (N, d) [rad, m]."""
         return self.reference.q
 
     @cached_property
