@@ -40,8 +40,9 @@ class CablePath {
     for (std::size_t i = 0; i < rubbing_.size(); ++i) {
       const auto k = static_cast<std::size_t>(first_) + i;
       const Index at = chain.first[k];
-      tension = rubbing_[i].pull(*chain.sections[k].rod, q + at, qd + at, friction[k],
-                                 sliding_speed, tension, rate, force + at);
+      tension =
+          rubbing_[i].pull(*chain.sections[k].rod, q + at, qd + at, friction[k], sliding_speed,
+                           tension, rate, i + 1 == rubbing_.size(), force + at);
       if (beyond_sections != nullptr) beyond_sections[k] = tension;
     }
   }

@@ -15,10 +15,11 @@ class RubbingPath {
 
   /// Adds the generalised force of a cable with this `tension` where it enters the rod, and gives
   /// the tension where it leaves. `rate` is that of the cable's length from the rod's base to its
-  /// own end [m/s], and becomes that from the rod's tip. Real-time safe.
+  /// own end [m/s], and becomes that from the rod's tip; where the cable `ends` there, it slides in
+  /// the last stretch as before it. Real-time safe.
   template <class S>
   S pull(const RodParameters& rod, const S* q, const S* qd, double mu, double sliding_speed,
-         S tension, S& rate, S* force) const {
+         S tension, S& rate, bool ends, S* force) const {
     using std::exp;
     using std::sqrt;
     using std::tanh;
@@ -26,14 +27,17 @@ class RubbingPath {
     S turning[max_nodes];
     for (int i = 0; i < num_points; ++i) turning[i] = turning_at(rod, points_[i], q);
     S turned(0.0);
-    const auto rub = [&](const S& until) {  // on the way to where the path has turned so far
+    // On the way to where the path has turned so far.
+    const auto rub = [&](const S& until, const S& speed) {
       const S share = until - turned;
-      if (share > 0.0) tension *= exp(S(mu * share * tanh(S(rate / sliding_speed))));
+      if (share > 0.0) tension *= exp(S(mu * share * tanh(S(speed / sliding_speed))));
       turned = until;
     };
+    S before = rate;
     for (int i = 0; i < num_points; ++i) {
       const Point& point = points_[i];
-      rub(sum_of(point.before, turning));
+      rub(sum_of(point.before, turning), rate);
+      before = rate;
       const Slope<S> s(rod, point, q, rod.length, rod.locked_turning);
       const S length = sqrt(s.x * s.x + s.y * s.y + s.z * s.z);
       const Slope<S> changes(rod, point, qd, 0.0, Vector3d::Zero(), 0.0);
@@ -51,7 +55,7 @@ class RubbingPath {
         force[rod.first_stretch + j] -= point.legendre[j] * on_bending;
       }
     }
-    rub(sum_of(weights_, turning));
+    rub(sum_of(weights_, turning), ends ? before : rate);
     return tension;
   }
 
