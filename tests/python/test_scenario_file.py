@@ -331,6 +331,7 @@ def test_a_missing_scenario_file(tmp_path: Path) -> None:
 
 def test_two_sections_want_two_angles(tmp_path: Path) -> None:
     table = {"theta_deg": [90.0, 180.0], "phi_deg": [0.0, 90.0]}
-    q0, qd0 = read_start(table, 2, None, tmp_path)
+    model = cdcr.Model(cdcr.robots.amouri2020().subdivide(2))
+    q0, qd0 = read_start(table, model, None, tmp_path)
     assert q0 == pytest.approx((math.pi / 2, 0.0, 0.0, math.pi), abs=1e-15)
     assert qd0 == (0.0,) * 4

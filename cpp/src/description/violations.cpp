@@ -177,16 +177,17 @@ void check_section(const Section& s, const std::string& in, Check& check) {
 
 /// Values at the base and the tip of each section that a cable passes.
 template <class CheckOne>
-void check_pairs(const std::string& item, const std::vector<std::array<double, 2>>& pairs,
-                 long long num_passed, Check& check, const CheckOne& check_one) {
+void check_pairs(const std::string& in, const std::string& name,
+                 const std::vector<std::array<double, 2>>& pairs, long long num_passed,
+                 Check& check, const CheckOne& check_one) {
   const auto count = static_cast<long long>(pairs.size());
   if (count != 0 && num_passed > 0 && count != num_passed) {
-    check.refuse("the number of (base, tip) pairs of " + item,
+    check.refuse(in + "the number of (base, tip) pairs of " + name,
                  std::to_string(num_passed) + ", one for each section passed", count);
   }
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     for (std::size_t end = 0; end < 2; ++end) {
-      check_one(indexed(indexed(item, k), end), pairs[k][end]);
+      check_one(indexed(indexed(in + name, k), end), pairs[k][end]);
     }
   }
 }
@@ -208,8 +209,8 @@ void check_cable(const Cable& cable, const std::string& in, long long last, Chec
   };
   if (cable.radii.empty()) radius(in + "radius", cable.radius);
   if (cable.angles.empty()) angle(in + "angle", cable.angle);
-  check_pairs(in + "radius", cable.radii, num_passed, check, radius);
-  check_pairs(in + "angle", cable.angles, num_passed, check, angle);
+  check_pairs(in, "radius", cable.radii, num_passed, check, radius);
+  check_pairs(in, "angle", cable.angles, num_passed, check, angle);
   check.not_negative(in + "stiffness", cable.stiffness, "N/m");
   check.not_negative(in + "damping", cable.damping, "N s/m");
   if (cable.friction) check.not_negative(in + "friction", *cable.friction, "");

@@ -12,6 +12,8 @@ from typing import Any
 
 import numpy as np
 
+from cdcr import _core
+
 _C_INT = 2**31 - 1  # largest count that the core can be told
 _IN_WORDS = {3: "three", 4: "four"}
 _NO_NUMBERS = (bool, np.timedelta64)  # although Python and NumPy count them among these
@@ -168,7 +170,9 @@ class Check:
             return self.things(item, value, requirement, kind)
         if kind in ("number or none", "whole or none", "order") and value is None:
             return None
-        if kind in ("whole", "whole or none", "order", "section"):
+        if kind == "order":
+            return self.whole(item, value, requirement, 0, _core.max_order)
+        if kind in ("whole", "whole or none", "section"):
             return self.whole(item, value, requirement)
         if kind == "numbers":
             return self.numbers(item, value, requirement, about["each"])

@@ -104,7 +104,7 @@ def _along(cable: Cable, which: int) -> str:
 
 def _ends(pair: tuple[float, float], which: int) -> str:
     base, tip = (f"{math.degrees(x):.4g}" if which else _text(x) for x in pair)
-    return base if base == tip else f"{base} to {tip}"
+    return base if base == tip else f"{base}→{tip}"
 
 
 def _drives(robot: Robot) -> Iterator[str]:

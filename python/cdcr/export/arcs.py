@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Any
 
 from cdcr.base.check import entry
 from cdcr.robot.cable import Cable
@@ -39,14 +40,17 @@ def _solid(section: Section) -> Section:
     """Return a section whose stiffness, inertia and damping need no other fields."""
     # I_t = m (d^2 + d_i^2)/16 of a slice of a tube.
     diameter = math.hypot(section.diameters[0], section.backbone_inner_diameter)
+    unused: dict[str, Any] = {
+        **dict.fromkeys(("shear_modulus", "twist_stiffness", "stretch_stiffness")),
+        **dict.fromkeys(("twist_damping", "stretch_damping", "material_damping"), 0.0),
+    }
     found = replace(
         section,
         backbone_diameter=diameter,
         backbone_inner_diameter=0.0,
         bending_stiffness=None,
         damping=section.damping + section.material_damping * section.stiffness,
-        **{name: None for name in ("shear_modulus", "twist_stiffness", "stretch_stiffness")},
-        **{name: 0.0 for name in ("twist_damping", "stretch_damping", "material_damping")},
+        **unused,
     )
     if found.stiffness == section.stiffness:
         return found

@@ -29,8 +29,8 @@ from cdcr.robot.section import Section
 LIBRARY = Path(_core.__file__).with_name("_fmu.so")
 # Where FMI has the shared object of a machine; FMI 2 names no folder for other processors.
 _FOLDERS = {2: {"x86_64": "linux64"}, 3: {"x86_64": "x86_64-linux", "aarch64": "aarch64-linux"}}
-# What bindings/fmu/setup_file.cpp does not read: tables of their own, and fields that solid arcs and
-# straight cables from the base leave at their defaults.
+# What bindings/fmu/setup_file.cpp does not read: tables of their own, and fields that solid arcs
+# and straight cables from the base leave at their defaults.
 _LEFT_OUT = {
     *("sections", "cables", "bending_order", "twist_order", "stretch_order", "start_section"),
     *("backbone_inner_diameter", "shear_modulus", "bending_stiffness", "twist_stiffness"),

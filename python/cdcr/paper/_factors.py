@@ -186,7 +186,7 @@ def inertia_and_slopes(
     if printed:  # E5: l I_b [m^5]
         rod_inertia = section.length * section.second_moment_of_area
     else:
-        rod_inertia = section.backbone_mass * section.backbone_diameter**2 / 16.0
+        rod_inertia = section.backbone_mass * section.diameters[0] ** 2 / 16.0
     disk_inertia = section.disk_mass * section.disk_diameter**2 / 16.0
     parts = (
         (rod(), section.backbone_mass, rod_inertia),

@@ -17,8 +17,6 @@ from cdcr.robot.cable import Cable
 from cdcr.robot.section import Section
 
 if TYPE_CHECKING:
-    from pydantic import BaseModel
-
     from cdcr.robot.robot import Robot
 
 _HEAD = """\
@@ -52,15 +50,18 @@ def robot_from_table(kind: type[Robot], table: Mapping[str, Any], where: str) ->
     refuse(where, schema_errors(table_of(kind), table))  # type: ignore[arg-type]
     found: list[str] = []
     for i, section in enumerate(table["sections"]):
-        found += _table_errors(table_of(Section), section, entry("sections", i), "cable_angles")
+        found += _table_errors(Section, section, entry("sections", i))
     num_sections = len(table["sections"])
     for j, cable in enumerate(table.get("cables", [])):
         at = entry("cables", j)
-        wrong = _table_errors(table_of(Cable), cable, at, "angle")
+        wrong = _table_errors(Cable, cable, at)
         if not wrong and cable["end_section"] > num_sections:
             requirement = f"the number of a section, 1 to {num_sections}"
             end = format_toml(cable["end_section"])
             wrong.append(f"{at}: end_section must be {requirement}, got {end}")
+        if not wrong and cable.get("start_section", 1) > cable["end_section"]:
+            requirement = f"at most end_section, {cable['end_section']}"
+            wrong.append(f"{at}: start_section must be {requirement}, got {cable['start_section']}")
         if isinstance(cable, dict) and not {"angle", "angle_deg"} & cable.keys():
             wrong.append(f"{at} must have angle [rad] or angle_deg [deg]")
         found += wrong
@@ -81,12 +82,18 @@ def robot_from_table(kind: type[Robot], table: Mapping[str, Any], where: str) ->
     return kind(**robot | described)
 
 
-def _table_errors(schema: type[BaseModel], table: Any, at: str, angle: str) -> list[str]:
+def _table_errors(kind: type[Section | Cable], table: Any, at: str) -> list[str]:
     """Return a sentence for each thing that is wrong with the table of a section or a cable."""
+    from cdcr.robot.schema import table_of
+
     if not isinstance(table, dict):
         return [f"{at} must be a table, got {format_toml(table)}"]
+    # mypy asks of a class what it asks of its objects: that they can be hashed.
+    schema = table_of(kind)  # type: ignore[arg-type]
     wrong = [f"{at}: {sentence}" for sentence in schema_errors(schema, table)]
-    return wrong + doubled(table, at, angle)
+    for item in fields(kind):
+        wrong += doubled(table, at, item.name)
+    return wrong
 
 
 def doubled(table: Mapping[str, Any], at: str, name: str) -> list[str]:
@@ -101,8 +108,12 @@ def _fields_of(kind: type[Section | Cable], table: Mapping[str, Any]) -> dict[st
         values["end_section"] -= 1  # counted from 1 in files
         values["start_section"] = table.get("start_section", 1) - 1
     for item in fields(kind):
-        if item.metadata["kind"] == "order" and values[item.name] == "locked":
+        value = values[item.name]
+        if item.metadata["kind"] == "order" and value == "locked":
             values[item.name] = None
+        if item.metadata["kind"] == "route" and isinstance(value, list):
+            alone = not any(isinstance(one, list) for one in value)
+            values[item.name] = [value] if alone else value  # the pair of one section
     return values
 
 
@@ -207,10 +218,13 @@ def _is_written(thing: Robot | Section | Cable, item: Field[Any], all_fields: bo
         return False
     if item.name == "num_disks" and isinstance(thing, Section) and thing.disk_positions:
         return False
+    value = getattr(thing, item.name)
+    if value is None and item.metadata["kind"] != "order":
+        return False  # which TOML has no word for
     if all_fields or not item.metadata["advanced"]:
         return True
     # repr tells -0.0 from 0.0, which are equal.
-    return repr(getattr(thing, item.name)) != repr(item.default)
+    return repr(value) != repr(item.default)
 
 
 def _toml_value(value: object) -> str:

@@ -55,7 +55,8 @@ def _with_limits(schema: Schema, kind: type[Any]) -> Schema:
                 if item.default == 0 and "exclusiveMinimum" in key:  # it stands for none
                     key["minimum"] = key.pop("exclusiveMinimum")
                 if item.default is not MISSING and item.default is not None and not suffix:
-                    key["default"] = item.default
+                    counted_from_1 = item.metadata["kind"] == "section"
+                    key["default"] = item.default + 1 if counted_from_1 else item.default
     return schema
 
 

@@ -13,6 +13,8 @@ from typing import Annotated, Any, Literal
 
 import pydantic
 
+from cdcr import _core
+
 _Int = Annotated[int, pydantic.Field(ge=-(2**31), lt=2**31)]  # what the core can be told
 _Three = Annotated[list[float], pydantic.Field(min_length=3, max_length=3)]
 _Rows = Annotated[list[_Three], pydantic.Field(min_length=3, max_length=3)]
@@ -23,7 +25,7 @@ _TYPES: dict[str, Any] = {
     "number": float,
     "number or none": float,
     "whole": _Int,
-    "order": _Int | Literal["locked"],
+    "order": Annotated[int, pydantic.Field(ge=0, le=_core.max_order)] | Literal["locked"],
     "whole or none": _Int,
     "number or pair": float | _Pair,
     "pair": _Pair,

@@ -131,7 +131,7 @@ class Section:
     backbone_diameter: float | Pair = quantity(
         "of the round backbone",
         "m",
-        "> 0",
+        "a number > 0 m and finite, or one (base, tip) pair",
         kind="number or pair",
         each="a number in m",
     )

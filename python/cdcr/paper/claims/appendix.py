@@ -48,7 +48,7 @@ def backbone_range() -> Claim:
 
 def material_range() -> Claim:
     """Find the strain at the backbone's skin, d_b theta/(2 l), and the tension r F = K theta."""
-    strain = 100.0 * SECTION.backbone_diameter * EDGE / (2.0 * SECTION.length)
+    strain = 100.0 * SECTION.diameters[0] * EDGE / (2.0 * SECTION.length)
     tension = SECTION.stiffness * EDGE / SECTION.cable_radius
     return Claim(
         where="4.1.1",
@@ -106,7 +106,7 @@ def kinetic_energy_terms() -> Claim:
 
 def disk_diameter() -> Claim:
     """Evaluate m_d d^2/16 with either meaning of d_b."""
-    wrong = SECTION.disk_mass * SECTION.backbone_diameter**2 / 16.0
+    wrong = SECTION.disk_mass * SECTION.diameters[0] ** 2 / 16.0
     return Claim(
         where="Nomenclature",
         claim="d_b is the diameter of the backbone, and again the diameter of the disk.",

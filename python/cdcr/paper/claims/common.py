@@ -25,7 +25,7 @@ PULL = 5.0  # the tension on cable 1 of Fig. 9 [N]
 PRINTED_ANGLE = 15.53  # where Fig. 9 settles, by the text [deg]
 
 # Of a rod slice per rod and of a thin disk about a diameter [kg m^2].
-ROD_INERTIA = SECTION.backbone_mass * SECTION.backbone_diameter**2 / 16.0
+ROD_INERTIA = SECTION.backbone_mass * SECTION.diameters[0] ** 2 / 16.0
 DISK_INERTIA = SECTION.disk_mass * SECTION.disk_diameter**2 / 16.0
 
 # Of formulas that say the same, each in its own order of operations: some hundred roundings.
