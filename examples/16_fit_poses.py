@@ -17,7 +17,6 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import cdcr
-from cdcr import identification
 
 # %%
 # What is known, and the arm that is measured
@@ -56,7 +55,7 @@ def tips(pulls):
 paths = ["sections[*].youngs_modulus", "base tilt"]
 asked = dict.fromkeys(paths)
 could = draw.uniform(0.0, 3.0, (200, 6)) * (draw.uniform(size=(200, 6)) < 0.4)
-design = identification.informative_commands(known, asked, could, noise=NOISE, number=10)
+design = cdcr.identification.informative_commands(known, asked, could, noise=NOISE, number=10)
 error = design.standard_error[-1, 0]
 print(f"ten chosen pulls promise {error / 1e9:.2f} GPa")
 
@@ -64,8 +63,8 @@ print(f"ten chosen pulls promise {error / 1e9:.2f} GPa")
 # The fit, and pulls that it has not seen
 # ---------------------------------------
 
-by_choice = identification.Poses(design.command, tip=tips(design.command), noise=NOISE)
-by_chance = identification.Poses(could[:30], tip=tips(could[:30]), noise=NOISE)
+by_choice = cdcr.identification.Poses(design.command, tip=tips(design.command), noise=NOISE)
+by_chance = cdcr.identification.Poses(could[:30], tip=tips(could[:30]), noise=NOISE)
 found = cdcr.identify(by_choice, known, asked)
 other = cdcr.identify(by_chance, known, asked)
 print(f"and give {found[paths[0]] / 1e9:.2f} +- {found.estimates[0].standard_error / 1e9:.2f} GPa")

@@ -18,7 +18,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-from common import FloatArray, Row, read_columns, rms, script, watch
+from common import FloatArray, Row, amplitude, read_columns, rms, script, watch
 
 import cdcr
 from cdcr.identification import Identified, Motion, Poses
@@ -138,9 +138,8 @@ def driven(folder: Path, name: str) -> Motion:
 
 
 def largest(motion: Motion) -> float:
-    """Return how far the tip goes from where it ends [mm]."""
-    tip = np.asarray(motion.tip)
-    return float(1e3 * np.linalg.norm(tip - tip[-1], axis=1).max())
+    """Return how far the tip goes from its mean place [mm]."""
+    return amplitude(np.asarray(motion.tip))
 
 
 def errors(found: Identified, motions: Sequence[Motion]) -> list[float]:

@@ -82,6 +82,11 @@ def rms(difference: FloatArray) -> float:
     return float(1e3 * np.sqrt(np.mean(np.sum(difference**2, axis=-1))))
 
 
+def amplitude(tip: FloatArray) -> float:
+    """Return the largest distance of places (N, 3) [m] from their mean, in mm."""
+    return float(1e3 * np.linalg.norm(tip - tip.mean(axis=0), axis=1).max())
+
+
 @contextmanager
 def watch() -> Iterator[list[float]]:
     """Yield a list that holds the processor time afterwards [s]."""

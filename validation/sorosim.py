@@ -14,7 +14,7 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 
 import numpy as np
-from common import FloatArray, Row, rms, script, watch
+from common import FloatArray, Row, amplitude, rms, script, watch
 
 import cdcr
 
@@ -97,9 +97,7 @@ def run(path: Path, parts: int, order: int | None) -> tuple[float, float, float,
         q0 = model.equilibrium(wrenches=told.wrenches)
         qd0 = np.zeros(model.num_coordinates)
         moved = cdcr.simulate(model, q0, qd0, t=told.t, throw=True)
-    still = told.tip[-1]
-    amplitude = float(1e3 * np.linalg.norm(told.tip - still, axis=1).max())
-    return rms(moved.tip - told.tip), amplitude, spent[0], model.num_coordinates
+    return rms(moved.tip - told.tip), amplitude(told.tip), spent[0], model.num_coordinates
 
 
 def rows(paths: list[Path], parts: int, order: int) -> list[Row]:
@@ -116,11 +114,11 @@ def rows(paths: list[Path], parts: int, order: int) -> list[Row]:
         chosen = [file for file in files if file.name.startswith("TPU") == (rod is TPU)]
         for name, kind in kinds if chosen else ():
             every = np.array([run(file, parts, kind) for file in chosen])
-            error, amplitude = np.sqrt(np.mean(every[:, 0] ** 2)), every[:, 1].mean()
+            error, far = np.sqrt(np.mean(every[:, 0] ** 2)), every[:, 1].mean()
             found.append(
                 Row(
                     f"SoRoSim, {rod.name} let go ({len(chosen)} runs)", name, 0, np.nan,
-                    float(error), float(100.0 * error / amplitude), "amplitude",
+                    float(error), float(100.0 * error / far), "amplitude",
                     int(every[0, 3]), float(every[:, 2].sum()),
                 )
             )  # fmt: skip

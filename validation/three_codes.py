@@ -13,7 +13,7 @@ from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
-from common import FloatArray, Row, read_columns, rms, script, watch
+from common import FloatArray, Row, amplitude, read_columns, rms, script, watch
 
 import cdcr
 
@@ -69,10 +69,9 @@ def rows(folder: Path, parts: int) -> list[Row]:
                 still = np.zeros(model.num_coordinates)
                 run = cdcr.simulate(model, still, still, t=t, tension=[1.0, 1.0], throw=True)
             error = rms(run.tip - tip)
-            amplitude = 1e3 * float(np.linalg.norm(tip - tip[0], axis=1).max())
             found.append(
                 Row(f"two pulled links, beside {code}", name, 0, np.nan, error,
-                    100.0 * error / amplitude, "amplitude", model.num_coordinates, spent[0])
+                    100.0 * error / amplitude(tip), "amplitude", model.num_coordinates, spent[0])
             )  # fmt: skip
     return found
 
