@@ -11,7 +11,7 @@ import cdcr
 
 pytest.importorskip("matplotlib")
 
-from cdcr.plotting import plot_robot
+from cdcr.plotting import plot_robot, plot_run
 from cdcr.plotting.geometry import robot_shape
 
 ROUNDING = 1e-12  # sums of products of numbers of about 1, in metres
@@ -109,3 +109,13 @@ def test_a_rod_lives_in_the_view() -> None:
     assert robot.message == ""
     rest = cdcr.Model(rod).equilibrium([2.0])
     assert 0.0 < robot.q[twist] / rest[twist] < 2.0
+
+
+def test_runs_of_rods_have_panels_of_twist_and_stretch() -> None:
+    zero = np.zeros(MODEL.num_coordinates)
+    run = cdcr.simulate(MODEL, BENT, zero, t=np.linspace(0.0, 0.01, 5))
+    axes = {panel.get_ylabel(): panel for panel in plot_run(run).axes}
+    twist, stretch = axes["twist [deg]"].lines, axes["stretch [mm]"].lines
+    np.testing.assert_array_equal(twist[0].get_ydata(), np.rad2deg(run.q[:, TWIST]))
+    np.testing.assert_array_equal(stretch[0].get_ydata(), 1e3 * run.q[:, STRETCH])
+    assert (len(twist), len(stretch)) == (1, 2)

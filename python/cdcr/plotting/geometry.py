@@ -170,12 +170,6 @@ def _path(cable: Cable, guides: list[_Guides]) -> FloatArray:
     return np.array(points)
 
 
-def widest(cable: Cable) -> float:
-    """Return the largest distance of a cable from the backbone [m]."""
-    passed = range(cable.start_section, cable.end_section + 1)
-    return max(max(cable.route(section)[0]) for section in passed)
-
-
 def base_frame(robot: Robot) -> tuple[FloatArray, FloatArray]:
     """Return R (3, 3) and p (3,) [m] of the frame in which the first section begins."""
     return np.array(robot.base_orientation), np.array(robot.base_position)
@@ -190,12 +184,12 @@ def _tool(robot: Robot, R: FloatArray, p: FloatArray) -> list[FloatArray]:
 def base_plate(model: Posed) -> FloatArray:
     """Return the rim (48, 3) of a plate that is wider than anything that stands on it [m]."""
     robot = model.robot
-    reach = max(
+    widest = max(
         [section.length / 50 for section in robot.sections]
         + [disk.diameter / 2 for section in robot.sections for disk in section.disks]
-        + [widest(cable) for cable in robot.all_cables]
+        + [cable.farthest for cable in robot.all_cables]
     )
-    return _circle(1.5 * reach, *base_frame(robot))
+    return _circle(1.5 * widest, *base_frame(robot))
 
 
 def _circle(radius: float, R: FloatArray, p: FloatArray) -> FloatArray:

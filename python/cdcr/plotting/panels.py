@@ -10,7 +10,6 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from cdcr.base.arrays import FloatArray
-from cdcr.plotting.geometry import widest
 from cdcr.plotting.style import ALARM, BLACK, COLORS, GREY, StyledFigure, line_colors, style
 
 if TYPE_CHECKING:
@@ -190,7 +189,7 @@ def plot_tension(axes: Axes, run: Trajectory) -> None:
     if model.num_cables > 1:
         legend_above(axes, model.num_cables)
     axes.set_ylabel("tension [N]")
-    radius = max((widest(cable) for cable in model.robot.all_cables), default=1.0)
+    radius = max((cable.farthest for cable in model.robot.all_cables), default=1.0)
     top = max(MIN_TENSION * _stiffness(model) / radius, np.max(run.tension, initial=0.0))
     axes.set_ylim(-0.05 * top, 1.08 * top)  # a line along zero stays clear of the frame
     if not run.model.num_cables:

@@ -11,7 +11,6 @@ import numpy as np
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray
-from cdcr.plotting.geometry import widest
 from cdcr.plotting.panels import is_damped
 
 if TYPE_CHECKING:
@@ -231,11 +230,11 @@ def command_ranges(model: LiveModel, commands: FloatArray) -> list[tuple[float, 
     for j, cable in enumerate(model.robot.all_cables):
         passed = model.robot.sections[cable.start_section : cable.end_section + 1]
         if cable.length_driven:
-            stroke = widest(cable) * MOST_BENT
+            stroke = cable.farthest * MOST_BENT
             low, high = max(0.0, rest[j] - stroke), rest[j] + stroke / 10.0
         else:
             softest = min(section.stiffness for section in passed)
-            low, high = 0.0, round_up(softest * MOST_BENT / widest(cable))
+            low, high = 0.0, round_up(softest * MOST_BENT / cable.farthest)
         column = commands[:, j]
         ranges.append((min(low, *column), max(high, *column)))
     return ranges
