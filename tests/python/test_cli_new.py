@@ -180,7 +180,7 @@ def test_a_file_must_be_one_that_run_takes(tmp_path: Path) -> None:
 
 def file_scenarios() -> list[str]:
     found = [one for one in cdcr.scenarios.names() if cdcr.scenarios.get(one).has_run]
-    assert len(found) == 11
+    assert len(found) == 12
     return found
 
 

@@ -37,6 +37,20 @@ FULL: dict[str, Any] = REQUIRED | {
     "cable_damping": 2.0,
     "cable_friction": 0.1,
     "damping": 1e-3,
+    "bending_order": 0,
+    "twist_order": None,
+    "stretch_order": None,
+    "backbone_inner_diameter": 0.0,
+    "shear_modulus": None,
+    "bending_stiffness": None,
+    "twist_stiffness": None,
+    "stretch_stiffness": None,
+    "twist_damping": 0.0,
+    "stretch_damping": 0.0,
+    "material_damping": 0.0,
+    "rest_bending": (0.0, 0.0),
+    "rest_twist": 0.0,
+    "nodes": None,
 }
 NUMBERS = [name for name in FULL if isinstance(FULL[name], float)]
 
@@ -56,6 +70,20 @@ def test_defaults() -> None:
         "cable_damping": 0.0,
         "cable_friction": 0.0,
         "damping": 0.0,
+        "bending_order": 0,
+        "twist_order": None,
+        "stretch_order": None,
+        "backbone_inner_diameter": 0.0,
+        "shear_modulus": None,
+        "bending_stiffness": None,
+        "twist_stiffness": None,
+        "stretch_stiffness": None,
+        "twist_damping": 0.0,
+        "stretch_damping": 0.0,
+        "material_damping": 0.0,
+        "rest_bending": (0.0, 0.0),
+        "rest_twist": 0.0,
+        "nodes": None,
     }
     robot = cdcr.Robot(sections=[section])
     assert (robot.gravity, robot.payload) == ((0.0, 0.0, 0.0), 0.0)
@@ -164,7 +192,7 @@ def test_refusals_name_the_ranges_of_the_core(name: str) -> None:
     wanted = {f.name: f.metadata["requirement"] for f in dataclasses.fields(cdcr.Section)}[name]
     for value in (math.nan, math.inf, -1.0):
         (sentence,) = refusal(cdcr.Section, **FULL | {name: value})
-        allowed = wanted.removeprefix("a number ")
+        allowed = wanted.removeprefix("a number ").removesuffix(", or one (base, tip) pair")
         assert sentence == f"{name} must be {allowed}, got {value:g}"
 
 

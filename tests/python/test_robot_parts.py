@@ -30,6 +30,7 @@ CABLE: dict[str, Any] = {
     "stiffness": 1e4,
     "damping": 2.0,
     "friction": 0.1,
+    "start_section": 0,
 }
 TILTED = [[0, 0, 1], [1, 0, 0], [0, 1, 0]]
 INERTIA = [[2e-5, 1e-6, 0], [1e-6, 2e-5, 0], [0, 0, 3e-5]]

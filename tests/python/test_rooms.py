@@ -15,12 +15,12 @@ TOPS = {
     "validation",
 }
 MADE = {"build", "dist", "out"}  # by make, and in .gitignore
-MOST = 16  # modules at the top of the package
+MOST = 17  # modules at the top of the package
 SPINE = (
     *("description/*", "section/*", "chain/*", "dynamics/*", "loads/cable*"),
     *("integration/robot_ode.*", "integration/rk4.*", "integration/simulator.*"),
 )
-MOST_SPINE = 3480  # lines of code
+MOST_SPINE = 5000  # lines of code
 
 
 def folders_with_files() -> set[str]:

@@ -105,7 +105,7 @@ ROWS = np.ones((2, 3))
         ),
         (
             ([0.0, 1.0], [[0.0, NAN, 0.0], [0.0, 0.0, 0.0]]),
-            "the table's tension[0, 1] (cable 2) must be finite, got nan",
+            "the table's tension[0, 1] must be finite, got nan",
         ),
         (
             ([], np.zeros((0, 3))),

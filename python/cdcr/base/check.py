@@ -192,11 +192,14 @@ class Check:
         self, item: str, value: object, requirement: str, each: str, *, many: bool
     ) -> tuple[Any, ...]:
         """Return a (base, tip) pair, or `many` of them, of which one may stand by itself."""
+        before = len(self.sentences)
         values = self.items(item, value, requirement)
-        if all(isinstance(one, Real) for one in values):
-            pair = self.vector(item, values, requirement, each, size=2)
+        if len(self.sentences) > before:
+            return ()
+        if values and all(isinstance(one, Real) for one in values):
+            pair = self.vector(item, value, requirement, each, size=2)
             return (pair,) if many and len(pair) == 2 else pair
-        if not many:
+        if not many or not values:
             self.refuse(item, requirement, value)
             return ()
         return tuple(
