@@ -10,7 +10,7 @@ IN_VENV := PATH="$(CURDIR)/$(VENV)/bin:$$PATH"
 SPHINX := python -m sphinx -W --keep-going -q
 
 .NOTPARALLEL:
-.PHONY: help demo test lint format bench bench-smoke view-test wheel docs docs-links asan tsan fuzz builds lock audit clean setup setup-dev setup-docs test-cpp types test-python
+.PHONY: help demo test lint format validate bench bench-smoke view-test wheel docs docs-links asan tsan fuzz builds lock audit clean setup setup-dev setup-docs test-cpp types test-python
 
 help: ## list the commands
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -19,7 +19,8 @@ demo: setup ## install cdcr, pull cable 1 of the paper's robot with 5 N, write p
 	@echo "[4/4] cdcr run step-tension"
 	@$(VENV)/bin/cdcr run step-tension --out out --overwrite
 
-test: setup-dev test-cpp types test-python ## all tests, C++ and Python, and the type checks
+test: setup-dev ## all tests, C++ and Python, and the type checks
+	@$(IN_VENV) tools/test.sh
 
 lint: setup-dev ## style and static analysis: clang-format, clang-tidy, ruff, mypy, gersemi, codespell
 	@mkdir -p build
@@ -29,6 +30,11 @@ lint: setup-dev ## style and static analysis: clang-format, clang-tidy, ruff, my
 
 format: setup-dev ## rewrite all sources in the project's style
 	@$(IN_VENV) tools/format.sh
+
+# Where measurements and results of others are: validation/README.md says which.
+DATA ?= validation/data
+validate: setup-dev ## the table of how true it is, of the sources whose data are in DATA=FOLDER
+	@$(IN_VENV) python validation/all.py $(DATA)
 
 bench: setup-dev ## build and run the benchmarks
 	@$(IN_VENV) cmake --preset bench
@@ -84,7 +90,7 @@ lock: setup-dev ## find the versions and hashes of tools/lock anew
 audit: setup-dev ## look up known vulnerabilities of what tools/lock installs
 	@$(IN_VENV) python -m pip install --quiet --group lock
 	@$(IN_VENV) pip-audit --strict --require-hashes --disable-pip \
-	  -r tools/lock/demo.txt -r tools/lock/dev.txt -r tools/lock/docs.txt
+	  $(patsubst %,-r %,$(wildcard tools/lock/*.txt))
 
 clean: ## remove what make made, .venv included; out/ stays
 	rm -rf build dist $(VENV) .mypy_cache .pytest_cache .ruff_cache .hypothesis
@@ -99,13 +105,10 @@ setup-docs:
 	@tools/setup.sh docs
 
 test-cpp: setup-dev
-	@$(IN_VENV) cmake --preset release
-	@$(IN_VENV) cmake --build --preset release
-	@$(IN_VENV) ctest --preset release
+	@$(IN_VENV) tools/test.sh cpp
 
 types: setup-dev
-	@$(IN_VENV) mypy
-	@$(IN_VENV) python -m mypy.stubtest cdcr._core --allowlist tests/python/stubtest_allowlist.txt
+	@$(IN_VENV) tools/test.sh types
 
 test-python: setup-dev
-	@$(IN_VENV) pytest -n auto --maxprocesses 4 --dist loadfile --doctest-modules --pyargs cdcr tests/python
+	@$(IN_VENV) tools/test.sh python

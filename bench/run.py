@@ -21,7 +21,16 @@ if TYPE_CHECKING:
 
     from rows import Row
 
-EXECUTABLES = ("dynamics", "sections", "step", "statics", "inverse_kinematics", "startup", "runs")
+EXECUTABLES = (
+    "dynamics",
+    "sections",
+    "rods",
+    "step",
+    "statics",
+    "inverse_kinematics",
+    "startup",
+    "runs",
+)
 
 
 def say(text: str) -> None:

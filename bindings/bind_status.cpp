@@ -10,7 +10,7 @@ void bind_status(pybind11::module_& m) {
   namespace py = pybind11;
   py::native_enum<Status> status(m, "Status", "enum.Enum",
                                  "How a computation ended; anything but ok is a failure.");
-  for (int i = 0; i <= static_cast<int>(Status::invalid_wrench); ++i) {
+  for (int i = 0; i <= static_cast<int>(Status::compression_limit); ++i) {
     status.value(name(static_cast<Status>(i)), static_cast<Status>(i));
   }
   status.finalize();

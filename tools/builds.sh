@@ -20,7 +20,7 @@ test_python() {
     -C build-dir="$tree" -C build.targets="_core;cdcr_fmu" -C cmake.define.CDCR_BUILD_TESTS=ON .
   rm -f .venv/.cdcr-installed # so that the next make installs the usual one again
   python -m pip install -q --no-deps --no-index --force-reinstall "$tree"/wheel/cdcr-*.whl
-  pytest -n auto --maxprocesses 4 --dist loadfile --doctest-modules --pyargs cdcr tests/python
+  tools/test.sh python
 }
 
 build_clang() { configure_and_test clang -DCMAKE_CXX_COMPILER=clang++; }

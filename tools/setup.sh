@@ -171,22 +171,57 @@ same_python() {
     [ "$("$venv/bin/python" -c "$identity")" = "$("$python" -c "$identity")" ]
 }
 
-pip() { env PIP_DISABLE_PIP_VERSION_CHECK=1 "$venv/bin/python" -m pip "$@"; }
-pip_online() {
-  PIP_RETRIES=${PIP_RETRIES:-2} quietly pip "$@" ||
-    die "pip could not download the Python packages; is the network up? Its own words are in $log."
+export PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_RETRIES="${PIP_RETRIES:-2}"
+pip() { "$venv/bin/python" -m pip "$@"; }
+not_downloaded() {
+  die "pip could not download the Python packages; is the network up? Its own words are in $log."
 }
 
-# Installs what tools/lock names, unless that has been done since its last change. Python compiles
-# what it imports, which is a part of what they bring.
-install_locked() {
-  lock=tools/lock/$1.txt
-  stamp=$venv/.cdcr-$1
-  if [ ! "$stamp" -nt "$lock" ]; then
-    note "installing the packages of $lock"
-    pip_online install --no-compile --require-hashes -r "$lock"
-    touch "$stamp"
-  fi
+# Installs tools/lock/NAME.txt, which names all that is needed. Python compiles what it imports,
+# which is a part of what they bring.
+pip_install() {
+  exec "$venv/bin/python" -m pip install --no-compile --no-deps --require-hashes \
+    -r "tools/lock/$1.txt" </dev/null
+}
+# True where that file has changed since it was installed.
+is_due() { [ ! "$venv/.cdcr-$1" -nt "tools/lock/$1.txt" ]; }
+
+install_build_tools() {
+  is_due build || return 0
+  note "installing what builds cdcr: tools/lock/build.txt"
+  (pip_install build) >>"$log" 2>&1 || not_downloaded
+  touch "$venv/.cdcr-build"
+}
+
+# The other packages are installed beside each other, while cdcr is built, by processes that end
+# with this one; their words are in the log when they are done.
+case $goal in
+  dev) others="demo test lint" ;;
+  docs) others="demo docs" ;;
+  *) others=demo ;;
+esac
+at_work=""
+trap 'for one in $at_work; do kill "${one#*:}" 2>/dev/null || true; done' EXIT
+trap 'exit 130' INT
+trap 'exit 143' HUP TERM
+
+start_others() {
+  for name in $others; do
+    is_due "$name" || continue
+    note "installing beside that: tools/lock/$name.txt"
+    pip_install "$name" >"build/pip-$name.log" 2>&1 &
+    at_work="$at_work $name:$!"
+  done
+}
+finish_others() {
+  failed=""
+  for one in $at_work; do
+    name=${one%:*}
+    if wait "${one#*:}"; then touch "$venv/.cdcr-$name"; else failed=yes; fi
+    cat "build/pip-$name.log" >>"$log"
+  done
+  at_work=""
+  [ -z "$failed" ] || not_downloaded
 }
 
 step 2 "Python environment $venv ($("$python" -V 2>&1))"
@@ -194,8 +229,7 @@ if ! same_python; then
   rm -rf "$venv"
   quietly "$python" -m venv "$venv" || die "$python could not make $venv; see $log."
 fi
-install_locked demo
-[ "$goal" = demo ] || install_locked "$goal"
+install_build_tools
 
 # 3. cdcr ----------------------------------------------------------------------------------------
 
@@ -230,12 +264,15 @@ build_failed() {
 }
 
 step 3 "cdcr"
+start_others
 if up_to_date; then
   note "unchanged since it was installed"
+  finish_others
 else
   rm -rf "$stamp" build/wheel
   : >build/started
   case $goal in dev) build_wheel ON ;; *) build_demo ;; esac || build_failed
+  finish_others
   quietly pip uninstall -y cdcr
   quietly pip install --no-deps --no-index build/wheel/cdcr-*.whl ||
     die "pip could not install cdcr; see $log."

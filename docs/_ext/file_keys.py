@@ -25,11 +25,12 @@ CONDITIONS = {"Section.cable_radius": "needed where there are cables", "Robot.ca
 
 
 def schema(name: str) -> type[BaseModel]:
-    """Return a schema by name: Robot, Section, Cable, or module:NAME of a scenario file's table."""
+    """Return a schema by name: Robot, Section, Cable, or module:NAME of a file's table."""
     if name in DESCRIBED:
         return table_of(DESCRIBED[name])
     module, _, attribute = name.partition(":")
-    found: type[BaseModel] = getattr(import_module(f"cdcr.scenarios.file.{module}"), attribute)
+    room = "identification.schema" if module == "identify" else f"scenarios.file.{module}"
+    found: type[BaseModel] = getattr(import_module(f"cdcr.{room}"), attribute)
     return found
 
 

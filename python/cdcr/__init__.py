@@ -47,9 +47,11 @@ from cdcr.runs.simulate import simulate
 from cdcr.runs.trajectory import Trajectory
 
 if TYPE_CHECKING:
-    from cdcr import control, export, paper, scenarios
+    from cdcr import control, export, identification, paper, scenarios, sweeps
     from cdcr import gym as gym
     from cdcr import plotting as plotting
+    from cdcr.identification import identify
+    from cdcr.sweeps import sweep
 
 __version__: str = _core.__version__
 
@@ -79,6 +81,8 @@ __all__ = [
     "bending",
     "control",
     "export",
+    "identification",
+    "identify",
     "inverse_run",
     "max_bending",
     "merge_state",
@@ -90,14 +94,25 @@ __all__ = [
     "stable_step",
     "subdivide_state",
     "subdivide_wrench",
+    "sweep",
+    "sweeps",
     "taylor_range",
 ]
 
 
+_ROOMS = frozenset({
+    "control", "export", "gym", "identification", "paper", "plotting", "scenarios", "sweeps",
+})  # fmt: skip
+
+
 def __getattr__(name: str) -> Any:
     """Load what few programs need when it is asked for."""
-    if name in ("control", "export", "gym", "paper", "plotting", "scenarios"):
+    if name in _ROOMS:
         return import_module(f"cdcr.{name}")
+    if name == "identify":
+        return import_module("cdcr.identification").identify
+    if name == "sweep":
+        return import_module("cdcr.sweeps").sweep
     hint = {"load_robot": "; use cdcr.Robot.load"}.get(name, "")
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}{hint}")
 

@@ -22,6 +22,7 @@ __version__: str
 max_bending: float
 with_cvode: bool
 max_sections: int
+max_order: int
 taylor_range: float
 
 class Status(enum.Enum):
@@ -40,6 +41,7 @@ class Status(enum.Enum):
     event = 10
     wrong_size = 11
     invalid_wrench = 12
+    compression_limit = 13
 
 class Method(enum.Enum):
     """How to integrate."""
@@ -78,6 +80,14 @@ class Model(metaclass=_Bound):
     def num_cables(self) -> int: ...
     @property
     def has_inertia(self) -> bool: ...
+    @property
+    def has_rods(self) -> bool: ...
+    @property
+    def has_constant_actuation(self) -> bool: ...
+    @property
+    def rest_shape(self) -> _FloatArray: ...
+    @property
+    def elastic_stiffness(self) -> _FloatArray: ...
     @property
     def has_friction(self) -> bool: ...
     def actuation_matrix(self, q: ArrayLike | None = None) -> _FloatArray: ...
@@ -144,6 +154,7 @@ class Model(metaclass=_Bound):
         min_tension: float = 0.0,
         max_tension: float = ...,
         method: str = "automatic",
+        q: ArrayLike | None = None,
     ) -> Allocation: ...
     def _inverse_kinematics(
         self,

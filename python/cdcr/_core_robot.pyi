@@ -18,7 +18,7 @@ class Section(metaclass=_Bound):
         *,
         length: float,
         backbone_mass: float,
-        backbone_diameter: float,
+        backbone_diameter: float | Sequence[float],
         youngs_modulus: float,
         disk_mass: float,
         disk_diameter: float,
@@ -32,27 +32,50 @@ class Section(metaclass=_Bound):
         cable_damping: float,
         cable_friction: float,
         damping: float,
+        bending_order: int | None,
+        twist_order: int | None,
+        stretch_order: int | None,
+        backbone_inner_diameter: float,
+        shear_modulus: float | None,
+        bending_stiffness: float | None,
+        twist_stiffness: float | None,
+        stretch_stiffness: float | None,
+        twist_damping: float,
+        stretch_damping: float,
+        material_damping: float,
+        rest_bending: Sequence[float],
+        rest_twist: float,
+        nodes: int | None,
     ) -> None: ...
     def violations(self) -> list[str]: ...
     def disks(self) -> list[tuple[float, float, float]]: ...
     @property
     def stiffness(self) -> float: ...
+    @property
+    def is_rod(self) -> bool: ...
 
 class Cable(metaclass=_Bound):
     def __init__(
         self,
         *,
-        radius: float,
-        angle: float,
+        radius: float | Sequence[Sequence[float]],
+        angle: float | Sequence[Sequence[float]],
         end_section: int,
         stiffness: float,
         damping: float,
         friction: float | None,
+        start_section: int,
     ) -> None: ...
     @property
     def radius(self) -> float: ...
     @property
     def angle(self) -> float: ...
+    @property
+    def radii(self) -> list[list[float]]: ...
+    @property
+    def angles(self) -> list[list[float]]: ...
+    @property
+    def start_section(self) -> int: ...
     @property
     def end_section(self) -> int: ...
     @property

@@ -5,11 +5,12 @@
 
 #include "cdcr/cdcr.hpp"
 #include "support/cable_robots.hpp"
+#include "support/sanitizers.hpp"
 
 namespace cdcr::test {
 namespace {
 
-#if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__OPTIMIZE__) && !CDCR_ADDRESS_SANITIZER && !CDCR_THREAD_SANITIZER
 constexpr std::size_t larger = 1;
 #else
 constexpr std::size_t larger = 8;  // frames without optimisation, or with guards around variables

@@ -15,8 +15,6 @@ pytest.importorskip("typer")
 pytest.importorskip("matplotlib")
 pytest.importorskip("h5netcdf")
 
-from matplotlib.figure import Figure
-
 from cdcr.cli.schema import comment
 from cdcr.scenarios.file import schema, shape_schema
 from cdcr.scenarios.file.template import template
@@ -27,12 +25,6 @@ BLOCKS = TEMPLATE.split("\n\n")
 SWITCHED_OFF = [i for i, block in enumerate(BLOCKS) if re.search(r"^#\S", block, re.MULTILINE)]
 # Tensions are shared among cables that are named by other arithmetic than among all [rad].
 NAMED_CABLES = 1e-13
-
-
-@pytest.fixture
-def quick(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Draw an empty picture where the picture does not matter."""
-    monkeypatch.setattr(cdcr.scenarios.Scenario, "figure", lambda self, run, size=None: Figure())
 
 
 def switched_on(i: int) -> str:

@@ -20,7 +20,6 @@ pytest.importorskip("typer")
 pytest.importorskip("matplotlib")
 pytest.importorskip("h5netcdf")
 
-from matplotlib.figure import Figure
 from rich.console import Console
 from typer.testing import Result
 
@@ -39,12 +38,6 @@ TOO_STRONG = (
 def first(tmp_path_factory: Any) -> tuple[Path, Result]:
     out = tmp_path_factory.mktemp("demo") / "new" / "out"
     return out, cdcr_("run", "step-tension", "--out", out)
-
-
-@pytest.fixture
-def quick(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Draw an empty picture where the picture does not matter."""
-    monkeypatch.setattr(cdcr.scenarios.Scenario, "figure", lambda self, run, **_: Figure())
 
 
 def test_run_writes_three_files_and_says_so(first: tuple[Path, Result]) -> None:

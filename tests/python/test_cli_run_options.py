@@ -6,25 +6,16 @@ from pathlib import Path
 
 import pytest
 
-import cdcr
 from cdcr.base.extras import find_ffmpeg
 
 pytest.importorskip("typer")
 pytest.importorskip("matplotlib")
 pytest.importorskip("h5netcdf")
 
-from matplotlib.figure import Figure
-
 from cdcr.cli import run as cli_run
 from command import cdcr_, everything_in, refused
 
 FILES = ["step-tension.png", "step-tension.csv", "step-tension.nc"]
-
-
-@pytest.fixture
-def quick(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Draw an empty picture where the picture does not matter."""
-    monkeypatch.setattr(cdcr.scenarios.Scenario, "figure", lambda self, run, **_: Figure())
 
 
 @pytest.mark.usefixtures("quick")

@@ -68,6 +68,18 @@ def test_scenarios_files_options_and_values_are_offered(home: Path) -> None:
     assert values == ["dopri5", "dop853"]
 
 
+def test_metrics_parameters_and_samples_of_a_sweep_are_offered(home: Path) -> None:
+    metrics, parameters, samples = offered(
+        home,
+        "cdcr sweep step-tension --metric steps,peak_ti",
+        "cdcr sweep step-tension --param sections.1.cable_ang",
+        "cdcr sweep step-tension --samples so",
+    )
+    assert metrics == ["steps,peak_tip_speed"]
+    assert parameters == [f"sections.1.cable_angles.{k}" for k in (1, 2, 3)]
+    assert samples == ["sobol:"]
+
+
 def test_the_shell_is_found_and_told(home: Path) -> None:
     pytest.importorskip("shellingham")
     script = shell(home, "cdcr --show-completion; true")

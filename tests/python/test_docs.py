@@ -27,6 +27,7 @@ MODULES = (
     cdcr.plotting,
     cdcr.robots,
     cdcr.scenarios,
+    cdcr.sweeps,
     cdcr.view,
     _core,
 )

@@ -228,6 +228,15 @@ def test_fit(example: Example) -> None:
     assert found["deviation"] == pytest.approx(found["NOISE"], rel=0.15)
 
 
+def test_fit_from_poses(example: Example) -> None:
+    found = example(16)
+    modulus, tilt = found["found"].estimates[:2]
+    assert abs(modulus.value - found["TRUE"][0]) < 4.5 * modulus.standard_error
+    assert abs(tilt.value - found["TRUE"][1]) < 4.5 * tilt.standard_error
+    # What was promised at the data sheet's numbers, within how far these are off.
+    assert found["error"] == pytest.approx(modulus.standard_error, rel=0.4)
+
+
 def test_sweep(example: Example) -> None:
     found = example(10)
     model, rest = found["model"], found["rest"]
@@ -323,3 +332,23 @@ def test_events_and_files(example: Example) -> None:
         / 2e-5,
         rel=1e-6,
     )
+
+
+def test_dask_sweep(example: Example) -> None:
+    pytest.importorskip("distributed", reason="the extra dask is not installed")
+    names = example(15)
+    found, section = names["found"], names["section"]
+    at = {name.split(".")[-1]: found[name].values for name in names["tolerances"]}
+    # The angle of rest is F r L/(E I), and the robot swings beyond it like a damped oscillator.
+    second_moment = np.pi / 64.0 * at["backbone_diameter"] ** 4
+    stiffness = at["youngs_modulus"] * second_moment / section.length
+    rest = 5.0 * at["cable_radius"] / stiffness
+    np.testing.assert_allclose(found.final_theta, rest, rtol=1e-3)
+    inertia = cdcr.Model(cdcr.robots.amouri2020()).mass_matrix([0.26, 0.0])[0, 0]
+    decay = at["damping"] / (2.0 * inertia)
+    beyond = np.exp(-np.pi * decay / np.sqrt(stiffness / inertia - decay**2))
+    np.testing.assert_allclose(found.peak_theta, rest * (1.0 + beyond), rtol=0.02)
+    # Of a product of powers with small tolerances, shares of the variance are those of the squares.
+    squares = np.square([1 * 0.03, 4 * 0.01, 1 * 0.02, 0.0])
+    shares = names["indices"].total_order.sel(metric="final_theta")
+    np.testing.assert_allclose(shares, squares / squares.sum(), atol=0.1)

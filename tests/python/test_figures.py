@@ -15,7 +15,8 @@ from matplotlib.figure import Figure
 from rich.console import Console
 from typer.testing import Result
 
-from cdcr.cli import figures, page, processes
+from cdcr.base import processes
+from cdcr.cli import figures, page
 from cdcr.cli.run import Mistake
 from command import cdcr_
 
@@ -56,14 +57,13 @@ def names_in(folder: Path) -> set[str]:
 @pytest.fixture(scope="module")
 def first(tmp_path_factory: Any) -> tuple[Path, Result]:
     out = tmp_path_factory.mktemp("figures") / "new" / "figures"
-    return out, cdcr_("figures", "--out", out)
+    return out, cdcr_("figures", "--out", out, "--size", "journal")  # the fewest pixels
 
 
 @pytest.fixture
-def quick(monkeypatch: pytest.MonkeyPatch) -> None:
+def quick(quick: None, monkeypatch: pytest.MonkeyPatch) -> None:
     """Draw empty pictures in this process, and leave out the audit, where they do not matter."""
     monkeypatch.setattr(processes, "usable", lambda: 1)
-    monkeypatch.setattr(cdcr.scenarios.Scenario, "figure", lambda self, run, **_: Figure())
     monkeypatch.setattr(page, "audit", list)
 
 
@@ -165,7 +165,7 @@ def test_what_stops_it_leaves_nothing(
     def fail(self: Any, run: Any, **_: Any) -> Figure:
         if self.name == "gravity-ratio":
             raise error
-        return Figure()
+        return Figure(figsize=(0.1, 0.1))
 
     monkeypatch.setattr(cdcr.scenarios.Scenario, "figure", fail)
     with told:

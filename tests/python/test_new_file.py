@@ -56,6 +56,7 @@ def test_a_folder_that_fills_up_is_named_and_left_as_it_was(tmp_path: Path) -> N
     code = """
 import resource
 from pathlib import Path
+import matplotlib.animation, xarray, h5netcdf  # what Python compiles has to be written before
 import numpy as np
 import cdcr
 model = cdcr.Model(cdcr.robots.amouri2020())

@@ -20,6 +20,7 @@ README = (ROOT / "README.md").read_text()
 # What a plain import must not load: extras, and pydantic, which only reading a file needs.
 HEAVY = [
     "control",
+    "distributed",
     "gymnasium",
     "h5netcdf",
     "matplotlib",
@@ -31,6 +32,7 @@ HEAVY = [
     "scipy",
     "typer",
     "xarray",
+    "zarr",
 ]
 
 

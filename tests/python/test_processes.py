@@ -17,13 +17,15 @@ import cdcr
 
 pytest.importorskip("typer")
 
-from cdcr.cli import figures, processes
+from cdcr.base import processes
+from cdcr.cli import figures
 from command import cdcr_, everything_in, refused
 
 DEADLINE = 100.0  # after which something hangs [s]
 SLEEPERS = """
 import time
-from cdcr.cli import main, processes
+from cdcr.base import processes
+from cdcr.cli import main
 from cdcr.cli.app import app
 from cdcr.cli.plain import told_plainly
 

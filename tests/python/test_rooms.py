@@ -12,9 +12,10 @@ TOPS = {
     *("bench", "bindings", "cmake", "cpp", "docs", "examples", "licenses", "packaging", "python"),
     "tests",
     "tools",
+    "validation",
 }
 MADE = {"build", "dist", "out"}  # by make, and in .gitignore
-MOST = 15  # modules at the top of the package
+MOST = 16  # modules at the top of the package
 SPINE = (
     *("description/*", "section/*", "chain/*", "dynamics/*", "loads/cable*"),
     *("integration/robot_ode.*", "integration/rk4.*", "integration/simulator.*"),

@@ -16,6 +16,7 @@ import pytest
 
 import cdcr
 import cdcr.gym
+import cdcr.identification
 import cdcr.plotting
 
 ROOT = Path(__file__).parents[2]
@@ -23,7 +24,7 @@ DOCS = ROOT / "docs"
 REFERENCE = DOCS / "reference"
 MODULES = (
     *(cdcr, cdcr.control, cdcr.export, cdcr.gym, cdcr.paper, cdcr.plotting, cdcr.robots),
-    cdcr.scenarios,
+    *(cdcr.identification, cdcr.scenarios, cdcr.sweeps),
 )
 RETURNED = {"cdcr.view.View"}  # by public names
 FLAGS = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS
@@ -125,15 +126,17 @@ def test_every_header_is_in_the_reference() -> None:
 
 
 def tables() -> set[str]:
-    """Schemas of scenario files that hold keys of their own."""
+    """Schemas of scenario files, and of those for `cdcr identify`, that hold keys of their own."""
     from pydantic import BaseModel
 
+    from cdcr.identification import schema as identify
     from cdcr.scenarios.file import schema, shape_schema
 
     bases = {"BaseModel", "TensionShape"}
+    homes = {"schema": schema, "shape_schema": shape_schema, "identify": identify}
     return {
-        f"{module.__name__.rpartition('.')[2]}:{name}"
-        for module in (schema, shape_schema)
+        f"{home}:{name}"
+        for home, module in homes.items()
         for name, thing in vars(module).items()
         if inspect.isclass(thing)
         and issubclass(thing, BaseModel)

@@ -244,7 +244,7 @@ def test_refusals(run: cdcr.Trajectory) -> None:
     with pytest.raises(ValueError, match="speed must be a number > 0 and finite, got 0"):
         Session(arm(), speed=0)
     one = cdcr.simulate(cdcr.Model(cdcr.robots.amouri2020()), [0, 0], [0, 0], t=[0, 1])
-    with pytest.raises(ValueError, match="reference must be of a robot of 3 sections, got one of"):
+    with pytest.raises(ValueError, match="reference must be of a robot of 6 coordinates, got one of"):
         Session(arm(), run=run, reference=one)
     with pytest.raises(TypeError, match=r"reference must be a cdcr\.Trajectory or .*, got 3 \(int"):
         Session(arm(), run=run, reference=3)  # type: ignore[arg-type]

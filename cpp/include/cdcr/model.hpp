@@ -56,9 +56,9 @@ class Model {
   /// Whether all cables pull alike on each section from the base to their end.
   [[nodiscard]] bool has_nested_cables() const noexcept { return has_nested_cables_; }
   /// The unloaded shape (d): zero but for sections that are bent or twisted at rest.
-  [[nodiscard]] const VectorXd& rest() const noexcept { return rest_; }
+  [[nodiscard]] const VectorXd& rest() const noexcept;
   /// Stiffness of the backbone (d, d): its elastic energy is (q - rest)^T K (q - rest)/2.
-  [[nodiscard]] const MatrixXd& elastic_stiffness() const noexcept { return elastic_stiffness_; }
+  [[nodiscard]] const MatrixXd& elastic_stiffness() const noexcept;
   /// Cable lengths of the straight robot (num_cables) [m].
   [[nodiscard]] const VectorXd& straight_lengths() const noexcept { return straight_lengths_; }
   /// Bending stiffness K of each section (n) [N m/rad].
@@ -93,7 +93,7 @@ class Model {
   [[nodiscard]] const std::shared_ptr<const Parts>& parts() const noexcept { return parts_; }
 
  private:
-  void set_elasticity();
+  void set_elasticity(Parts& parts);
   void set_cables(Parts& parts);
   void set_gravity(const Vector3d& gravity, const std::shared_ptr<Parts>& parts);
 
@@ -103,8 +103,8 @@ class Model {
   Formulation formulation_;
   std::shared_ptr<const Parts> parts_;
   std::vector<Index> first_;
-  VectorXd stiffness_, damping_, straight_lengths_, rest_;
-  MatrixXd actuation_, friction_, elastic_stiffness_;
+  VectorXd stiffness_, damping_, straight_lengths_;
+  MatrixXd actuation_, friction_;
   Vector3d root_gravity_ = Vector3d::Zero();
   Index singular_section_ = -1;
   double base_energy_ = 0.0;

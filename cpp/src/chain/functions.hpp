@@ -10,6 +10,15 @@ namespace cdcr::detail {
 using MotionState = ArcChainState<double>;
 using RodMotionState = RodChainState<double>;
 
+/// The functions of ChainState.
+template <class Section>
+void update_position(const Chain& chain, ChainState<Section>& state, const double* q) noexcept;
+template <class Section>
+void update_velocity(const Chain& chain, ChainState<Section>& state, const double* qd) noexcept;
+template <class Section>
+void update_motion(const Chain& chain, ChainState<Section>& state, const double* q,
+                   const double* qd) noexcept;
+
 /// chain/forward.hpp and chain/inverse.hpp.
 template <class Section>
 void forward_motion(const Chain& chain, const ChainState<Section>& state, const double* force,

@@ -2,6 +2,9 @@
 
 namespace cdcr::detail {
 
+template void update_position(const Chain&, MotionState&, const double*) noexcept;
+template void update_velocity(const Chain&, MotionState&, const double*) noexcept;
+template void update_motion(const Chain&, MotionState&, const double*, const double*) noexcept;
 template void forward_motion(const Chain&, const MotionState&, const double*, double*) noexcept;
 template void inverse_motion(const Chain&, const MotionState&, const double*, double*) noexcept;
 template void mass_matrix(const Chain&, const MotionState&, MatrixRef) noexcept;

@@ -12,6 +12,22 @@
 namespace cdcr::detail {
 
 template <class Section>
+void update_position(const Chain& chain, ChainState<Section>& state, const double* q) noexcept {
+  state.update_position(chain, q);
+}
+
+template <class Section>
+void update_velocity(const Chain& chain, ChainState<Section>& state, const double* qd) noexcept {
+  state.update_velocity(chain, qd);
+}
+
+template <class Section>
+void update_motion(const Chain& chain, ChainState<Section>& state, const double* q,
+                   const double* qd) noexcept {
+  state.update(chain, q, qd);
+}
+
+template <class Section>
 void forward_motion(const Chain& chain, const ChainState<Section>& state, const double* force,
                     double* qdd) noexcept {
   forward_dynamics(chain, state, force, qdd);

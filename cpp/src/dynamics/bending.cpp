@@ -29,10 +29,10 @@ Index compressed_section(const Model& model, const ConstVectorRef& q) noexcept {
   const Chain& chain = chain_of(model);
   for (Index i = 0; model.has_rods() && i < chain.num_sections(); ++i) {
     const RodParameters& rod = *chain.sections[i].rod;
-    for (std::size_t k = 0; rod.num_stretch > 0 && k < rod.nodes.size(); ++k) {
+    for (int k = 0; rod.num_stretch > 0 && k <= rod.num_frames(); ++k) {
       double length = rod.length;
       for (int j = 0; j < rod.num_stretch; ++j) {
-        length += rod.nodes[k].legendre[j] * q[chain.first[i] + rod.first_stretch + j];
+        length += rod.rule.legendre[j][k] * q[chain.first[i] + rod.first_stretch + j];
       }
       if (!(length >= least_length * rod.length)) return i;
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <vector>
 
 #include "cdcr/model.hpp"
 #include "chain/dual.hpp"
@@ -16,13 +17,14 @@ namespace detail {
 template <class State>
 class KeptState {
  public:
-  explicit KeptState(const Chain& chain) : state_(chain), own_(&chain) {}
+  explicit KeptState(const Chain& chain)
+      : state_(chain), q_(chain.num_coordinates()), qd_(chain.num_coordinates()), own_(&chain) {}
 
   /// For functions of position alone.
   const State& at(const Chain& chain, const double* q) noexcept {
     if (!holds(chain, q)) {
-      state_.update_position(chain, q);
-      std::copy_n(q, chain.num_coordinates(), q_);
+      update_position(chain, state_, q);
+      std::copy_n(q, q_.size(), q_.begin());
       has_position_ = &chain == own_;  // another model's is used, but not kept
       has_velocity_ = false;
     }
@@ -31,13 +33,13 @@ class KeptState {
 
   const State& at(const Chain& chain, const double* q, const double* qd) noexcept {
     if (!holds(chain, q)) {
-      state_.update(chain, q, qd);
-      std::copy_n(q, chain.num_coordinates(), q_);
-      std::copy_n(qd, chain.num_coordinates(), qd_);
+      update_motion(chain, state_, q, qd);
+      std::copy_n(q, q_.size(), q_.begin());
+      std::copy_n(qd, qd_.size(), qd_.begin());
       has_position_ = has_velocity_ = &chain == own_;
-    } else if (!has_velocity_ || !std::equal(qd, qd + chain.num_coordinates(), qd_)) {
-      state_.update_velocity(chain, qd);
-      std::copy_n(qd, chain.num_coordinates(), qd_);
+    } else if (!has_velocity_ || !std::equal(qd_.begin(), qd_.end(), qd)) {
+      update_velocity(chain, state_, qd);
+      std::copy_n(qd, qd_.size(), qd_.begin());
       has_velocity_ = true;
     }
     return state_;
@@ -45,11 +47,11 @@ class KeptState {
 
  private:
   [[nodiscard]] bool holds(const Chain& chain, const double* q) const noexcept {
-    return has_position_ && &chain == own_ && std::equal(q, q + chain.num_coordinates(), q_);
+    return has_position_ && &chain == own_ && std::equal(q_.begin(), q_.end(), q);
   }
 
   State state_;
-  double q_[max_coordinates], qd_[max_coordinates];
+  std::vector<double> q_, qd_;
   const Chain* own_;  // Data keeps it alive
   bool has_position_ = false, has_velocity_ = false;
 };

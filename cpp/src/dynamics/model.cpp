@@ -30,11 +30,12 @@ Model::Model(Robot robot, Formulation formulation) : formulation_(formulation) {
   robot.tool.topLeftCorner<3, 3>() = detail::nearest_rotation(robot.tool.topLeftCorner<3, 3>());
   robot_ = std::make_shared<const Robot>(std::move(robot));
   const auto n = static_cast<Index>(robot_->sections.size());
-  const auto parts = std::make_shared<Parts>(Parts{detail::Chain(*robot_), std::nullopt, {}});
+  const auto parts =
+      std::make_shared<Parts>(Parts{detail::Chain(*robot_), std::nullopt, {}, {}, {}});
   parts_ = parts;
   first_ = parts->chain.first;
   has_rods_ = parts->chain.has_rods();
-  set_elasticity();
+  set_elasticity(*parts);
   set_cables(*parts);
 
   const bool point = robot_->payload_position.isZero(0.0) && robot_->payload_inertia.isZero(0.0);
@@ -56,23 +57,23 @@ Model::Model(Robot robot, Formulation formulation) : formulation_(formulation) {
   set_gravity(robot_->gravity, parts);
 }
 
-void Model::set_elasticity() {
-  const detail::Chain& chain = parts_->chain;
+void Model::set_elasticity(Parts& parts) {
+  const detail::Chain& chain = parts.chain;
   const Index d = chain.num_coordinates(), n = chain.num_sections();
   stiffness_.resize(n);
   damping_.resize(n);
-  rest_ = VectorXd::Zero(d);
-  elastic_stiffness_ = MatrixXd::Zero(d, d);
+  parts.rest = VectorXd::Zero(d);
+  parts.elastic_stiffness = MatrixXd::Zero(d, d);
   for (Index i = 0; i < n; ++i) {
     const detail::SectionParameters& section = chain.sections[i];
     const Index at = first_[i], size = first_[i + 1] - at;
     stiffness_[i] = section.stiffness;
     damping_[i] = section.damping;
     if (has_rods_) {
-      elastic_stiffness_.block(at, at, size, size) = section.rod->stiffness;
-      rest_.segment(at, size) = section.rod->rest;
+      parts.elastic_stiffness.block(at, at, size, size) = section.rod->stiffness;
+      parts.rest.segment(at, size) = section.rod->rest;
     } else {
-      elastic_stiffness_.diagonal().segment(at, size).setConstant(section.stiffness);
+      parts.elastic_stiffness.diagonal().segment(at, size).setConstant(section.stiffness);
     }
   }
 }
@@ -126,6 +127,13 @@ void Model::set_gravity(const Vector3d& gravity, const std::shared_ptr<Parts>& p
     parts->single->has_gravity = has_gravity_;
   }
   parts_ = parts;
+}
+
+const VectorXd& Model::rest() const noexcept {
+  return parts_->rest;
+}
+const MatrixXd& Model::elastic_stiffness() const noexcept {
+  return parts_->elastic_stiffness;
 }
 
 Model Model::with_gravity(const Vector3d& gravity) const {

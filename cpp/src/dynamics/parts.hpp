@@ -13,6 +13,8 @@ struct Model::Parts {
   detail::Chain chain;
   std::optional<detail::SingleSection> single;  // where the closed form applies
   std::vector<detail::CablePath> paths;         // of each cable, where the sections are rods
+  VectorXd rest;
+  MatrixXd elastic_stiffness;
 };
 
 namespace detail {

@@ -2,236 +2,272 @@
 
 #include <array>
 
-#include "section/arc.hpp"
-#include "section/magnus.hpp"
-#include "section/rod_parameters.hpp"
+#include "section/rod_turns.hpp"
+#include "section/width.hpp"
 
 namespace cdcr::detail {
 
-/// The frames along a rod in one state: functions of q that are differentiated as they stand, so
-/// that a model made of them conserves its own energy (cpp/rods.md eqs. (52) to (57)).
+/// Frames and nodes along a rod in one state: functions of q that are differentiated as they stand,
+/// so that a model made of them conserves its own energy (cpp/rods.md eqs. (52) to (57)).
+///
+/// Jacobians are rows of one number for each coordinate, `width` apart: three for J_v of each node,
+/// then three for J_omega of each frame but the base, then one for t^T J_omega of each of these.
 template <class S>
 struct RodFrames {
   static constexpr int m = Eigen::Dynamic, max_m = max_rod_coordinates;
   using Matrix3m = Eigen::Matrix<S, 3, m, Eigen::ColMajor, 3, max_m>;
 
-  /// A point of the backbone beside the base; rates are those on a base at rest.
-  struct Point {
-    Vector3<S> t, r;        // tangent, and place from the base
-    Matrix3m J_omega, J_v;  // omega = J_omega qd, v = J_v qd
-    Vector3<S> omega, v;
-    Vector3<S> omega_dot, v_dot;  // accelerations from velocities alone
-  };
   FrameState<S> base;
   const RodParameters* rod = nullptr;
-  std::array<Point, max_rod_nodes> points;
-  Matrix3<S> axes;  // at the tip
+  Matrix3<S> axes;        // at the tip
+  Vector3<S> r;           // from base to tip
+  Matrix3m J_omega, J_v;  // of the tip: omega = J_omega qd, v = J_v qd on a base at rest
 
-  /// Places, tangents and Jacobians of all points.
+  /// Frames, places and Jacobians of all points.
   void update_position(const SectionParameters& section, const FrameState<S>& at, const S* q) {
     rod = section.rod.get();
     base = at;
-    const int size = rod->size(), n = rod->num_nodes();
-    axes = base.rotation();
-    // dr/dx and d2r/dx2 at the nodes, and how they change with q; the base does not turn.
-    std::array<Vector3<S>, max_rod_nodes + 1> first, second;
-    std::array<Matrix3m, max_rod_nodes + 1> J_first, J_second;
-    for (int k = 0; k <= n; ++k) {
-      if (k > 0) turn(*section.arcs, k - 1, q);
-      const RodNode& node = rod->nodes[k];
-      local[k] = strain_of(k, q);
-      local[k].q_x += rod->locked_turning[1];
-      local[k].q_y -= rod->locked_turning[0];
-      const Strain& e = local[k];
-      const auto x = axes.col(0), y = axes.col(1), z = axes.col(2);
-      const S length = rod->length + e.stretch;
-      first[k] = length * z;
-      const Vector3<S> bent = e.q_x * x + e.q_y * y;
-      second[k] = length * bent + e.stretch_slope * z;
-      J_first[k].setZero(3, size);
-      J_second[k].setZero(3, size);
-      if (k > 0) {
-        points[k - 1].t = z;
-        for (int i = 0; i < rod->first_stretch; ++i) {
-          const Vector3<S> turning = points[k - 1].J_omega.col(i);
-          J_first[k].col(i) = turning.cross(first[k]);
-          J_second[k].col(i) = turning.cross(second[k]);
-        }
-      }
-      for (int i = 0; i < rod->num_bending; ++i) {
-        J_second[k].col(2 * i) += (node.legendre[i] * length) * x;
-        J_second[k].col(2 * i + 1) += (node.legendre[i] * length) * y;
-      }
-      for (int i = 0; i < rod->num_stretch; ++i) {
-        const int column = rod->first_stretch + i;
-        J_first[k].col(column) = node.legendre[i] * z;
-        J_second[k].col(column) = node.legendre[i] * bent + node.legendre_slope[i] * z;
-      }
-    }
-    for (int k = 0; k < n; ++k) {
-      Point& point = points[k];
-      if (k == 0) {
-        point.r.setZero();
-        point.J_v.setZero(3, size);
-      } else {
-        point.r = points[k - 1].r;
-        point.J_v = points[k - 1].J_v;
-      }
-      int j = rod->nodes[k + 1].first_neighbour;
-      for (const RodNode::Weight& weight : rod->nodes[k + 1].integral) {
-        point.r += weight.value * first[j] + weight.slope * second[j];
-        point.J_v += weight.value * J_first[j] + weight.slope * J_second[j];
-        ++j;
-      }
+    with_width<S>(rod->size(), [&](auto width) {
+      axes = turns.update_position(*rod, *section.arcs, base.rotation(), q, axes_at);
+      turn(width);
+      integrate(width, q);
+      copy(width, turning_rows(width, rod->num_frames()), J_omega);
+      copy(width, node_rows(width, rod->num_nodes() - 1), J_v);
+    });
+    r = places.get(rod->num_nodes() - 1);
+  }
+
+ protected:
+  using L = Lanes<S>;
+  using Pack = typename L::Pack;
+  using RowPack = typename Rows<S>::Pack;
+
+  // Of all frames, the base first: axes; omega and its rate from velocities alone on a base at
+  // rest.
+  FrameAxes<S> axes_at;
+  Vectors<S> omega_at, omega_dot_at;
+  // Of all nodes, the same.
+  Vectors<S> places, v_at, v_dot_at;
+  alignas(row_alignment) std::array<S, (3 * max_rod_nodes + 4 * max_rod_frames) * max_m> rows;
+
+  template <class Width>
+  [[nodiscard]] const S* node_rows(Width width, int node) const {
+    return rows.data() + 3 * node * width;
+  }
+  template <class Width>
+  [[nodiscard]] const S* turning_rows(Width width, int frame) const {
+    return rows.data() + 3 * (rod->num_nodes() + frame - 1) * width;
+  }
+  template <class Width>
+  [[nodiscard]] const S* spin_row(Width width, int frame) const {
+    return turning_rows(width, rod->num_frames() + 1) + (frame - 1) * width;
+  }
+
+  /// To a matrix of three rows.
+  template <class Width>
+  void copy(Width width, const S* from, Matrix3m& to) const {
+    to.resize(3, rod->size());
+    for (int i = 0; i < to.cols(); ++i) {
+      for (int c = 0; c < 3; ++c) to(c, i) = from[c * width + i];
     }
   }
 
   /// Velocities of all points, and accelerations from velocities alone, on a base at rest.
   void move(const S* qd) {
-    const int n = rod->num_nodes();
-    Vector3<S> omega = Vector3<S>::Zero(), omega_dot = Vector3<S>::Zero();
-    // First and second derivatives in time of dr/dx and d2r/dx2 at the nodes.
-    std::array<Vector3<S>, max_rod_nodes + 1> first_1, first_2, second_1, second_2;
-    for (int k = 0; k <= n; ++k) {
-      if (k > 0) {
-        turn_rates(k - 1, qd, omega, omega_dot);
-        points[k - 1].omega = omega;
-        points[k - 1].omega_dot = omega_dot;
-      }
-      const Matrix3<S>& here = k < n ? steps[k].from : axes;
-      const auto x = here.col(0), y = here.col(1), z = here.col(2);
-      const Strain &e = local[k], rate = strain_of(k, qd);
-      const S length = rod->length + e.stretch;
-      const Vector3<S> bent = e.q_x * x + e.q_y * y, bending = rate.q_x * x + rate.q_y * y;
-      const auto differentiate = [&](const Vector3<S>& d, const Vector3<S>& local_1,
-                                     const Vector3<S>& local_2, Vector3<S>& d_1, Vector3<S>& d_2) {
-        const Vector3<S> swing = omega.cross(d);
-        d_1 = swing + local_1;
-        d_2 = omega_dot.cross(d) + omega.cross(Vector3<S>(swing + 2.0 * local_1)) + local_2;
+    turns.rates(*rod, qd, omega_at, omega_dot_at);
+    // Of dr/dx the first and second derivatives in time, then of d2r/dx2.
+    alignas(row_alignment) std::array<S, 16 * (max_rod_frames + 1)> rates;
+    for (int k = 0; k <= rod->num_frames(); k += L::count) {
+      const auto x = axes_at.x.load(k), y = axes_at.y.load(k), z = axes_at.z.load(k);
+      const Strain &e = strain[k / L::count], rate = strain_of(k, qd);
+      const Pack length = rod->length + e.stretch;
+      const Vector3<Pack> bent = e.q_x * x + e.q_y * y, bending = rate.q_x * x + rate.q_y * y;
+      const Vector3<Pack> w = omega_at.load(k), w_dot = omega_dot_at.load(k);
+      const auto differentiate = [&](S* to, const Vector3<Pack>& d, const Vector3<Pack>& local_1,
+                                     const Vector3<Pack>& local_2) {
+        const Vector3<Pack> swing = w.cross(d), first = swing + local_1;
+        const Vector3<Pack> second =
+            w_dot.cross(d) + w.cross(Vector3<Pack>(swing + 2.0 * local_1)) + local_2;
+        put(first, to, 16);
+        put(second, to + 4, 16);
       };
-      differentiate(length * z, rate.stretch * z, Vector3<S>::Zero(), first_1[k], first_2[k]);
-      differentiate(length * bent + e.stretch_slope * z,
+      S* to = rates.data() + 16 * k;
+      differentiate(to, length * z, rate.stretch * z, Vector3<Pack>::Zero());
+      differentiate(to + 8, length * bent + e.stretch_slope * z,
                     length * bending + rate.stretch * bent + rate.stretch_slope * z,
-                    (2.0 * rate.stretch) * bending, second_1[k], second_2[k]);
+                    (2.0 * rate.stretch) * bending);
     }
-    for (int k = 0; k < n; ++k) {
-      Point& point = points[k];
-      if (k == 0) {
-        point.v.setZero();
-        point.v_dot.setZero();
-      } else {
-        point.v = points[k - 1].v;
-        point.v_dot = points[k - 1].v_dot;
-      }
-      int j = rod->nodes[k + 1].first_neighbour;
-      for (const RodNode::Weight& weight : rod->nodes[k + 1].integral) {
-        point.v += weight.value * first_1[j] + weight.slope * second_1[j];
-        point.v_dot += weight.value * first_2[j] + weight.slope * second_2[j];
-        ++j;
-      }
-    }
+    integrate_rows<8>(rates.data(), [&](int k, const S* sum) {
+      v_at.set(k, {sum[0], sum[1], sum[2]});
+      v_dot_at.set(k, {sum[4], sum[5], sum[6]});
+    });
   }
 
  private:
-  /// The rotation from one point to the next.
-  struct Step {
-    Magnus<S> magnus;
-    Matrix3<S> from;  // axes where it begins
-    ArcValues<S> f;   // of |Omega|^2
-  };
-  /// Strains at a node, or their rates.
+  /// Strains at frames, or their rates.
   struct Strain {
-    S q_x, q_y, stretch, stretch_slope;
+    Pack q_x, q_y, stretch, stretch_slope;
   };
-  std::array<Step, max_rod_nodes> steps;
-  std::array<Strain, max_rod_nodes + 1> local;
+  RodTurns<S> turns;
+  std::array<Strain, (max_rod_frames + 1) / L::count> strain;
 
   [[nodiscard]] Strain strain_of(int k, const S* q) const {
-    const RodNode& node = rod->nodes[k];
-    Strain e{S(0.0), S(0.0), S(0.0), S(0.0)};
+    const RodRule& rule = rod->rule;
+    Strain e{Pack(0.0), Pack(0.0), Pack(0.0), Pack(0.0)};
     for (int i = 0; i < rod->num_bending; ++i) {
-      e.q_x += node.legendre[i] * q[2 * i];
-      e.q_y += node.legendre[i] * q[2 * i + 1];
+      const auto weight = L::weights(&rule.legendre[i][k]);
+      e.q_x += weight * q[2 * i];
+      e.q_y += weight * q[2 * i + 1];
     }
     for (int i = 0; i < rod->num_stretch; ++i) {
-      e.stretch += node.legendre[i] * q[rod->first_stretch + i];
-      e.stretch_slope += node.legendre_slope[i] * q[rod->first_stretch + i];
+      e.stretch += L::weights(&rule.legendre[i][k]) * q[rod->first_stretch + i];
+      e.stretch_slope += L::weights(&rule.legendre_slope[i][k]) * q[rod->first_stretch + i];
     }
     return e;
   }
 
-  /// Sum of u_j = (-q_y, q_x, t) of order j times these weights.
-  [[nodiscard]] Vector3<S> turning_of(const LegendreValues& weight, const S* q) const {
-    Vector3<S> u = Vector3<S>::Zero();
-    for (int j = 0; j < rod->num_bending; ++j) {
-      u[0] -= weight[j] * q[2 * j + 1];
-      u[1] += weight[j] * q[2 * j];
+  /// The vectors of a pack, each with a zero after it, this far apart.
+  static void put(const Vector3<Pack>& v, S* to, int apart) {
+    for (int lane = 0; lane < L::count; ++lane) {
+      for (int c = 0; c < 3; ++c) to[lane * apart + c] = L::get(v[c], lane);
+      to[lane * apart + 3] = S(0.0);
     }
-    for (int j = 0; j < rod->num_twist; ++j) u[2] += weight[j] * q[rod->first_twist + j];
-    return u;
   }
 
-  /// Turns `axes` from the point before to point k, and tells how they turn with q there.
-  void turn(const ArcTable& arcs, int k, const S* q) {
-    const auto& weight = rod->nodes[k + 1].step;
-    Step& step = steps[k];
-    const Vector3<S> locked = rod->locked_turning.template cast<S>();
-    const auto turning = [&](std::size_t i) -> Vector3<S> {
-      return turning_of(weight[i], q) + weight[i][0] * locked;
-    };
-    step.magnus = Magnus<S>(turning(0), turning(1), turning(2));
-    step.from = axes;
-    const Vector3<S>& Omega = step.magnus.Omega;
-    read(arcs, S(Omega.squaredNorm()), step.f);
-    const S A = step.f[arc_a], G = step.f[arc_g], sine = step.f[arc_s];
-    // R [Omega] and R [Omega]^2, row by row.
-    Matrix3<S> once, twice;
-    for (int c = 0; c < 3; ++c) {
-      const Vector3<S> row = axes.row(c).transpose();
-      const Vector3<S> turned = row.cross(Omega);
-      once.row(c) = turned.transpose();
-      twice.row(c) = turned.cross(Omega).transpose();
+  /// f(node, integrals up to it) of `length` numbers, whose values and slopes stand after one
+  /// another for each frame.
+  template <int length, class F>
+  void integrate_rows(const S* from, const F& f) const {
+    constexpr int num_packs = length / Rows<S>::count;
+    alignas(row_alignment) std::array<S, length> sum;
+    for (S& one : sum) one = S(0.0);
+    for (int k = 0; k < rod->num_nodes(); ++k) {
+      integrate_step<num_packs>(std::integral_constant<int, num_packs>(), k, from, sum.data(),
+                                sum.data());
+      f(k, sum.data());
     }
-    const Matrix3<S> tangent = axes + A * once + G * twice;
-    axes += sine * once + A * twice;
-
-    std::array<Matrix3<S>, 3> slope;
-    step.magnus.slopes(slope);
-    for (Matrix3<S>& one : slope) one = tangent.lazyProduct(one).eval();
-    Matrix3m& J = points[k].J_omega;
-    if (k == 0) {
-      J.setZero(3, rod->size());
-    } else {
-      J = points[k - 1].J_omega;
+  }
+  /// From the node before to one. Sums begin anew at each, so that none waits for another.
+  template <int max_packs, class Count>
+  void integrate_step(Count num_packs, int k, const S* rows_of_frames, const S* before,
+                      S* to) const {
+    const RodNode& node = rod->rule.nodes[k];
+    const RowPack* from = packs_of(rows_of_frames) + 2 * num_packs * node.first_neighbour;
+    RowPack sum[max_packs];  // NOLINT(modernize-avoid-c-arrays): of a typedef
+    for (int i = 0; i < num_packs; ++i) {
+      sum[i] = node.integral[0].value * from[i] + node.integral[0].slope * from[num_packs + i];
     }
-    const auto about = [&](int axis, int j) -> Vector3<S> {
-      return weight[0][j] * slope[0].col(axis) + weight[1][j] * slope[1].col(axis) +
-             weight[2][j] * slope[2].col(axis);
-    };
-    for (int j = 0; j < rod->num_bending; ++j) {
-      J.col(2 * j) += about(1, j);
-      J.col(2 * j + 1) -= about(0, j);
+    for (int j = 1; j < num_neighbours; ++j) {
+      from += 2 * num_packs;
+      const auto weight = node.integral[j];
+      for (int i = 0; i < num_packs; ++i) {
+        sum[i] += weight.value * from[i] + weight.slope * from[num_packs + i];
+      }
     }
-    for (int j = 0; j < rod->num_twist; ++j) J.col(rod->first_twist + j) += about(2, j);
+    for (int i = 0; i < num_packs; ++i) packs_of(to)[i] = packs_of(before)[i] + sum[i];
   }
 
-  /// From omega and its rate at the point before to those at point k.
-  void turn_rates(int k, const S* qd, Vector3<S>& omega, Vector3<S>& omega_dot) const {
-    const auto& weight = rod->nodes[k + 1].step;
-    const Step& step = steps[k];
-    Vector3<S> first, second;
-    step.magnus.rates(turning_of(weight[0], qd), turning_of(weight[1], qd),
-                      turning_of(weight[2], qd), first, second);
-    const Vector3<S>& Omega = step.magnus.Omega;
-    const S A = step.f[arc_a], G = step.f[arc_g], growth = 2.0 * Omega.dot(first);
-    const Vector3<S> across = Omega.cross(first), again = Omega.cross(across),
-                     across_2 = Omega.cross(second);
-    const Vector3<S> turning = step.from * (first + A * across + G * again);
-    const Vector3<S> turning_dot =
-        step.from * (second + A * across_2 + G * (Omega.cross(across_2) + first.cross(across)) +
-                     growth * (step.f[arc_da] * across + step.f[arc_dg] * again));
-    omega_dot += omega.cross(turning) + turning_dot;
-    omega += turning;
+  /// J_omega of all frames, and its share along the tangents.
+  template <class Width>
+  void turn(Width width) {
+    constexpr int max_packs = 3 * widest<Width> / Rows<S>::count;
+    const int n = width / Rows<S>::count;
+    alignas(row_alignment) std::array<S, 3 * widest<Width> * max_rod_steps> columns;
+    for (int row = 0; row < 3 * rod->rule.steps.count; ++row) {
+      for (int i = rod->first_stretch; i < width; ++i) columns[row * width + i] = S(0.0);
+    }
+    turns.slopes(*rod, columns.data(), width);
+    RowPack sum[max_packs];  // NOLINT(modernize-avoid-c-arrays): of a typedef
+    for (int i = 0; i < 3 * n; ++i) sum[i] = packs_of(columns.data())[i];
+    S *J = rows.data() + 3 * rod->num_nodes() * width, *spin = J + 3 * rod->num_frames() * width;
+    int s = 1;
+    for (int k = 1; k <= rod->num_frames(); ++k, J += 3 * width, spin += width) {
+      for (; s < rod->rule.frames[k].steps_before; ++s) {
+        const RowPack* from = packs_of(columns.data() + 3 * s * width);
+        for (int i = 0; i < 3 * n; ++i) sum[i] += from[i];
+      }
+      const Vector3<S> t = axes_at.z.get(k);
+      for (int i = 0; i < 3 * n; ++i) packs_of(J)[i] = sum[i];
+      for (int i = 0; i < n; ++i) {
+        packs_of(spin)[i] = t[0] * sum[i] + t[1] * sum[n + i] + t[2] * sum[2 * n + i];
+      }
+    }
+  }
+
+  /// Places of all nodes, and J_v.
+  template <class Width>
+  void integrate(Width width, const S* q) {
+    // dr/dx and d2r/dx2 at the frames, and how they change with q; the base does not turn.
+    alignas(row_alignment) std::array<S, 8 * (max_rod_frames + 1)> d;
+    alignas(row_alignment) std::array<S, 6 * widest<Width> * max_rod_frames> J;
+    for (int k = 0; k <= rod->num_frames(); k += L::count) {
+      Strain& e = strain[k / L::count];
+      e = strain_of(k, q);
+      for (int lane = 0; lane < L::count; ++lane) {
+        L::set(e.q_x, lane, L::get(e.q_x, lane) + rod->locked_turning[1]);
+        L::set(e.q_y, lane, L::get(e.q_y, lane) - rod->locked_turning[0]);
+      }
+      const auto x = axes_at.x.load(k), y = axes_at.y.load(k), z = axes_at.z.load(k);
+      const Pack length = rod->length + e.stretch;
+      put(length * z, d.data() + 8 * k, 8);
+      put(length * (e.q_x * x + e.q_y * y) + e.stretch_slope * z, d.data() + 8 * k + 4, 8);
+    }
+    for (int k = 0; k <= rod->num_frames(); ++k) {
+      const S *first = d.data() + 8 * k, *second = first + 4;
+      S *J_first = J.data() + 6 * k * width, *J_second = J_first + 3 * width;
+      if (k == 0) {
+        for (int i = 0; i < 6 * width; ++i) J_first[i] = S(0.0);
+      } else {
+        const S* turning = turning_rows(width, k);
+        for (int c = 0; c < 3; ++c) {
+          const int a = (c + 1) % 3, b = (c + 2) % 3;
+          const RowPack *on_a = packs_of(turning + a * width),
+                        *on_b = packs_of(turning + b * width);
+          for (int i = 0; i < width / Rows<S>::count; ++i) {
+            packs_of(J_first + c * width)[i] = on_a[i] * first[b] - on_b[i] * first[a];
+            packs_of(J_second + c * width)[i] = on_a[i] * second[b] - on_b[i] * second[a];
+          }
+        }
+      }
+      const Strain& e = strain[k / L::count];
+      const int lane = k % L::count;
+      const Vector3<S> x = axes_at.x.get(k), y = axes_at.y.get(k), z = axes_at.z.get(k);
+      const S length = rod->length + L::get(e.stretch, lane);
+      for (int i = 0; i < rod->num_bending; ++i) {
+        const S share = rod->rule.legendre[i][k] * length;
+        for (int c = 0; c < 3; ++c) {
+          J_second[c * width + 2 * i] += share * x[c];
+          J_second[c * width + 2 * i + 1] += share * y[c];
+        }
+      }
+      for (int i = 0; i < rod->num_stretch; ++i) {
+        const int column = rod->first_stretch + i;
+        const double P = rod->rule.legendre[i][k], slope = rod->rule.legendre_slope[i][k];
+        for (int c = 0; c < 3; ++c) {
+          J_first[c * width + column] = P * z[c];
+          J_second[c * width + column] =
+              P * (L::get(e.q_x, lane) * x[c] + L::get(e.q_y, lane) * y[c]) + slope * z[c];
+        }
+      }
+    }
+    integrate_rows<4>(d.data(),
+                      [&](int k, const S* sum) { places.set(k, {sum[0], sum[1], sum[2]}); });
+    alignas(row_alignment) std::array<S, 3 * widest<Width>> zero;
+    for (int i = 0; i < 3 * width; ++i) zero[i] = S(0.0);
+    const S* before = zero.data();
+    const auto num_packs = packs_in(width);
+    for (int k = 0; k < rod->num_nodes(); ++k) {
+      S* to = rows.data() + 3 * k * width;
+      integrate_step<3 * widest<Width> / Rows<S>::count>(num_packs, k, J.data(), before, to);
+      before = to;
+    }
+  }
+
+  /// Of three rows.
+  static int packs_in(int width) { return 3 * width; }
+  template <int width>
+  static constexpr auto packs_in(std::integral_constant<int, width>) {
+    return std::integral_constant<int, 3 * width / Rows<S>::count>();
   }
 };
 

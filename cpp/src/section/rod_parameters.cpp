@@ -1,5 +1,7 @@
 #include "section/rod_parameters.hpp"
 
+#include <algorithm>
+
 #include "base/constants.hpp"
 
 namespace cdcr::detail {
@@ -17,6 +19,11 @@ void add_stiffness(MatrixXd& stiffness, int first, int stride, int count, const 
       }
     }
   }
+}
+
+/// For accelerations to about 1e-8.
+int nodes_needed(const RodDescription& rod) {
+  return 6 + std::max({1, rod.bending_order, rod.twist_order, rod.stretch_order});
 }
 
 }  // namespace
@@ -53,7 +60,7 @@ RodParameters::RodParameters(const RodDescription& rod)
       first_stretch(first_twist + num_twist),
       length(rod.length),
       mass(rod.mass.backbone_mass),
-      nodes(rod_nodes(rod.mass, rod.num_nodes)) {
+      rule(rod.mass, rod.num_nodes > 0 ? rod.num_nodes : nodes_needed(rod)) {
   for (const Disk& disk : rod.mass.disks) mass += disk.mass;
 
   const long double inner = rod.mass.inner_diameter;

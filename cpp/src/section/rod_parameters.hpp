@@ -19,7 +19,7 @@ struct RodDescription {
   double youngs_modulus = 0.0, shear_modulus = 0.0;                  // [Pa]
   double damping = 0.0, twist_damping = 0.0, stretch_damping = 0.0;  // of strain rates
   int bending_order = 0, twist_order = -1, stretch_order = -1;       // -1: locked
-  int num_nodes = 12;
+  int num_nodes = 0;                                                 // 0: what its orders need
   // E I, G J [N m^2] and E A [N], in place of what material and shape give.
   std::optional<double> bending_stiffness, twist_stiffness, stretch_stiffness;
   double material_damping = 0.0;                 // Kelvin-Voigt's time [s]
@@ -36,13 +36,14 @@ struct RodParameters {
   explicit RodParameters(const RodDescription& rod);
 
   [[nodiscard]] int size() const noexcept { return first_stretch + num_stretch; }
+  [[nodiscard]] int num_nodes() const noexcept { return static_cast<int>(rule.nodes.size()); }
   /// But the base.
-  [[nodiscard]] int num_nodes() const noexcept { return static_cast<int>(nodes.size()) - 1; }
+  [[nodiscard]] int num_frames() const noexcept { return static_cast<int>(rule.frames.size()) - 1; }
 
   int num_bending, num_twist, num_stretch;  // coefficients of each, two coordinates for one bending
   int first_twist, first_stretch;           // coordinates
   double length, mass;
-  std::vector<RodNode> nodes;
+  RodRule rule;
   MatrixXd stiffness;  // elastic energy (q - rest)^T stiffness (q - rest)/2
   VectorXd rest;
   VectorXd damping;

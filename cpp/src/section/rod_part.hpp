@@ -20,10 +20,9 @@ struct RodPart {
     if (fraction == 1.0) {
       RodFrames<S> frames;
       frames.update_position(section, at, q);
-      const auto& tip = frames.points[section.rod->num_nodes() - 1];
-      r = tip.r;
-      J_omega = tip.J_omega;
-      J_v = tip.J_v;
+      r = frames.r;
+      J_omega = frames.J_omega;
+      J_v = frames.J_v;
       axes_ = frames.axes;
       return;
     }

@@ -15,6 +15,13 @@ using RealVector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
 // A backbone this light beside the whole is none: its rule would be that of the disks alone.
 constexpr Real least_backbone_share = 1e-6L;
 
+// Of steps from frame to frame, times the number of nodes.
+constexpr Real longest_step = 1.25L;
+
+// From this many nodes on the frames are those of an even rule: that of the disks' inertia crowds
+// them around the disks, where integrals between them lose digits, and is no longer needed.
+constexpr int first_even = 24;
+
 /// Points x with weights: a discrete measure on [0, 1].
 using Points = std::vector<GaussPoint>;
 
@@ -120,8 +127,9 @@ std::vector<Real> interpolated(const Points& measure, const std::vector<Real>& n
 
 /// Weights of the integral from one place to another, by the polynomial that has f and df/dx at
 /// these nodes (Hermite).
-std::vector<RodNode::Weight> hermite_integral(const std::vector<Real>& nodes, Real from, Real to) {
-  std::vector<RodNode::Weight> weights;
+std::array<RodNode::Weight, num_neighbours> hermite_integral(const std::vector<Real>& nodes,
+                                                             Real from, Real to) {
+  std::array<RodNode::Weight, num_neighbours> weights{};
   for (std::size_t j = 0; j < nodes.size(); ++j) {
     Real steepness = 0.0L;  // of the cardinal function at its node
     for (std::size_t k = 0; k < nodes.size(); ++k) {
@@ -134,9 +142,63 @@ std::vector<RodNode::Weight> hermite_integral(const std::vector<Real>& nodes, Re
       value += share * (1.0L - 2.0L * steepness * beside);
       slope += share * beside;
     }
-    weights.push_back({static_cast<double>(value), static_cast<double>(slope)});
+    weights[j] = {static_cast<double>(value), static_cast<double>(slope)};
   }
   return weights;
+}
+
+/// Nodes and weights of the Gauss-Lobatto rule of a measure: the base and this many more, the last
+/// of them the tip. With the base known, the others are the Gauss-Radau rule of x times the
+/// measure.
+Points lobatto_rule(Points measure, int num_nodes) {
+  Real total = 0.0L;
+  for (GaussPoint& point : measure) {
+    total += point.weight;
+    point.weight *= point.x;
+  }
+  JacobiMatrix jacobi(measure, num_nodes);
+  jacobi.fix_end();
+  Points rule{{0.0L, total}};
+  for (const GaussPoint& point : jacobi.rule()) {
+    const Real weight = point.weight / point.x;
+    rule.push_back({point.x, weight});
+    rule.front().weight -= weight;
+  }
+  rule.back().x = 1.0L;
+  return rule;
+}
+
+/// The rule of an even measure, with weights of interpolation for this one.
+Points even_rule(const Points& measure, int num_nodes) {
+  Points rule = lobatto_rule(gauss_legendre(), num_nodes);
+  std::vector<Real> nodes;
+  for (const GaussPoint& point : rule) nodes.push_back(point.x);
+  const std::vector<Real> weights = interpolated(measure, nodes);
+  for (std::size_t k = 0; k < rule.size(); ++k) rule[k].weight = weights[k];
+  return rule;
+}
+
+/// The rule of a rod's mass; the even one where the backbone has next to none, since it would be
+/// that of the disks alone.
+Points rule_of(const Points& measure, int num_nodes) {
+  Real total = 0.0L, disks = 0.0L;
+  for (std::size_t i = 0; i < measure.size(); ++i) {
+    total += measure[i].weight;
+    if (i >= gauss_legendre().size()) disks += measure[i].weight;
+  }
+  if (total - disks > least_backbone_share * total) return lobatto_rule(measure, num_nodes);
+  return even_rule(measure, num_nodes);
+}
+
+/// Appends a step.
+void add_step(RodSteps& steps, Real from, Real to) {
+  const auto alpha = step_of(from, to);
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j <= max_legendre_order; ++j) {
+      steps.weights[i][j][steps.count] = alpha[i][j];
+    }
+  }
+  ++steps.count;
 }
 
 }  // namespace
@@ -165,44 +227,46 @@ const std::vector<GaussPoint>& gauss_legendre() {
   return points;
 }
 
-std::vector<RodNode> rod_nodes(const RodMass& rod, int num_nodes) {
+RodRule::RodRule(const RodMass& rod, int num_nodes) {
   const Measures measures = measures_of(rod);
-  Real total = 0.0L;
-  for (const GaussPoint& point : measures.mass) total += point.weight;
-  const bool light = !(rod.backbone_mass > least_backbone_share * total);
-  JacobiMatrix jacobi(light ? gauss_legendre() : measures.mass, num_nodes);
-  jacobi.fix_end();
-  const Points rule = jacobi.rule();
+  const Points by_mass = rule_of(measures.mass, num_nodes);
+  const int num_frames = std::max(num_nodes - 2, num_neighbours - 1);
+  const Points by_inertia = num_nodes < first_even ? rule_of(measures.inertia, num_frames)
+                                                   : even_rule(measures.inertia, num_frames);
 
-  std::vector<Real> nodes{0.0L}, mass{0.0L};
-  for (const GaussPoint& point : rule) {
-    nodes.push_back(point.x);
-    mass.push_back(point.weight);
-  }
-  nodes.back() = 1.0L;
-  if (light) mass = interpolated(measures.mass, nodes);
-  const std::vector<Real> inertia = interpolated(measures.inertia, nodes);
-
-  std::vector<RodNode> all(nodes.size());
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    const Real x = nodes[k];
-    RodNode& node = all[k];
-    node.x = static_cast<double>(x);
-    node.mass = static_cast<double>(mass[k]);
-    node.inertia = static_cast<double>(inertia[k]);
-    const auto P = legendre(x), slope = legendre_slope(x);
+  std::vector<Real> at;
+  for (const auto& [x, weight] : by_inertia) {
+    const std::size_t k = at.size();
+    const auto P = detail::legendre(x), slope = detail::legendre_slope(x);
     for (std::size_t j = 0; j < P.size(); ++j) {
-      node.legendre[j] = static_cast<double>(P[j]);
-      node.legendre_slope[j] = static_cast<double>(slope[j]);
+      legendre[j][k] = static_cast<double>(P[j]);
+      legendre_slope[j][k] = static_cast<double>(slope[j]);
     }
-    if (k == 0) continue;
-    node.step = step_of(nodes[k - 1], x);
-    const int count = std::min(num_neighbours, num_nodes + 1), middle = static_cast<int>(k);
-    node.first_neighbour = std::clamp(middle - count / 2, 0, num_nodes + 1 - count);
-    const auto first = nodes.begin() + node.first_neighbour;
-    node.integral = hermite_integral({first, first + count}, nodes[k - 1], x);
+    this->inertia[k] = static_cast<double>(weight);
+    if (!at.empty()) {
+      const Real gap = x - at.back();
+      const int parts = static_cast<int>(std::ceil(gap * num_nodes / longest_step));
+      for (int i = 0; i < parts; ++i) {
+        add_step(steps, at.back() + gap * i / parts, at.back() + gap * (i + 1) / parts);
+      }
+    }
+    at.push_back(x);
+    frames.push_back({static_cast<double>(x), steps.count});
   }
-  return all;
+  steps.count += steps.count % 2;
+
+  for (std::size_t k = 1; k < by_mass.size(); ++k) {
+    const Real from = by_mass[k - 1].x, to = by_mass[k].x;
+    mass[k - 1] = static_cast<double>(by_mass[k].weight);
+    RodNode node{static_cast<double>(to), 0, {}};
+    // As many frames on either side of the middle, as far as there are.
+    const auto above = std::lower_bound(at.begin(), at.end(), (from + to) / 2.0L);
+    node.first_neighbour = std::clamp(static_cast<int>(above - at.begin()) - num_neighbours / 2, 0,
+                                      static_cast<int>(at.size()) - num_neighbours);
+    const auto first = at.begin() + node.first_neighbour;
+    node.integral = hermite_integral({first, first + num_neighbours}, from, to);
+    nodes.push_back(node);
+  }
 }
 
 }  // namespace cdcr::detail

@@ -1,11 +1,13 @@
 #include "section/rubbing_path.hpp"
 
+#include "section/rod_cable.hpp"
+
 namespace cdcr::detail {
 
 RubbingPath::RubbingPath(const RodParameters& rod, const CableRoute& route) {
   const double widens = route.tip_radius - route.base_radius;
   const double winds = route.tip_angle - route.base_angle;
-  const std::vector<GaussPoint> rule = gauss_legendre(rod.num_nodes());
+  const std::vector<GaussPoint> rule = gauss_legendre(num_path_points(rod, route));
   for (const auto& [at, weight] : rule) {
     const auto x = static_cast<double>(at);
     const double radius = route.base_radius + x * widens;

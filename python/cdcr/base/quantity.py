@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import MISSING, field
+from dataclasses import MISSING, field, fields
 from typing import Any
 
 
@@ -37,6 +37,16 @@ def quantity(
     told = {"about": about, "unit": unit, "kind": kind, "advanced": advanced}
     told |= {"requirement": _in_words(requirement, unit), "each": _in_words(each, unit)}
     return field(default=default, metadata=told)
+
+
+def told(description: Any) -> str:
+    """Return what one would type, without the advanced fields that are at their defaults."""
+    shown = [
+        f"{item.name}={getattr(description, item.name)!r}"
+        for item in fields(description)
+        if not item.metadata["advanced"] or getattr(description, item.name) != item.default
+    ]
+    return f"{type(description).__name__}({', '.join(shown)})"
 
 
 def _in_words(requirement: str, unit: str) -> str:

@@ -15,11 +15,13 @@ from cdcr.cli import (
     doctor,
     export,
     figures,
+    identify,
     info,
     info_json,
     new,
     run,
     schema,
+    sweep,
     tables,
     validate,
     view,
@@ -34,7 +36,7 @@ app = typer.Typer(
     rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-for group in (validate, schema, doctor, export, view):
+for group in (sweep, validate, schema, doctor, export, identify, view):
     app.add_typer(group.commands)
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from typer import Context
+
 FILMS = ("mp4", "gif", "html")
 SIZES = ("journal", "slide")
 
@@ -25,6 +27,40 @@ def formats(incomplete: str) -> list[str]:
     from cdcr.scenarios.scenario import FILES
 
     return _begun(tuple(FILES), incomplete)
+
+
+def metrics(incomplete: str) -> list[str]:
+    """Return the metrics of a sweep that begin so, after those with commas before."""
+    from cdcr.sweeps import METRICS
+
+    given, comma, begun = incomplete.rpartition(",")
+    return [f"{given}{comma}{name}" for name in _begun(tuple(METRICS), begun)]
+
+
+def parameters(context: Context, incomplete: str) -> list[str]:
+    """Return the numbers of the scenario on the line that begin so."""
+    from cdcr.sweeps.jobs import file_source
+    from cdcr.sweeps.paths import numbers
+
+    # What stands before an option without its value is not told apart yet.
+    scenario = context.params.get("scenario") or next(iter(context.args), "")
+    try:
+        table = file_source(scenario, ()).table
+    except (OSError, ValueError):
+        return []
+    return _begun(tuple(numbers(table)), incomplete)
+
+
+def samples(incomplete: str) -> list[str]:
+    """Return the kinds of samples that begin so."""
+    from cdcr.sweeps.design import SAMPLED
+
+    return _begun(tuple(f"{kind}:" for kind in SAMPLED), incomplete)
+
+
+def schedulers(incomplete: str) -> list[str]:
+    """Return the scheduler that has a name, where it begins so."""
+    return _begun(("local",), incomplete)
 
 
 def sizes(incomplete: str) -> list[str]:

@@ -20,8 +20,8 @@ from rich.text import Text
 import cdcr
 from cdcr import _core
 from cdcr.base.extras import find_ffmpeg
+from cdcr.base.processes import usable
 from cdcr.cli.plain import AsJson, print_json, told_plainly
-from cdcr.cli.processes import usable
 from cdcr.cli.run import DelayedBar
 from cdcr.cli.self_test import Outcome, self_test, step_time
 from cdcr.cli.tables import new_table
@@ -35,6 +35,7 @@ GIVES = {
     "cli": "the command cdcr",
     "track": "motions from samples",
     "control": "python-control",
+    "identify": "parameters from measurements",
     "gym": "environments of Gymnasium",
     "mcap": "logs for Foxglove",
     "view": "the live view in the browser",

@@ -9,8 +9,8 @@ from pathlib import Path
 from rich.console import Console
 
 from cdcr import scenarios
+from cdcr.base import processes
 from cdcr.base.extras import require
-from cdcr.cli import processes
 from cdcr.cli.page import page
 from cdcr.cli.run import REPLACE, DelayedBar, Mistake, check_size
 from cdcr.files.new_file import check_files, new_files

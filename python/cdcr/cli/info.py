@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import fields
+from dataclasses import Field, fields
+from typing import Any
 
 import numpy as np
 from rich.console import Console
@@ -55,7 +56,8 @@ def _sections(robot: Robot) -> Table:
             continue
         if item.name not in _OF_CABLES:
             label = _LABELS.get(item.name, item.name.replace("_", " "))
-            _add_row(table, label, item.metadata["unit"], list(map(_text, values)))
+            texts = [_field_text(item, value) for value in values]
+            _add_row(table, label, item.metadata["unit"], texts)
     stiffness = [_text(section.stiffness) for section in robot.sections]
     _add_row(table, "bending stiffness E I / l", "N m/rad", stiffness)
     return table
@@ -75,8 +77,8 @@ def _cables(robot: Robot, rest: Rest | None) -> Table:
         motions = np.zeros(len(cables))
     table = new_table("Cables, in the order of the commands", "", *columns)
     for j, (cable, motion) in enumerate(zip(cables, motions, strict=True)):
-        row = [f"{cable.end_section + 1}", _text(cable.radius)]
-        row += [f"{math.degrees(cable.angle):.4g}", "length" if cable.length_driven else "tension"]
+        row = [_passed(cable), _along(cable, 0), _along(cable, 1)]
+        row.append("length" if cable.length_driven else "tension")
         row.append(_friction(robot, cable))
         if by_tension:
             row.append("" if cable.length_driven else f"{1e3 * motion:.4g}")
@@ -85,6 +87,24 @@ def _cables(robot: Robot, rest: Rest | None) -> Table:
             row.append(wound if cable.length_driven else "")
         table.add_row(f"cable {j + 1}", *row)
     return table
+
+
+def _passed(cable: Cable) -> str:
+    """Return the section where it ends, after the one at whose base it begins if not the first."""
+    first, last = cable.start_section + 1, cable.end_section + 1
+    return f"{last}" if first == 1 else f"{first} to {last}"
+
+
+def _along(cable: Cable, which: int) -> str:
+    """Return its radius [m] or angle [deg], or both ends of it in each section passed."""
+    passed = range(cable.start_section, cable.end_section + 1)
+    found = [_ends(cable.route(section)[which], which) for section in passed]
+    return found[0] if len(set(found)) == 1 else "\n".join(found)
+
+
+def _ends(pair: tuple[float, float], which: int) -> str:
+    base, tip = (f"{math.degrees(x):.4g}" if which else _text(x) for x in pair)
+    return base if base == tip else f"{base} to {tip}"
 
 
 def _drives(robot: Robot) -> Iterator[str]:
@@ -101,7 +121,7 @@ def _friction(robot: Robot, cable: Cable) -> str:
     """Return its coefficient, or those of the sections it runs through where they differ."""
     if cable.friction is not None:
         return f"{cable.friction:g}"
-    passed = robot.sections[: cable.end_section + 1]
+    passed = robot.sections[cable.start_section : cable.end_section + 1]
     values = [f"{section.cable_friction:g}" for section in passed]
     return values[0] if len(set(values)) == 1 else ", ".join(values)
 
@@ -187,6 +207,12 @@ def _whole(robot: Robot, rest: Rest | None) -> Table:
 
 def _add_row(table: Table, label: str, unit: str, values: list[str]) -> None:
     table.add_row(Text(f"{label} [{unit}]" if unit else label), *map(Text, values))
+
+
+def _field_text(item: Field[Any], value: Any) -> str:
+    if value is None:
+        return "locked" if item.metadata["kind"] == "order" else "none"
+    return _text(value)
 
 
 def _text(value: float | tuple[float, ...]) -> str:

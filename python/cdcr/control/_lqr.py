@@ -45,11 +45,11 @@ def lqr(
     ----------
     model : Model
         The robot.
-    q : (2n,) array_like
+    q : (d,) array_like
         The shape to hold [rad].
     tension : (num_cables,) array_like
         Cable tensions there [N]; lengths [m] of cables driven by length.
-    Q : float, (4n,) or (4n, 4n) array_like
+    Q : float, (2d,) or (2d, 2d) array_like
         Weight of the state (q, qd), in units of the cost over [rad^2] and [rad^2/s^2]: one number,
         a diagonal, or a symmetric matrix; no eigenvalue may be negative.
     R : float, (num_cables,) or (num_cables, num_cables) array_like
@@ -59,7 +59,7 @@ def lqr(
 
     Returns
     -------
-    (num_cables, 4n) array
+    (num_cables, 2d) array
         The gain K [N/rad], [N s/rad]; [m/rad], [m s/rad] for cables driven by length.
 
     Raises

@@ -105,7 +105,7 @@ class Chain:
         stiffness = np.diag([joint.stiffness for joint in self.joints])
         for cable in self.cables:
             through = np.array([joint.section <= cable.end_section for joint in self.joints])
-            stiffness += cable.stiffness * cable.radius**2 * np.outer(through, through)
+            stiffness += cable.stiffness * cable.farthest**2 * np.outer(through, through)
         inverse = np.linalg.inv(np.linalg.cholesky(mass))
         return float(np.sqrt(np.linalg.eigvalsh(inverse @ stiffness @ inverse.T)[-1]))
 
@@ -136,7 +136,7 @@ def _pieces(
     """Yield what lies from start to before the end, that of the last link included."""
     for section, (bottom, top) in zip(robot.sections, pairwise(ends), strict=True):
         if max(bottom, start) < min(top, end):
-            whole = Piece(bottom, top, section.backbone_mass, section.backbone_diameter)
+            whole = Piece(bottom, top, section.backbone_mass, section.diameters[0])
             yield whole.between(start, end)
         for disk in section.disks:
             height = min(bottom + disk.position * section.length, top)

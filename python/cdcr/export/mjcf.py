@@ -15,6 +15,7 @@ import numpy as np
 
 from cdcr import _core
 from cdcr.base.check import Check, count, require_kind
+from cdcr.export.arcs import as_solid_arcs
 from cdcr.export.links import Chain, Joint, Link
 from cdcr.files.new_file import file_path, new_file
 from cdcr.robot.cable import Cable
@@ -73,7 +74,8 @@ def write_mjcf(
     Raises
     ------
     ValueError
-        For other `links`, for a name that ends otherwise, and for links without mass.
+        For other `links`, for a name that ends otherwise, for links without mass, and for a robot
+        of more than arcs and straight cables.
     OSError
         Where the file exists and is not to be replaced, or there is no such folder.
 
@@ -102,6 +104,7 @@ def mjcf_text(robot: Robot, file: Path, *, links: int = 10) -> str:
     requirement = f"a whole number 1 to {most} for {count(len(robot.sections), 'section')}"
     links = check.whole("links", links, requirement, 1, most)
     check.done()
+    robot = as_solid_arcs(robot, "a chain of rigid links")
     if any(cable.friction for cable in robot.all_cables) or any(
         section.cable_friction for section in robot.sections
     ):
@@ -227,7 +230,7 @@ def _add_geoms(body: ElementTree.Element, chain: Chain, link: Link) -> None:
                 _HIDDEN,
                 type="capsule",
                 fromto=_numbers((0.0, 0.0, low - link.start, 0.0, 0.0, high - link.start)),
-                size=repr(section.backbone_diameter / 2.0),
+                size=repr(section.diameters[0] / 2.0),
                 rgba="0.2 0.2 0.2 1",
             )
     for height, diameter in link.disks:
@@ -247,7 +250,7 @@ def _bend(chain: Chain, section: int, links: int) -> float:
     No further than to where the sites of a cable at both its sides meet.
     """
     half = chain.robot.sections[section].length / links / 2.0
-    radii = [cable.radius for cable in chain.cables if cable.end_section >= section]
+    radii = [cable.farthest for cable in chain.cables if cable.end_section >= section]
     return min([math.pi / links, *(math.sqrt(2.0) * math.atan(half / r) for r in radii)])
 
 
@@ -260,11 +263,12 @@ def _sites(chain: Chain, bends: Sequence[float]) -> list[list[Site]]:
     """
     found: list[list[Site]] = [[] for _ in chain.links]
     for j, cable in enumerate(chain.cables):
-        x, y = cable.radius * math.cos(cable.angle), cable.radius * math.sin(cable.angle)
+        (radius, _), (angle, _) = cable.route(cable.end_section)
+        x, y = radius * math.cos(angle), radius * math.sin(angle)
         heights = [(0, 0.0)]
         for k, joint in enumerate(chain.joints):
             if joint.section <= cable.end_section:
-                apart = cable.radius * math.tan(bends[joint.section] / math.sqrt(2.0))
+                apart = radius * math.tan(bends[joint.section] / math.sqrt(2.0))
                 heights += [(k, joint.height - apart), (k + 1, joint.height + apart)]
         heights.append((heights[-1][0], chain.ends[cable.end_section + 1]))
         for number, (i, height) in enumerate(heights):
@@ -302,7 +306,7 @@ def _actuator(chain: Chain, cable: Cable) -> ElementTree.Element:
     if not cable.length_driven:
         passed = chain.robot.sections[: cable.end_section + 1]
         stiffest = max(section.stiffness for section in passed)
-        most = _RANGE * math.pi * stiffest / cable.radius
+        most = _RANGE * math.pi * stiffest / cable.farthest
         return ElementTree.Element("motor", gear="-1", ctrlrange=_numbers((0.0, most)))
     straight = chain.ends[cable.end_section + 1]
     strongest = cable.stiffness * straight

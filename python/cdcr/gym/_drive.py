@@ -61,9 +61,9 @@ class Drive:
         cables = self.robot.all_cables
         angle = RIGHT_ANGLE / len(sections)
         if self.by_length:
-            return np.array([angle * cable.radius for cable in cables])
+            return np.array([angle * cable.farthest for cable in cables])
         return np.array(
-            [angle * sections[one.end_section].stiffness / one.radius for one in cables]
+            [angle * sections[one.end_section].stiffness / one.farthest for one in cables]
         )
 
     def _checked(self, limit: ArrayLike) -> FloatArray:
@@ -92,7 +92,7 @@ def _driven_by_length(robot: Robot) -> Robot:
     cables = []
     for cable in robot.cables:
         if not cable.length_driven:
-            k = stiffness(cable.end_section, cable.radius)
+            k = stiffness(cable.end_section, cable.farthest)
             cable = replace(cable, stiffness=k, damping=k * DAMPING_TIME)
         cables.append(cable)
     return replace(robot, sections=tuple(sections), cables=tuple(cables))

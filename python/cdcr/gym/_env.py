@@ -119,12 +119,12 @@ class RobotEnv(gymnasium.Env[Observation, Action]):
 
     @property
     def q(self) -> FloatArray:
-        """Bending vectors (2n,) [rad]."""
+        """Coordinates (d,)."""
         return np.array(self._task.q[0])
 
     @property
     def qd(self) -> FloatArray:
-        """Their rates (2n,) [rad/s]."""
+        """Their rates (d,)."""
         return np.array(self._task.qd[0])
 
     @property

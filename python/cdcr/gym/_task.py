@@ -165,7 +165,7 @@ class Task:
         return np.maximum(np.minimum(seen, self._bounds), -self._bounds).astype(np.float32)
 
     def shapes(self, count: int, rng: np.random.Generator) -> FloatArray:
-        """Return shapes (count, 2n) in which robot 0 may rest [rad]."""
+        """Return shapes (count, d) in which robot 0 may rest [rad]."""
         return np.array([self._drawn_shape(0, rng) for _ in range(count)])
 
     def _update(self) -> None:
@@ -180,18 +180,18 @@ class Task:
         self.distance = np.sqrt(np.einsum("ij,ij->i", self._away, self._away))
 
     def _shapes_at(self, time: FloatArray) -> FloatArray:
-        """Return the shapes (count, 2n) whose tips the targets are, within their corners."""
+        """Return the shapes (count, d) whose tips the targets are, within their corners."""
         angle = (self._phase + self._rate * time)[:, None] + THIRDS
         weights = (1.0 + np.cos(angle)) / 3.0
         return np.asarray(np.einsum("ik,ikj->ij", weights, self._corners))
 
     def _drawn_shape(self, i: int, rng: np.random.Generator) -> FloatArray:
-        """Return a shape (2n,) in which robot i rests under some command."""
+        """Return a shape (d,) in which robot i rests under some command."""
         actions = rng.uniform(-1.0, 1.0, (MAX_DRAWS, self.model.num_cables))
         return self._rest(i, *self.drive.command(self.drive.share(actions)))
 
     def _rest(self, i: int, *commands: FloatArray) -> FloatArray:
-        """Return the shape (2n,) in which robot i rests under the first of some that has one."""
+        """Return the shape (d,) in which robot i rests under the first of some that has one."""
         for command in commands:
             found = self.model_of(i).find_equilibrium(command)
             if found.status == _core.Status.ok:

@@ -13,7 +13,7 @@ class InverseKinematics:
 
     Attributes
     ----------
-    q : (2n,) array
+    q : (d,) array
         Bending vectors [rad], always finite and within max_theta.
     position : (3,) array
         Tip position reached [m].

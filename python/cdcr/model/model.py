@@ -30,10 +30,11 @@ FORMULATIONS = tuple(f.name.replace("_", "-") for f in _core.Formulation)
 class Model(StateSpaceModel):
     """Equations of motion of a robot: M(q) qdd + h(q, qd) = B F.
 
-    A model never changes, so threads may share one. q, qd, qdd are bending vectors and their rates,
-    base to tip, shape (2n,) in rad, rad/s, rad/s^2; tensions have shape (num_cables,) in N. Every
-    method raises ValueError naming the argument when its shape is wrong, it is not finite, a
-    tension is negative, or a section is bent beyond ``cdcr.max_bending``.
+    A model never changes, so threads may share one. q, qd, qdd are coordinates and their rates,
+    base to tip, shape (d,): for a section of constant curvature its bending vector in rad, rad/s,
+    rad/s^2, for others also what `coordinate_names` says, stretch in m. Tensions have shape
+    (num_cables,) in N. Every method raises ValueError naming the argument when its shape is wrong,
+    it is not finite, a tension is negative, or a section is bent beyond ``cdcr.max_bending``.
 
     Parameters
     ----------
@@ -141,7 +142,7 @@ class Model(StateSpaceModel):
         *,
         throw: bool = True,
     ) -> FloatArray | _core.Equilibrium:
-        """Bending vectors at rest under constant commands and wrenches, cpp/README.md eq. (18).
+        """Coordinates at rest under constant commands and wrenches, cpp/README.md eq. (18).
 
         Newton's method, downhill in energy where all loads have one; where that fails, the load
         grows from nothing to all, then other starts are tried. Friction of cables is left out: with
@@ -154,8 +155,8 @@ class Model(StateSpaceModel):
         tension : (num_cables,) array_like, optional
             Cable tensions [N]; lengths [m] for cables driven by length. None: no tension, the
             lengths of the straight robot.
-        q0 : (2n,) array_like, optional
-            Where to start [rad]; by default the answer without gravity.
+        q0 : (d,) array_like, optional
+            Where to start; by default the answer without gravity.
         wrenches : Wrench or sequence of Wrench, optional
             Constant forces and moments on the backbone.
         throw : bool, optional
@@ -164,8 +165,8 @@ class Model(StateSpaceModel):
 
         Returns
         -------
-        (2n,) array or Equilibrium
-            Bending vectors [rad]; with ``throw=False`` also whether it is stable, the tensions
+        (d,) array or Equilibrium
+            Coordinates; with ``throw=False`` also whether it is stable, the tensions
             there, and a status.
 
         Raises
@@ -193,8 +194,8 @@ class Model(StateSpaceModel):
 
         Parameters
         ----------
-        q : (..., 2n) array_like
-            The shape, at rest there or held [rad]; or an array of shapes.
+        q : (..., d) array_like
+            The shape, at rest there or held; or an array of shapes.
         tension : (..., num_cables) array_like, optional
             Cable tensions [N]; lengths [m] for cables driven by length. None: as in `equilibrium`.
         wrenches : Wrench or sequence of Wrench, optional
@@ -233,6 +234,7 @@ class Model(StateSpaceModel):
         max_tension: float = ...,
         *,
         method: str = ...,
+        q: ArrayLike | None = ...,
         throw: Literal[True] = ...,
     ) -> FloatArray: ...
     @overload
@@ -243,6 +245,7 @@ class Model(StateSpaceModel):
         max_tension: float = ...,
         *,
         method: str = ...,
+        q: ArrayLike | None = ...,
         throw: Literal[False],
     ) -> _core.Allocation: ...
     def allocate(
@@ -252,6 +255,7 @@ class Model(StateSpaceModel):
         max_tension: float = math.inf,
         *,
         method: str = "automatic",
+        q: ArrayLike | None = None,
         throw: bool = True,
     ) -> FloatArray | _core.Allocation:
         """Least-norm cable tensions within limits that give a generalised force.
@@ -260,14 +264,16 @@ class Model(StateSpaceModel):
 
         Parameters
         ----------
-        force : (2n,) array_like
-            Generalised force [N m], as `inverse_dynamics` returns it.
+        force : (d,) array_like
+            Generalised force [N m], [N] of stretch, as `inverse_dynamics` returns it.
         min_tension, max_tension : float, optional
             Limits of every tension [N], 0 <= min_tension <= max_tension.
         method : {"automatic", "sections", "search"}, optional
             The closed form, section by section, is for robots with three cables that end at every
             section; the search takes any cables. Both give the same; by default the first is taken
             where it applies.
+        q : (d,) array_like, optional
+            Where the robot is; to be given where the actuation matrix depends on it.
         throw : bool, optional
             False: return all that was found, the nearest tensions where none give that force. The
             old name of that is `find_tension`.
@@ -284,7 +290,7 @@ class Model(StateSpaceModel):
             If no tensions within the limits give that force; it carries the nearest ones and names
             the cables that are in the way.
         """
-        found = self.find_tension(force, min_tension, max_tension, method=method)
+        found = self.find_tension(force, min_tension, max_tension, method, q)
         return checked_allocation(found, force, (min_tension, max_tension)) if throw else found
 
     def inverse_kinematics(
@@ -299,7 +305,7 @@ class Model(StateSpaceModel):
         seeds: int = 100,
         iterations: int = 100,
     ) -> InverseKinematics:
-        """Bending vectors that bring the tip to a point, and to an orientation if one is given.
+        """Coordinates that bring the tip to a point, and to an orientation if one is given.
 
         Damped least squares from several starts, until one leads there; otherwise the nearest that
         was found, with its distance and why. One section without an orientation has a closed form,
@@ -312,8 +318,8 @@ class Model(StateSpaceModel):
             Tip position, that of the robot's tool, in the base frame [m].
         R : (3, 3) array_like, optional
             Tip orientation in the base frame, a rotation matrix.
-        q0 : (2n,) array_like, optional
-            Where to start first [rad].
+        q0 : (d,) array_like, optional
+            Where to start first.
         max_theta : float or (n,) array_like, optional
             Largest bending angle, of all or of each section [rad]; by default 2 pi.
         orientation_weight : float, optional

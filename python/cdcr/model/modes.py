@@ -23,18 +23,18 @@ class Modes:
     ----------
     model : Model
         The robot.
-    q : (..., 2n) array
+    q : (..., d) array
         The shape it vibrates about [rad].
-    frequency : (..., 2n) array
+    frequency : (..., d) array
         Natural frequencies of the undamped robot, increasing [rad/s]; 0 where the robot does not
         come back.
-    squared_frequency : (..., 2n) array
+    squared_frequency : (..., d) array
         Their squares [rad^2/s^2], negative in the directions in which the robot is unstable.
-    shape : (..., 2n, 2n) array
+    shape : (..., d, d) array
         A mode shape in each column, of unit modal mass: shape.T @ M @ shape = 1 [rad/(m sqrt(kg))].
-    damping_ratio : (..., 2n) array
+    damping_ratio : (..., d) array
         Of each mode alone, 1 is critical; 0 where the frequency is 0 [-].
-    eigenvalues : (..., 4n) complex array
+    eigenvalues : (..., 2d) complex array
         Of the damped robot, couplings of the modes included, by magnitude [1/s].
     stable : bool or (...) array of bool
         Whether every small motion stays small.
@@ -59,17 +59,17 @@ class Modes:
 
     @property
     def frequency_hz(self) -> FloatArray:
-        """Natural frequencies (..., 2n) [Hz]."""
+        """Natural frequencies (..., d) [Hz]."""
         return self.frequency / (2.0 * math.pi)
 
     @property
     def damped_frequency(self) -> FloatArray:
-        """Frequencies (..., 4n) of the damped robot, one of each eigenvalue [rad/s]."""
+        """Frequencies (..., 2d) of the damped robot, one of each eigenvalue [rad/s]."""
         return np.abs(self.eigenvalues.imag)
 
     @property
     def decay_rate(self) -> FloatArray:
-        """Rates (..., 4n) at which these motions decay, one of each eigenvalue [1/s]."""
+        """Rates (..., 2d) at which these motions decay, one of each eigenvalue [1/s]."""
         return -self.eigenvalues.real
 
     def plot(self, count: int = 4, **options: Any) -> Any:

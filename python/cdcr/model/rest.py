@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -28,7 +27,7 @@ class Rest:
     ----------
     model : Model
         The robot.
-    q : (2n,) array
+    q : (d,) array
         Its shape [rad].
     command : (num_cables,) array
         Of the cables [N], [m] where driven by length.
@@ -50,11 +49,15 @@ class Rest:
     @property
     def words(self) -> str:
         """Where it rests."""
-        angles = np.rad2deg(np.hypot(self.q[0::2], self.q[1::2]))
-        if np.max(angles) < math.degrees(STRAIGHT):
+        angles = self.model.polar(self.q)[0]
+        bends = [name.startswith("q") for name in self.model.coordinate_names]
+        if np.max(np.abs(self.q[bends]), initial=0.0) < STRAIGHT:
             where = "straight"
         else:
-            where = "bent by " + ", ".join(f"{angle:.2f}" for angle in angles) + " deg"
+            where = f"bent by {_degrees(angles)}"
+        twist = self._first_of("t")
+        if np.max(np.abs(twist), initial=0.0) >= STRAIGHT:
+            where += f", twisted by {_degrees(twist)}"
         if self.buckled:
             where += ", buckled under its weight"
         if not self.stable:
@@ -62,6 +65,11 @@ class Rest:
         if any(cable.length_driven for cable in self.model.robot.all_cables):
             where += f", cables driven by length wound to {TAUT:g} N"
         return where
+
+    def _first_of(self, strain: str) -> FloatArray:
+        """Return the first coordinate of a strain of each section that has it, base to tip."""
+        names = [f"{strain}{i + 1}" for i in range(self.model.num_sections)]
+        return self.q[[name in names for name in self.model.coordinate_names]]
 
     @cached_property
     def modes(self) -> Modes:
@@ -80,12 +88,12 @@ class Rest:
     @property
     def is_nondegenerate(self) -> bool:
         """Whether every small force moves it little: not so where it turns freely, or falls."""
-        eigenvalues = np.linalg.eigvalsh(self._stiffness)
+        eigenvalues = relative_stiffness(self.model, self._stiffness)
         return bool(eigenvalues[0] > STRAIGHT * eigenvalues[-1])
 
     @cached_property
     def _tip(self) -> tuple[FloatArray, FloatArray]:
-        """Jacobian of the tip in its own frame (3, 2n) and K^-1 of the robot (2n, 2n)."""
+        """Jacobian of the tip in its own frame (3, d) and K^-1 of the robot (d, d)."""
         R, _ = self.model.tip(self.q)
         J = self.model.tip_jacobian(self.q)[:3]
         return R.T @ J, np.asarray(np.linalg.inv(self._stiffness), dtype=np.float64)
@@ -110,7 +118,7 @@ class Rest:
             (cable.stiffness if tension > 0.0 else 0.0) if cable.length_driven else 1.0
             for cable, tension in cables
         ]
-        pull = self.model.actuation_matrix() * np.array(force)
+        pull = self.model.actuation_matrix(self.q) * np.array(force)
         return np.asarray(np.linalg.norm(J @ compliance @ pull, axis=0))
 
 
@@ -123,20 +131,34 @@ def at_rest(robot: Robot) -> Rest:
         Where it finds no rest.
     """
     model = Model(robot)
-    straight = np.zeros(model.num_coordinates)
     driven = np.array([cable.length_driven for cable in robot.all_cables], dtype=bool)
-    command = model.commands(straight, np.where(driven, TAUT, 0.0))
+    command = model.commands(model.rest_shape, np.where(driven, TAUT, 0.0))
     found = model.equilibrium(command, throw=False)
     buckled = False
     if found.status.name == "ok" and not found.stable:
         # A point of rest found exactly is given back: look for the one the robot falls to.
-        perturbation = np.tile([PERTURBATION / model.num_sections, 0.0], model.num_sections)
+        bends = [float(s.bending_order is not None) for s in robot.sections]
+        sideways = np.outer(bends, [PERTURBATION / model.num_sections, 0.0])
+        perturbation = model.coordinates(sideways.ravel())
         fallen = model.equilibrium(command, found.q + perturbation, throw=False)
         if fallen.status.name == "ok" and np.max(np.abs(fallen.q - found.q)) > STRAIGHT:
             found, buckled = fallen, True
     if found.status.name != "ok":
         raise ConvergenceError("no rest within the bending limit: its weight bends it too far")
     # Free to turn about the vertical, a buckled robot is stable in all other directions.
-    scale = float(np.max(np.abs(found.eigenvalues)))
-    stable = bool(np.min(found.eigenvalues) > -STRAIGHT * scale)
+    eigenvalues = relative_stiffness(model, model.static_stiffness(found.q, command))
+    stable = bool(eigenvalues[0] > -STRAIGHT * np.max(np.abs(eigenvalues)))
     return Rest(model, found.q, command, found.tension, stable, buckled)
+
+
+def relative_stiffness(model: Model, stiffness: FloatArray) -> FloatArray:
+    """Return the eigenvalues of a stiffness (d, d) over that of the backbone, increasing [1].
+
+    Bending and stretch, which have different units, then compare.
+    """
+    inverse = np.linalg.inv(np.linalg.cholesky(model.elastic_stiffness))
+    return np.asarray(np.linalg.eigvalsh(inverse @ stiffness @ inverse.T))
+
+
+def _degrees(angles: FloatArray) -> str:
+    return ", ".join(f"{angle:.2f}" for angle in np.rad2deg(angles)) + " deg"

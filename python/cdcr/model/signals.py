@@ -19,16 +19,16 @@ class Output(NamedTuple):
 
     names: Callable[[Model], list[str]]
     values: Callable[[Model, FloatArray, FloatArray], FloatArray]
-    derivative: Callable[[Model, FloatArray], FloatArray]  # (k, 4n)
+    derivative: Callable[[Model, FloatArray], FloatArray]  # (k, 2d)
 
 
-def _rate_names(model: Model) -> list[str]:
-    """q1_x -> qd1_x."""
-    return [name.replace("q", "qd", 1) for name in model.coordinate_names]
+def rate_names(model: Model) -> list[str]:
+    """Return the names of the rates: qd1_x of q1_x, td1 of t1."""
+    return [f"{name[0]}d{name[1:]}" for name in model.coordinate_names]
 
 
 def _of_shape(derivative: FloatArray) -> FloatArray:
-    """Return a derivative (k, 4n) of what does not depend on qd, from that (k, 2n) by q."""
+    """Return a derivative (k, 2d) of what does not depend on qd, from that (k, d) by q."""
     return np.hstack([derivative, np.zeros_like(derivative)])
 
 
@@ -39,7 +39,7 @@ _OUTPUTS = {
         lambda model, q: np.eye(len(q), 2 * len(q)),
     ),
     "qd": Output(
-        _rate_names,
+        rate_names,
         lambda model, q, qd: qd,
         lambda model, q: np.eye(len(q), 2 * len(q), len(q)),
     ),
@@ -51,13 +51,13 @@ _OUTPUTS = {
     "lengths": Output(
         lambda model: [f"length{j + 1}" for j in range(model.num_cables)],
         lambda model, q, qd: model.cable_lengths(q),
-        lambda model, q: _of_shape(-model.actuation_matrix().T),
+        lambda model, q: _of_shape(-model.actuation_matrix(q).T),
     ),
 }
 
 
 def state_names(model: Model) -> list[str]:
-    """Return the names of the 4n states: q1_x, q1_y, ..., then qd1_x, qd1_y, ..."""
+    """Return the names of the 2d states: q1_x, q1_y, ..., then qd1_x, qd1_y, ..."""
     return _OUTPUTS["q"].names(model) + _OUTPUTS["qd"].names(model)
 
 

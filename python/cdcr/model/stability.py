@@ -32,7 +32,7 @@ def stable_step(
     ----------
     model : Model
         The robot.
-    q : (2n,) array_like, optional
+    q : (d,) array_like, optional
         The shape [rad]; by default the equilibrium under `tension`.
     tension : (num_cables,) array_like, optional
         Tensions [N], lengths [m] of cables driven by length; by default none, and the lengths of

@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cdcr import _core
 from cdcr.base.arrays import finite
 from cdcr.base.extras import require
+from cdcr.model.shape import ShapeModel
 
 if TYPE_CHECKING:
     from cdcr.model.model import Model
     from cdcr.model.wrench import Wrench
 
 
-class StateSpaceModel(_core.Model):
-    """The model of the core, and its linear systems."""
+class StateSpaceModel(ShapeModel):
+    """A model, and its linear systems."""
 
     def to_statespace(
         self,
@@ -40,7 +40,7 @@ class StateSpaceModel(_core.Model):
 
         Parameters
         ----------
-        q : (2n,) array_like, optional
+        q : (d,) array_like, optional
             The shape [rad]; by default the equilibrium under these tensions and wrenches.
         tension : (num_cables,) array_like, optional
             Cable tensions [N]; lengths [m] for cables driven by length. None: no tension, the
@@ -48,7 +48,7 @@ class StateSpaceModel(_core.Model):
         outputs : str or sequence of str, optional
             Any of "q" [rad], "qd" [rad/s], "tip", the position in the base frame [m], and
             "lengths" of the cables [m]; the whole state by default.
-        qd : (2n,) array_like, optional
+        qd : (d,) array_like, optional
             Rates [rad/s]; zero by default.
         wrenches : Wrench or sequence of Wrench, optional
             Constant forces and moments on the backbone.
@@ -56,7 +56,8 @@ class StateSpaceModel(_core.Model):
         Returns
         -------
         control.StateSpace
-            States ``q1_x``, ``q1_y``, ..., ``qd1_x``, ...; inputs ``tension1``, ..., or
+            States with the names of the coordinates, ``q1_x``, ``q1_y``, ..., then ``qd1_x``, ...;
+            of twist and stretch ``t1``, ``e1``, ``td1``, ...; inputs ``tension1``, ..., or
             ``command1`` of a cable driven by length; outputs ``tip_x``, ``length1``, ...
 
         Raises

@@ -33,7 +33,7 @@ class InfeasibleError(ValueError):
     ----------
     tension : (num_cables,) array
         Tensions that come nearest [N].
-    force : (2n,) array
+    force : (d,) array
         The generalised force they give [N m].
     limiting : tuple of int
         Indices of the cables whose limit is in the way.

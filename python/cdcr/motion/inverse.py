@@ -32,7 +32,7 @@ class InverseRun(ReadOnlyArrays):
         The robot.
     reference : Reference
         The motion asked for.
-    force : ndarray, shape (N, 2n)
+    force : ndarray, shape (N, d)
         Generalised force that the motion needs [N m].
     tension : ndarray, shape (N, num_cables)
         Least-norm tensions within the limits that give it, or come nearest [N].
@@ -91,7 +91,7 @@ class InverseRun(ReadOnlyArrays):
 
     @property
     def q(self) -> FloatArray:
-        """Bending vectors asked for (N, 2n) [rad]."""
+        """Coordinates asked for (N, d)."""
         return self.reference.q
 
     @cached_property
@@ -102,7 +102,7 @@ class InverseRun(ReadOnlyArrays):
     @cached_property
     def force_error(self) -> FloatArray:
         """Length of what the tensions lack of the force (N,) [N m]; rounding where feasible."""
-        given = self.tension @ self.model.actuation_matrix().T
+        given = np.einsum("...ij,...j", self.model.actuation_matrix(self.q), self.tension)
         return read_only(np.asarray(np.linalg.norm(given - self.force, axis=1)))
 
     def to_table(self, interpolation: Interpolation = "linear") -> TensionTable:
@@ -167,7 +167,7 @@ class InverseRun(ReadOnlyArrays):
         q, qd, qdd = self.reference.evaluate(t)
         force = self.model.inverse_dynamics(q, qd, qdd)
         limits = self.min_tension, self.max_tension
-        answer = self.model.find_tension(force, *limits)
+        answer = self.model.find_tension(force, *limits, q=where(self.model, q))
         if self.infeasible == "raise" and not answer.feasible:
             raise InfeasibleError(_refusal(t, force, answer, limits), answer)
         return answer.tension
@@ -229,7 +229,10 @@ def inverse_run(
     limits.done()
     warn_beyond_taylor_range(model, reference.q)
     force = model.inverse_dynamics(reference.q, reference.qd, reference.qdd)
-    answers = [model.find_tension(one, min_tension, max_tension) for one in force]
+    answers = [
+        model.find_tension(one, min_tension, max_tension, q=where(model, q))
+        for one, q in zip(force, reference.q, strict=True)
+    ]
     feasible = np.array([answer.feasible for answer in answers])
     if infeasible == "raise" and not np.all(feasible):
         i = int(np.argmin(feasible))
@@ -252,6 +255,11 @@ def inverse_run(
     )
 
 
+def where(model: Model, q: FloatArray) -> FloatArray | None:
+    """Return q where the actuation matrix depends on it; the search is quicker without."""
+    return None if model.has_constant_actuation else q
+
+
 def _check(model: Model, reference: Reference, infeasible: str) -> None:
     require_kind("model", model, Model)
     require_kind("reference", reference, Reference)
@@ -268,12 +276,12 @@ def _check(model: Model, reference: Reference, infeasible: str) -> None:
                 f"inverse_run gives tensions, but cable {j + 1} is driven by length; "
                 "model.commands(q, tension) gives the lengths that hold tensions"
             )
-    check_bending(reference)
+    check_bending(model, reference)
 
 
-def check_bending(reference: Reference) -> None:
+def check_bending(model: Model, reference: Reference) -> None:
     """Refuse a motion that bends a section beyond what the model can."""
-    angles = np.hypot(reference.q[:, 0::2], reference.q[:, 1::2])
+    angles, _ = model.polar(reference.q)
     beyond = np.argwhere(angles > _core.max_bending)
     if beyond.size:
         i, section = beyond[0]

@@ -11,7 +11,8 @@ from numpy.typing import ArrayLike
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray, ReadOnlyArrays, finite, read_only
-from cdcr.base.check import count
+from cdcr.base.check import count, require_kind
+from cdcr.model.model import Model
 from cdcr.motion import splines
 from cdcr.motion.splines import Motion, Pair, TimeFunction
 
@@ -29,14 +30,15 @@ class Reference(ReadOnlyArrays):
     ----------
     t : (N,) array_like
         Times, at least two, strictly increasing [s].
-    q, qd, qdd : (N, 2n) array_like
-        Bending vectors, base to tip, their rates and accelerations [rad], [rad/s], [rad/s^2].
+    q, qd, qdd : (N, d) array_like
+        Coordinates, base to tip, their rates and accelerations: bending vectors [rad], [rad/s],
+        [rad/s^2] of a robot of arcs, see `on` for others.
     derivative_error : tuple of float, optional
         Estimated largest error of qd [rad/s] and qdd [rad/s^2] where they come from splines; zero
         where they were given. The estimate is the change that splines through every other sample
         make, so it errs on the high side.
     motion : callable, optional
-        The motion at any times (M,) within those of `t`: an array (3, M, 2n) of q, qd, qdd. By
+        The motion at any times (M,) within those of `t`: an array (3, M, d) of q, qd, qdd. By
         default the quintic through q, qd and qdd at the samples on either side.
 
     Raises
@@ -51,7 +53,7 @@ class Reference(ReadOnlyArrays):
     >>> t = np.linspace(0.0, 10.0, 51)
     >>> circle = cdcr.Reference.from_angles(t, np.pi / 12, lambda t: np.pi / 5 * t)
     >>> circle
-    <Reference: 51 samples, t = 0 to 10 s, 1 section>
+    <Reference: 51 samples, t = 0 to 10 s, 2 coordinates>
     """
 
     t: FloatArray
@@ -64,7 +66,7 @@ class Reference(ReadOnlyArrays):
     def __post_init__(self) -> None:
         """Take copies nobody else can write to, and check that they fit together."""
         t = splines.checked_times(self.t)
-        q = splines.checked_samples("q", self.q, t.size, "2n")
+        q = splines.checked_samples("q", self.q, t.size, "d")
         arrays = {"t": t, "q": q}
         for name in ("qd", "qdd"):
             arrays[name] = splines.checked_samples(name, getattr(self, name), t.size, q.shape[1])
@@ -77,10 +79,8 @@ class Reference(ReadOnlyArrays):
 
     def __repr__(self) -> str:
         """Say what a person wants to know first."""
-        sections = count(self.q.shape[1] // 2, "section")
-        return (
-            f"<Reference: {len(self)} samples, t = {self.t[0]:g} to {self.t[-1]:g} s, {sections}>"
-        )
+        size = count(self.q.shape[1], "coordinate")
+        return f"<Reference: {len(self)} samples, t = {self.t[0]:g} to {self.t[-1]:g} s, {size}>"
 
     @classmethod
     def from_samples(
@@ -92,9 +92,9 @@ class Reference(ReadOnlyArrays):
         ----------
         t : (N,) array_like
             Times, strictly increasing [s]; at least 11 where derivatives are missing.
-        q : (N, 2n) array_like
-            Bending vectors, base to tip [rad].
-        qd, qdd : (N, 2n) array_like, optional
+        q : (N, d) array_like
+            Coordinates, base to tip; of arcs their bending vectors [rad].
+        qd, qdd : (N, d) array_like, optional
             Their rates [rad/s] and accelerations [rad/s^2].
 
         Returns
@@ -111,7 +111,7 @@ class Reference(ReadOnlyArrays):
         array([0.2, 0. ])
         """
         times = splines.checked_times(t)
-        values = splines.checked_samples("q", q, times.size, "2n")
+        values = splines.checked_samples("q", q, times.size, "d")
         rates = None if qd is None else splines.checked_samples("qd", qd, *values.shape)
         accelerations = None if qdd is None else splines.checked_samples("qdd", qdd, *values.shape)
         if rates is not None and accelerations is not None:
@@ -139,7 +139,7 @@ class Reference(ReadOnlyArrays):
             Times, strictly increasing [s]. Where derivatives are missing, the functions are called
             at some thousand times between the first and the last.
         q : callable
-            ``q(t)`` returns the bending vectors (2n,) [rad].
+            ``q(t)`` returns the coordinates (d,).
         qd, qdd : callable, optional
             Their rates [rad/s] and accelerations [rad/s^2].
 
@@ -188,7 +188,7 @@ class Reference(ReadOnlyArrays):
         >>> import numpy as np
         >>> import cdcr
         >>> cdcr.Reference.from_angles(np.linspace(0, 10, 51), np.pi / 12, lambda t: np.pi / 5 * t)
-        <Reference: 51 samples, t = 0 to 10 s, 1 section>
+        <Reference: 51 samples, t = 0 to 10 s, 2 coordinates>
         """
         times = splines.checked_times(t)
         bending = splines.of_angle(times, "theta", theta)
@@ -212,7 +212,10 @@ class Reference(ReadOnlyArrays):
 
     @property
     def theta(self) -> FloatArray:
-        """Bending angles (N, n) [rad]; negative after a swing through straight."""
+        """Bending angles (N, n) of a robot of arcs [rad]; negative after a swing through straight.
+
+        Of other robots ``model.polar(reference.q, continuous=True)``.
+        """
         return self._angles[0]
 
     @property
@@ -245,6 +248,46 @@ class Reference(ReadOnlyArrays):
         q, qd, qdd = self.evaluate(times)
         return Reference(times, q, qd, qdd, self.derivative_error, self.motion or self._quintic)
 
+    def on(self, model: Model) -> Reference:
+        """Return this motion of bending vectors as one of a robot whose sections are more.
+
+        Parameters
+        ----------
+        model : Model
+            The robot, of as many sections; they bend evenly, without twist and stretch.
+
+        Returns
+        -------
+        Reference
+            Of the model's coordinates; the same one for a robot of arcs.
+
+        Raises
+        ------
+        ValueError
+            For another number of sections, or where one is to bend whose bending is locked.
+
+        Examples
+        --------
+        >>> import dataclasses
+        >>> import cdcr
+        >>> robot = cdcr.robots.amouri2020()
+        >>> rod = dataclasses.replace(robot.sections[0], bending_order=1)
+        >>> model = cdcr.Model(dataclasses.replace(robot, sections=[rod]))
+        >>> circle = cdcr.Reference.from_angles([0.0, 5.0, 10.0], 0.3, lambda t: 0.6 * t)
+        >>> circle.on(model)
+        <Reference: 3 samples, t = 0 to 10 s, 4 coordinates>
+        """
+        require_kind("model", model, Model)
+        wanted = 2 * model.num_sections
+        if self.q.shape[1] != wanted:
+            raise ValueError(
+                f"a motion of bending vectors must have {wanted} coordinates for this model, got "
+                f"{self.q.shape[1]}"
+            )
+        motion = None if self.motion is None else placed(self.motion, model)
+        q, qd, qdd = map(model.coordinates, (self.q, self.qd, self.qdd))
+        return Reference(self.t, q, qd, qdd, self.derivative_error, motion)
+
     def evaluate(self, t: ArrayLike) -> FloatArray:
         """Return q, qd and qdd at times within those of the reference.
 
@@ -255,7 +298,7 @@ class Reference(ReadOnlyArrays):
 
         Returns
         -------
-        (3, 2n) or (3, M, 2n) array
+        (3, d) or (3, M, d) array
             In order [rad], [rad/s], [rad/s^2].
 
         Raises
@@ -291,3 +334,20 @@ class Reference(ReadOnlyArrays):
     def _quintic(self) -> Motion:
         """Motion between the samples where none was given."""
         return splines.quintic(self.t, self.q, self.qd, self.qdd)
+
+
+@dataclass(frozen=True, eq=False)
+class _Placed:
+    """Coordinates of a robot that bends as a motion says."""
+
+    motion: Motion
+    model: Model
+
+    def __call__(self, times: FloatArray) -> FloatArray:
+        """Return values, rates and accelerations at times (M,)."""
+        return self.model.coordinates(self.motion(times))
+
+
+def placed(motion: Motion, model: Model) -> Motion:
+    """Return a motion of bending vectors as one of a robot's coordinates."""
+    return _Placed(motion, model) if model.has_rods else motion

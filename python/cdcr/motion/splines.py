@@ -207,14 +207,12 @@ def checked_times(t: ArrayLike) -> FloatArray:
 def checked_samples(name: str, values: ArrayLike, num_times: int, columns: int | str) -> FloatArray:
     """Return samples (num_times, columns) as an array of its own, or refuse them.
 
-    Instead of a number, `columns` may be "n" for any or "2n" for any that is even.
+    Instead of a number, `columns` may be "n" or "d" for any.
     """
     samples = np.array(finite(values, name))
     fits = samples.ndim == 2 and samples.shape[0] == num_times and samples.shape[1] > 0
     if fits and isinstance(columns, int):
         fits = samples.shape[1] == columns
-    elif fits and columns == "2n":
-        fits = samples.shape[1] % 2 == 0
     if not fits:
         raise ValueError(f"{name} must have shape ({num_times}, {columns}), got {samples.shape}")
     return samples

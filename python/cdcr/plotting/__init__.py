@@ -10,6 +10,7 @@ from cdcr.base.extras import require
 require("matplotlib", "plot")
 
 from cdcr.plotting.animation import animate
+from cdcr.plotting.identified import plot_identified
 from cdcr.plotting.modes import plot_modes
 from cdcr.plotting.panels import plot_run
 from cdcr.plotting.robot3d import plot_robot, plot_run_robot
@@ -20,6 +21,7 @@ from cdcr.plotting.style import STYLE
 __all__ = [
     "STYLE",
     "animate",
+    "plot_identified",
     "plot_modes",
     "plot_robot",
     "plot_run",

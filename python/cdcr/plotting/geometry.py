@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 
@@ -12,8 +13,10 @@ from cdcr.base.arrays import FloatArray
 if TYPE_CHECKING:
     from cdcr.robot.cable import Cable
     from cdcr.robot.robot import Robot
+    from cdcr.robot.section import Section
 
 PIECES = 48  # straight pieces of a section's backbone
+TURN = 24  # straight pieces of a whole turn of a cable, at least
 CORNERS = 48  # of a disk
 
 
@@ -37,11 +40,11 @@ class Motion(Protocol):
 
     @property
     def q(self) -> FloatArray:
-        """Bending vectors (N, 2n) [rad]."""
+        """Coordinates (N, d)."""
 
     @property
     def qd(self) -> FloatArray:
-        """Their rates (N, 2n) [rad/s]."""
+        """Their rates (N, d)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,15 +57,18 @@ class RobotShape:
         From base to tip.
     disks : list of ndarray, shape (48, 3)
         Rim of each disk, base to tip.
+    turning : list of bool
+        Whether each disk is of a section that twists.
     cables : list of ndarray, shape (M, 3)
-        From the base through the holes of the disks to the end of the section it ends on, in the
-        order of the tensions.
+        From where it begins to the end of the section it ends on, in the order of the tensions:
+        through the holes of the disks where it runs straight, as it runs where it does not.
     tool : list of ndarray, shape (2, 3)
         A line from the tip of the backbone to the tool; none where they are in one place.
     """
 
     backbone: FloatArray
     disks: list[FloatArray]
+    turning: list[bool]
     cables: list[FloatArray]
     tool: list[FloatArray]
 
@@ -73,38 +79,101 @@ class RobotShape:
         return [self.backbone[k : k + PIECES + 1] for k in ends]
 
     @property
+    def marks(self) -> list[FloatArray]:
+        """Lines (2, 3) on disks that turn, from the centre to the rim along x of their frames."""
+        turning = [rim for rim, turns in zip(self.disks, self.turning, strict=True) if turns]
+        return [np.array([rim.mean(axis=0), rim[0]]) for rim in turning]
+
+    @property
     def points(self) -> FloatArray:
         """All of them (P, 3)."""
         return np.concatenate([self.backbone, *self.disks, *self.cables, *self.tool])
 
 
+class _Place(NamedTuple):
+    """A frame on the backbone of a section."""
+
+    fraction: float  # of its length
+    R: FloatArray  # (3, 3)
+    p: FloatArray  # (3,) [m]
+
+
+class _Guides(NamedTuple):
+    """Frames of a section whose holes cables run through."""
+
+    fine: list[_Place]  # from its base to its end, for cables that wind or converge
+    at_disks: list[_Place]  # for those that run straight; none where it has no disks
+
+
 def robot_shape(model: Posed, q: FloatArray) -> RobotShape:
-    """Return the shape at q (2n,) [rad].
+    """Return the shape at q (d,).
 
     A section without disks leads its cables parallel to the backbone, as the model takes them.
     """
     robot = model.robot
-    R_base, base = base_frame(robot)
-    backbone, disks = [base], []
-    # Frames whose holes the cables run through, up to the end of each section.
-    guides = [(R_base, base)]
-    runs = []
+    base = base_frame(robot)
+    backbone, disks, turning, guides = [base[1]], [], [], []
     for i, section in enumerate(robot.sections):
-        fine = [model.pose(q, i, k / PIECES) for k in range(1, PIECES + 1)]
-        backbone += [p for _, p in fine]
+        finer = _finer(robot, i)
         inner = sorted(section.disks)  # by position
-        at_disks = [model.pose(q, i, disk.position) for disk in inner]
+        fine, at_disks = (
+            [_Place(x, *model.pose(q, i, x)) for x in fractions]
+            for fractions in (
+                [k / (finer * PIECES) for k in range(1, finer * PIECES + 1)],
+                [disk.position for disk in inner],
+            )
+        )
         disks += [
-            _circle(disk.diameter / 2, R, p) for disk, (R, p) in zip(inner, at_disks, strict=True)
+            _circle(disk.diameter / 2, at.R, at.p) for disk, at in zip(inner, at_disks, strict=True)
         ]
-        guides = [*guides, *(at_disks or fine)]
-        ends_on_disk = not inner or inner[-1].position == 1.0
-        runs.append(guides if ends_on_disk else [*guides, fine[-1]])
-    cables = [
-        np.array([p + R @ _hole(cable) for R, p in runs[cable.end_section]])
+        turning += [twists(section)] * len(inner)
+        backbone += [place.p for place in fine[finer - 1 :: finer]]
+        guides.append(_Guides([_Place(0.0, *base), *fine], at_disks))
+        base = fine[-1][1:]
+    cables = [_path(cable, guides) for cable in robot.all_cables]
+    return RobotShape(np.array(backbone), disks, turning, cables, _tool(robot, *base))
+
+
+def twists(section: Section) -> bool:
+    """Return whether the disks of a section may be turned about its backbone."""
+    return section.twist_order is not None or section.rest_twist != 0.0
+
+
+def _finer(robot: Robot, section: int) -> int:
+    """Return how many times PIECES a section needs for the cables that wind in it."""
+    turned = [
+        abs(angle[1] - angle[0])
         for cable in robot.all_cables
+        if cable.start_section <= section <= cable.end_section
+        for _, angle in [cable.route(section)]
     ]
-    return RobotShape(np.array(backbone), disks, cables, _tool(robot, *fine[-1]))
+    pieces = max(turned, default=0.0) / (2.0 * math.pi) * TURN
+    return max(1, math.ceil(pieces / PIECES - 1e-9))
+
+
+def _path(cable: Cable, guides: list[_Guides]) -> FloatArray:
+    """Return the points (M, 3) that a cable runs through [m]."""
+    points = []
+    for i in range(cable.start_section, cable.end_section + 1):
+        fine, at_disks = guides[i]
+        radius, angle = cable.route(i)
+        straight = radius[0] == radius[1] and angle[0] == angle[1]
+        places = at_disks if straight and at_disks else fine[1:]
+        if i == cable.start_section or not straight:
+            places = [fine[0], *places]
+        if i == cable.end_section and places[-1].fraction < 1.0:
+            places = [*places, fine[-1]]
+        x = np.array([place.fraction for place in places])
+        r, turn = (ends[0] + x * (ends[1] - ends[0]) for ends in (radius, angle))
+        holes = np.stack([r * np.cos(turn), r * np.sin(turn), np.zeros_like(r)], axis=1)
+        points += [at.p + at.R @ hole for at, hole in zip(places, holes, strict=True)]
+    return np.array(points)
+
+
+def widest(cable: Cable) -> float:
+    """Return the largest distance of a cable from the backbone [m]."""
+    passed = range(cable.start_section, cable.end_section + 1)
+    return max(max(cable.route(section)[0]) for section in passed)
 
 
 def base_frame(robot: Robot) -> tuple[FloatArray, FloatArray]:
@@ -118,20 +187,15 @@ def _tool(robot: Robot, R: FloatArray, p: FloatArray) -> list[FloatArray]:
     return [np.array([p, p + R @ position])] if position.any() else []
 
 
-def _hole(cable: Cable) -> FloatArray:
-    """Return where a cable passes a disk (3,), in the frame of the disk [m]."""
-    return cable.radius * np.array([np.cos(cable.angle), np.sin(cable.angle), 0.0])
-
-
 def base_plate(model: Posed) -> FloatArray:
     """Return the rim (48, 3) of a plate that is wider than anything that stands on it [m]."""
     robot = model.robot
-    widest = max(
+    reach = max(
         [section.length / 50 for section in robot.sections]
         + [disk.diameter / 2 for section in robot.sections for disk in section.disks]
-        + [cable.radius for cable in robot.all_cables]
+        + [widest(cable) for cable in robot.all_cables]
     )
-    return _circle(1.5 * widest, *base_frame(robot))
+    return _circle(1.5 * reach, *base_frame(robot))
 
 
 def _circle(radius: float, R: FloatArray, p: FloatArray) -> FloatArray:
@@ -142,7 +206,7 @@ def _circle(radius: float, R: FloatArray, p: FloatArray) -> FloatArray:
 
 
 def states_at(run: Motion, times: FloatArray) -> FloatArray:
-    """Return q (M, 2n) at times (M,) [s]: between samples the cubic that has their q and qd."""
+    """Return q (M, d) at times (M,) [s]: between samples the cubic that has their q and qd."""
     start, end = run.t[0], run.t[-1]
     if not np.all((times >= start) & (times <= end)):
         raise ValueError(f"times must lie within the run, {start:g} to {end:g} s, got {times}")

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
 
 from cdcr.base.arrays import FloatArray
+from cdcr.plotting.geometry import widest
 from cdcr.plotting.style import ALARM, BLACK, COLORS, GREY, StyledFigure, line_colors, style
 
 if TYPE_CHECKING:
     from cdcr.model.model import Model
+    from cdcr.robot.robot import Robot
     from cdcr.runs.trajectory import Trajectory
 
 # Smallest spans shown, so that rounding noise does not fill a panel.
@@ -62,13 +65,14 @@ def plot_run(run: Trajectory) -> StyledFigure:
     >>> cdcr.plotting.plot_run(run).axes[0].get_ylabel()[:13]
     'bending angle'
     """
-    left = [plot_theta, plot_phi, plot_tension]
+    left = [plot_theta, plot_phi, *strain_panels(run.model), plot_tension]
     right = [_plot_tip, _plot_energy] + ([_plot_energy_error] if _is_free(run) else [])
     with style():
         figure = StyledFigure(figsize=(11.0, 6.6), layout="constrained")
-        grid = figure.add_gridspec(6, 2)
+        rows = math.lcm(len(left), len(right))
+        grid = figure.add_gridspec(rows, 2)
         for column, panels in enumerate((left, right)):
-            height = 6 // len(panels)
+            height = rows // len(panels)
             for row, panel in enumerate(panels):
                 axes = figure.add_subplot(grid[row * height : (row + 1) * height, column])
                 panel(axes, run)
@@ -90,8 +94,21 @@ def show_time(axes: Axes, run: Trajectory, *, named: bool) -> None:
 
 def _is_free(run: Trajectory) -> bool:
     """Whether the energy should stay what it was at the start."""
-    damped = any(section.damping > 0.0 for section in run.model.robot.sections)
-    return not damped and not run.tension.any()
+    return not is_damped(run.model.robot) and not run.tension.any()
+
+
+def is_damped(robot: Robot) -> bool:
+    """Whether any strain of any section loses energy by its rate."""
+    return any(
+        value > 0.0
+        for section in robot.sections
+        for value in (
+            section.damping,
+            section.twist_damping,
+            section.stretch_damping,
+            section.material_damping,
+        )
+    )
 
 
 def plot_theta(axes: Axes, run: Trajectory) -> None:
@@ -106,6 +123,44 @@ def plot_phi(axes: Axes, run: Trajectory) -> None:
     _plot_lines(axes, run.t, shown_phi(run), _numbered("section", run.model.num_sections))
     axes.set_ylabel(r"orientation $\varphi$ [deg]")
     keep_span(axes, MIN_ANGLE)
+
+
+def strain_panels(model: Model) -> list[Callable[[Axes, Trajectory], None]]:
+    """Return what draws twist and stretch of a run, of those that the robot has."""
+    panels = {"t": plot_twist, "e": plot_stretch}
+    return [panel for kind, panel in panels.items() if _sections_with(model, kind)]
+
+
+def plot_twist(axes: Axes, run: Trajectory) -> None:
+    """Draw by how much each section that twists is twisted from base to tip [deg] over time."""
+    _plot_strain(axes, run, "t", 180.0 / np.pi)
+    axes.set_ylabel("twist [deg]")
+    keep_span(axes, MIN_ANGLE)
+
+
+def plot_stretch(axes: Axes, run: Trajectory) -> None:
+    """Draw by how much each section that stretches is longer than it was [mm] over time."""
+    _plot_strain(axes, run, "e", 1e3)
+    axes.set_ylabel("stretch [mm]")
+    keep_span(axes, MIN_LENGTH * 1e3 * run.model.robot.length)
+
+
+def _sections_with(model: Model, kind: str) -> list[int]:
+    """Return the sections that twist, "t", or stretch, "e"."""
+    return [i for i in range(model.num_sections) if f"{kind}{i + 1}" in model.coordinate_names]
+
+
+def _plot_strain(axes: Axes, run: Trajectory, kind: str, unit: float) -> None:
+    """Draw the first coefficient of a strain, its integral, in the colours of the sections."""
+    model, found = run.model, _sections_with(run.model, kind)
+    colors, names = line_colors(model.num_sections), _numbered("section", model.num_sections)
+    for i in found:
+        column = model.coordinate_names.index(f"{kind}{i + 1}")
+        dashes = DASHES[i % len(DASHES)] if model.num_sections <= MAX_NAMED else "-"
+        values = unit * run.q[:, column]
+        axes.plot(run.t, values, color=colors[i], linestyle=dashes, label=names[i])
+    if len(found) > 1:
+        legend_above(axes, len(found))
 
 
 def shown_phi(run: Trajectory) -> FloatArray:
@@ -135,7 +190,7 @@ def plot_tension(axes: Axes, run: Trajectory) -> None:
     if model.num_cables > 1:
         legend_above(axes, model.num_cables)
     axes.set_ylabel("tension [N]")
-    radius = max((cable.radius for cable in model.robot.all_cables), default=1.0)
+    radius = max((widest(cable) for cable in model.robot.all_cables), default=1.0)
     top = max(MIN_TENSION * _stiffness(model) / radius, np.max(run.tension, initial=0.0))
     axes.set_ylim(-0.05 * top, 1.08 * top)  # a line along zero stays clear of the frame
     if not run.model.num_cables:

@@ -34,7 +34,7 @@ class RobotArtists:
     def __init__(
         self, axes: Any, model: Model, q: FloatArray, *, alpha: float = 1.0, layer: float = 3.0
     ) -> None:
-        """Draw the robot at q (2n,) [rad] into Axes3D, above what lies in lower layers."""
+        """Draw the robot at q (d,) into Axes3D, above what lies in lower layers."""
         self._model = model
         shape = robot_shape(model, q)
         self.disks = Poly3DCollection(
@@ -45,6 +45,10 @@ class RobotArtists:
             zorder=layer,
         )
         axes.add_collection3d(self.disks)
+        self.marks = [
+            axes.plot(*line.T, color=BLACK, linewidth=1.6, alpha=alpha, zorder=layer + 0.05)[0]
+            for line in shape.marks
+        ]
         self._width = 1.0 if model.num_sections == 1 else FINER
         self.backbones = [
             axes.plot(*line.T, color=color, linewidth=2.4, alpha=alpha, zorder=layer + 0.2)[0]
@@ -73,16 +77,15 @@ class RobotArtists:
 
     @property
     def lines(self) -> list[Any]:
-        """Backbone of each section, then cables, then the tool."""
-        return [*self.backbones, *self.cables, *self.tool]
+        """Backbone of each section, then cables, the tool, and the marks of disks."""
+        return [*self.backbones, *self.cables, *self.tool, *self.marks]
 
     def update(self, q: FloatArray) -> None:
-        """Move everything to q (2n,) [rad]."""
+        """Move everything to q (d,)."""
         shape = robot_shape(self._model, q)
         self.disks.set_verts(shape.disks)
-        for line, points in zip(
-            self.lines, (*shape.sections, *shape.cables, *shape.tool), strict=True
-        ):
+        moved = (*shape.sections, *shape.cables, *shape.tool, *shape.marks)
+        for line, points in zip(self.lines, moved, strict=True):
             line.set_data_3d(*points.T)
 
     def show_tension(self, tension: FloatArray, largest: float) -> None:
@@ -122,8 +125,8 @@ def plot_robot(
     ----------
     model : Model
         The robot.
-    q : array_like, shape (2n,)
-        Bending vectors [rad].
+    q : array_like, shape (d,)
+        Coordinates, of which bending vectors and twists are in rad, stretches in m.
     ax : Axes3D, optional
         Axes to draw into; by default those of a new figure.
     tension : array_like, shape (num_cables,), optional
@@ -219,7 +222,7 @@ def plot_run_robot(
 
 
 def show_robot(axes: Any, model: Model, states: Iterable[FloatArray], *more: FloatArray) -> None:
-    """Show a base plate, and make Axes3D wide enough for all states (M, 2n) and more points."""
+    """Show a base plate, and make Axes3D wide enough for all states (M, d) and more points."""
     plate = base_plate(model)
     shapes = [robot_shape(model, q).points for q in states]
     space.show_points(axes, np.concatenate([plate, *shapes, *more]))

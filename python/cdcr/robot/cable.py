@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from cdcr import _core
 from cdcr.base.check import Check
 from cdcr.base.keywords import by_keyword
-from cdcr.base.quantity import quantity
+from cdcr.base.quantity import quantity, told
 
 Pairs = tuple[tuple[float, float], ...]
 
@@ -118,6 +118,10 @@ class Cable:
             start_section: int = ...,
         ) -> None: ...
 
+    def __repr__(self) -> str:
+        """Say what one would type, without what is left at its default of what few need."""
+        return told(self)
+
     def __post_init__(self) -> None:
         """Keep every value as a plain float or int, or refuse it."""
         Check().keep(self)
@@ -160,6 +164,12 @@ class Cable:
             return (value, value) if isinstance(value, float) else value[k]
 
         return ends(self.radius), ends(self.angle)
+
+    @property
+    def farthest(self) -> float:
+        """Largest distance from the backbone on its way [m]."""
+        radius = self.radius
+        return radius if isinstance(radius, float) else max(max(pair) for pair in radius)
 
     def _to_core(self) -> _core.Cable:
         return _core.Cable(**{item.name: getattr(self, item.name) for item in fields(self)})

@@ -126,6 +126,22 @@ def _defaults(kind: type[Robot | Section | Cable]) -> dict[str, Any]:
     return {item.name: item.default for item in fields(kind) if item.default is not MISSING}
 
 
+def robot_table(robot: Robot) -> dict[str, Any]:
+    """Return the table of a robot as a file has it, with every field that has a value."""
+    table = _table(robot) | {"sections": [_table(section) for section in robot.sections]}
+    return table | {"cables": [_table(cable) for cable in robot.cables]}
+
+
+def _table(thing: Robot | Section | Cable) -> dict[str, Any]:
+    names = [item.name for item in fields(thing) if _is_written(thing, item, all_fields=True)]
+    values = {name: _in_lists(_in_file(thing, name)) for name in names}
+    return {name: value for name, value in values.items() if value is not None}
+
+
+def _in_lists(value: Any) -> Any:
+    return list(map(_in_lists, value)) if isinstance(value, tuple) else value
+
+
 def robot_text(robot: Robot) -> str:
     """Return the robot as TOML; repr gives every float the digits it needs to come back exactly."""
     return _HEAD + "\n" + "\n".join(robot_lines(robot)) + "\n"

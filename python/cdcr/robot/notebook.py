@@ -38,17 +38,15 @@ def _drawing(robot: Robot) -> str:
         scale
         / 2.0
         * max(
-            [section.backbone_diameter for section in robot.sections]
+            [max(section.diameters) for section in robot.sections]
             + [disk.diameter for section in robot.sections for disk in section.disks]
-            + [2.0 * cable.radius for cable in robot.all_cables]
+            + [2.0 * cable.farthest for cable in robot.all_cables]
         )
     )
     parts, start = [], 0.0
     for i, section in enumerate(robot.sections):
         color, end = COLORS[i % len(COLORS)], start + scale * section.length
-        parts.append(
-            _line(start, 0.0, end, 0.0, color, max(1.5, scale * section.backbone_diameter))
-        )
+        parts.append(_backbone(start, end, color, [scale * d for d in section.diameters]))
         for disk in section.disks:
             x, y = start + scale * section.length * disk.position, scale * disk.diameter / 2.0
             parts.append(_line(x, -y, x, y, color, 2.0))
@@ -58,6 +56,15 @@ def _drawing(robot: Robot) -> str:
         f'height="{2 * half + 8:.0f}" viewBox="-4 {-half - 4:.1f} {WIDTH + 8:.0f} '
         f'{2 * half + 8:.1f}" role="img"><title>the straight robot</title>{"".join(parts)}</svg>'
     )
+
+
+def _backbone(start: float, end: float, color: str, diameters: list[float]) -> str:
+    base, tip = (max(1.5, diameter) for diameter in diameters)
+    if base == tip:
+        return _line(start, 0.0, end, 0.0, color, base)
+    corners = ((start, base), (end, tip), (end, -tip), (start, -base))
+    points = " ".join(f"{x:.1f},{y / 2.0:.1f}" for x, y in corners)
+    return f'<polygon points="{points}" fill="{color}"/>'
 
 
 def _line(x1: float, y1: float, x2: float, y2: float, color: str, width: float) -> str:

@@ -1,10 +1,11 @@
-"""One section cut into several of constant curvature, nearer to a beam."""
+"""One section cut into several, and its cables with it."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import accumulate, pairwise
 from numbers import Integral
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 
 from cdcr import _core
 from cdcr.base.check import Check, count
+from cdcr.robot.cable import Cable, Pairs
 from cdcr.robot.section import Section
 
 if TYPE_CHECKING:
@@ -51,19 +53,73 @@ def parts_of(section: Section, count: int) -> list[Section]:
     """Return the parts of a section; its cables end on the last one."""
     if count == 1:
         return [section]
-    disks = _disks_of_parts(section, count)
-    last = replace(
+    x, y = section.rest_bending
+    even = replace(
         section,
         length=section.length / count,
         backbone_mass=section.backbone_mass / count,
-        # A uniform bend shares its rate among the parts: count * c' (qd/count)^2 = c qd^2.
+        # A uniform strain shares its rate among the parts: count * c' (qd/count)^2 = c qd^2.
         damping=section.damping * count,
-        **disks[-1],
+        twist_damping=section.twist_damping * count,
+        stretch_damping=section.stretch_damping * count,
+        rest_bending=(x / count, y / count),
+        rest_twist=section.rest_twist / count,
     )
-    without_cables = replace(
-        last, cable_radius=0.0, cable_angles=(), cable_stiffness=0.0, cable_damping=0.0
+    own: list[dict[str, Any]] = [
+        disks | backbone
+        for disks, backbone in zip(
+            _disks_of_parts(section, count), _backbones(section, count), strict=True
+        )
+    ]
+    without_cables: dict[str, Any] = {
+        "cable_radius": 0.0,
+        "cable_angles": (),
+        "cable_stiffness": 0.0,
+        "cable_damping": 0.0,
+    }
+    return [*(replace(even, **one, **without_cables) for one in own[:-1]), replace(even, **own[-1])]
+
+
+def cable_of_parts(cable: Cable, counts: Sequence[int]) -> Cable:
+    """Return a cable as it runs through the parts of sections, of which there are so many each."""
+    ends = [0, *accumulate(counts)]
+    passed = counts[cable.start_section : cable.end_section + 1]
+
+    def along(value: float | Pairs) -> float | Pairs:
+        if isinstance(value, float):
+            return value
+        return tuple(
+            pair for ends, n in zip(value, passed, strict=True) for pair in _between(ends, n)
+        )
+
+    return replace(
+        cable,
+        radius=along(cable.radius),
+        angle=along(cable.angle),
+        start_section=ends[cable.start_section],
+        end_section=ends[cable.end_section + 1] - 1,
     )
-    return [replace(without_cables, **fields) for fields in disks[:-1]] + [last]
+
+
+def _between(ends: tuple[float, float], count: int) -> list[tuple[float, float]]:
+    """Return the (base, tip) pairs of equal parts of what changes evenly between two ends."""
+    base, tip = ends
+    values = [base + (tip - base) * k / count for k in range(count)] + [tip]
+    return list(pairwise(values))
+
+
+def _backbones(section: Section, count: int) -> list[dict[str, Any]]:
+    """Return the diameters of the parts of a taper, and its mass in proportion to the volume."""
+    base, tip = section.diameters
+    if base == tip:
+        return [{}] * count
+    ends = _between((base, tip), count)
+    inner = section.backbone_inner_diameter
+    volumes = [(a * a + a * b + b * b) / 3.0 - inner * inner for a, b in ends]
+    return [
+        {"backbone_diameter": pair, "backbone_mass": section.backbone_mass * volume / sum(volumes)}
+        for pair, volume in zip(ends, volumes, strict=True)
+    ]
 
 
 def _disks_of_parts(section: Section, count: int) -> list[dict[str, Any]]:

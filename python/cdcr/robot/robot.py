@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
-from itertools import accumulate, chain
+from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,7 +16,7 @@ from cdcr.base.keywords import by_keyword
 from cdcr.base.quantity import quantity
 from cdcr.robot.cable import Cable
 from cdcr.robot.filed import Filed
-from cdcr.robot.parts import Parts, part_counts, parts_of
+from cdcr.robot.parts import Parts, cable_of_parts, part_counts, parts_of
 from cdcr.robot.section import Section
 from cdcr.robot.units import ask_about_robot
 
@@ -211,12 +211,7 @@ class Robot(Filed):
     @property
     def all_cables(self) -> tuple[Cable, ...]:
         """Every cable in the order of the commands: section by section, then `cables`."""
-        names = [item.name for item in fields(Cable)]
-        return tuple(
-            Cable(**{name: plain.get(name) or getattr(cable, name) for name in names})
-            for cable in self._to_core().all_cables()
-            for plain in [{"radius": cable.radii, "angle": cable.angles}]
-        )
+        return tuple(map(_as_described, self._to_core().all_cables()))
 
     def locate(self, s: float) -> tuple[int, float]:
         """Return the place at an arc length from the base, as section and fraction.
@@ -253,11 +248,12 @@ class Robot(Filed):
         return self._to_core().locate(arc_length)
 
     def subdivide(self, parts: Parts) -> Robot:
-        """Return the same robot with every section cut into equal constant-curvature parts.
+        """Return the same robot with every section cut into equal parts.
 
-        Every disk stays where it is, and cables run through all parts of a section. The more
-        parts, the nearer the robot comes to a beam that bends freely. ``cdcr.subdivide_state`` and
-        ``cdcr.merge_state`` take states there and back.
+        Every disk stays where it is, and cables run as they did through all parts of a section,
+        which keep its orders and taper on. The more parts, the nearer the robot comes to a beam
+        that bends freely. ``cdcr.subdivide_state`` and ``cdcr.merge_state`` take states there and
+        back.
 
         Parameters
         ----------
@@ -283,8 +279,7 @@ class Robot(Filed):
         """
         counts = part_counts(len(self.sections), parts)
         cut = [parts_of(*pair) for pair in zip(self.sections, counts, strict=True)]
-        last = [end - 1 for end in accumulate(counts)]
-        cables = [replace(cable, end_section=last[cable.end_section]) for cable in self.cables]
+        cables = [cable_of_parts(cable, counts) for cable in self.cables]
         return replace(self, sections=tuple(chain.from_iterable(cut)), cables=tuple(cables))
 
     def view(self, *, port: int = 8080, browser: bool = True) -> View:
@@ -338,3 +333,10 @@ class Robot(Filed):
         plain["sections"] = [section._to_core() for section in self.sections]
         plain["cables"] = [cable._to_core() for cable in self.cables]
         return _core.Robot(**plain)
+
+
+def _as_described(cable: _core.Cable) -> Cable:
+    given = {item.name: getattr(cable, item.name) for item in fields(Cable)}
+    given["radius"] = cable.radii or cable.radius
+    given["angle"] = cable.angles or cable.angle
+    return Cable(**given)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from cdcr import _core
 from cdcr.base.check import Check
 from cdcr.base.keywords import by_keyword
-from cdcr.base.quantity import quantity
+from cdcr.base.quantity import quantity, told
 
 
 class Disk(NamedTuple):
@@ -257,6 +257,10 @@ class Section:
             rest_twist: float = ...,
             nodes: int | None = ...,
         ) -> None: ...
+
+    def __repr__(self) -> str:
+        """Say what one would type, without what is left at its default of what few need."""
+        return told(self)
 
     def __post_init__(self) -> None:
         """Keep every value as a plain float, int or tuple, or refuse it."""

@@ -24,8 +24,8 @@ class EventRecord(NamedTuple):
         When [s].
     event : int
         Index of the function among those given.
-    q, qd : (2n,) array
-        Bending vectors [rad] and their rates [rad/s] there.
+    q, qd : (d,) array
+        Coordinates and their rates there.
     """
 
     time: float

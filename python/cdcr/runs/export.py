@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import io
 import json
 from collections.abc import Sequence
 from dataclasses import asdict
@@ -15,7 +14,9 @@ import numpy as np
 from cdcr import _core
 from cdcr.base.arrays import FloatArray
 from cdcr.base.extras import require
+from cdcr.files import netcdf
 from cdcr.files.number_csv import RUN_TIME
+from cdcr.model.signals import rate_names
 from cdcr.runs.stats import STATS
 
 if TYPE_CHECKING:
@@ -52,10 +53,8 @@ def by_length(model: Model) -> bool:
 
 def quantities(run: Trajectory) -> list[Quantity]:
     """Everything a run has to say, first index time."""
-    by_component = (len(run), run.model.num_sections, 2)
     found = [
-        Quantity("q", *_STATE["q"], "bending vector", run.q.reshape(by_component)),
-        Quantity("qd", *_STATE["qd"], "rate of the bending vector", run.qd.reshape(by_component)),
+        *_state(run),
         Quantity("tension", *_STATE["tension"], "cable tension", run.tension),
         Quantity("theta", ("section",), "rad", "bending angle", run.theta),
         Quantity("phi", ("section",), "rad", "orientation angle", run.phi),
@@ -73,24 +72,62 @@ def quantities(run: Trajectory) -> list[Quantity]:
     return found
 
 
+def _state(run: Trajectory) -> list[Quantity]:
+    """Bending vectors by section where there is nothing else, or coordinates one by one."""
+    found = []
+    for name, values, about in (("q", run.q, "{}"), ("qd", run.qd, "rate of the {}")):
+        dims, units = _dims_and_units(run.model, name)
+        vectors = len(dims) == 2
+        shape = (len(run), -1, 2) if vectors else values.shape
+        long_name = about.format("bending vector" if vectors else "coordinate")
+        found.append(Quantity(name, dims, units, long_name, values.reshape(shape)))
+    return found
+
+
+def _dims_and_units(model: Model, name: str) -> tuple[tuple[str, ...], str]:
+    dims, units = _STATE[name]
+    if name not in ("q", "qd") or all_bend_evenly(model):
+        return dims, units
+    stretches = any(map(_is_stretch, model.coordinate_names))
+    return ("coordinate",), f"{units} or {_of_stretch(units)}" if stretches else units
+
+
+def all_bend_evenly(model: Model) -> bool:
+    """Whether the coordinates are one bending vector for each section."""
+    names = (f"q{i + 1}_{axis}" for i in range(model.num_sections) for axis in "xy")
+    return model.coordinate_names == tuple(names)
+
+
+def _is_stretch(name: str) -> bool:
+    return name.startswith("e")
+
+
+def _of_stretch(units: str) -> str:
+    """rad/s -> m/s."""
+    return units.replace("rad", "m")
+
+
 def coordinates(run: Trajectory) -> dict[str, tuple[list[Any], str, str]]:
     """Labels, unit and meaning of each dimension."""
     about = {
         "section": ("1", "section number, 1 at the base"),
         "component": ("1", "component of the bending vector"),
+        "coordinate": ("1", "coordinate of a section, from 1: q bending, t twist, e stretch"),
         "cable": ("1", "cable number, from 1, section by section"),
         "axis": ("1", "axis of the base frame"),
     }
     labels = _labels(run.model)
     return {"time": (run.t.tolist(), "s", "time")} | {
-        name: (labels[name], *words) for name, words in about.items()
+        name: (labels[name], *words) for name, words in about.items() if name in labels
     }
 
 
 def _labels(model: Model) -> dict[str, list[Any]]:
+    even = all_bend_evenly(model)
+    state = {"component": ["x", "y"]} if even else {"coordinate": list(model.coordinate_names)}
     return {
         "section": _numbers(model.num_sections),
-        "component": ["x", "y"],
+        **state,
         "cable": _numbers(model.num_cables),
         "axis": ["x", "y", "z"],
     }
@@ -138,13 +175,7 @@ def attributes(run: Trajectory) -> dict[str, str | int]:
 
 def write_netcdf(run: Trajectory, path: Path) -> None:
     """Write the run as netCDF to a file of any name."""
-    h5netcdf: Any = require("h5netcdf", "data")
-    xr: Any = require("xarray", "data")
-    # In memory: the library crashes where a disk is full, and cannot write to a nameless file.
-    whole = io.BytesIO()
-    with h5netcdf.File(whole, "w") as stored:
-        to_xarray(run).dump_to_store(xr.backends.H5NetCDFStore(stored))
-    path.write_bytes(whole.getbuffer())
+    netcdf.write_netcdf(to_xarray(run), path)
 
 
 def to_dataframe(run: Trajectory) -> pandas.DataFrame:
@@ -178,16 +209,21 @@ def write_csv(run: Trajectory, path: Path) -> None:
 
 def columns_of(model: Model, name: str) -> list[str]:
     """Return the columns of q, qd, tension or command in a CSV file."""
-    dims, units = _STATE[name]
-    return _columns(model, name, dims, units)
+    return _columns(model, name, *_dims_and_units(model, name))
 
 
 def _columns(model: Model, name: str, dims: Sequence[str], units: str) -> list[str]:
-    return [f"{one} [{units}]" for one in column_names(model, name, dims)]
+    names = column_names(model, name, dims)
+    if dims != ("coordinate",):
+        return [f"{one} [{units}]" for one in names]
+    units = _STATE[name][1]
+    return [f"{one} [{_of_stretch(units) if _is_stretch(one) else units}]" for one in names]
 
 
 def column_names(model: Model, name: str, dims: Sequence[str]) -> list[str]:
     """Return the names of the numbers of a quantity, such as q1_x, q1_y."""
+    if dims == ("coordinate",):
+        return list(model.coordinate_names) if name == "q" else rate_names(model)
     names = [name]
     for dim in dims:
         names = [_column(one, label) for one in names for label in _labels(model)[dim]]

@@ -175,7 +175,7 @@ def _scenes(run: Trajectory, stamps: list[Json]) -> Iterator[Json]:
     look = {
         "type": 0,  # a strip
         "pose": {"position": _named((0.0, 0.0, 0.0)), "orientation": _NO_TURN},
-        "thickness": max(section.backbone_diameter for section in robot.sections),
+        "thickness": max(max(section.diameters) for section in robot.sections),
         "scale_invariant": False,
         "color": {"r": 0.13, "g": 0.13, "b": 0.13, "a": 1.0},
     }

@@ -18,10 +18,10 @@ _SWITCHES = ("feed_forward", "anti_windup")
 
 @by_keyword
 class Pid(_core.Pid):
-    """PID loop on the bending vectors; its output is a generalised force, allocated to tensions.
+    """PID loop on the coordinates; its output is a generalised force, allocated to tensions.
 
     Q = dU/dq(ref) + kp (ref - q) + ki int (ref - q) dt - kd qd, evaluated every `period` and held
-    in between. The gains are the same for every component, so no direction is preferred.
+    in between. The gains are the same for every coordinate, so no direction is preferred.
 
     Parameters
     ----------
@@ -43,9 +43,9 @@ class Pid(_core.Pid):
 
     Attributes
     ----------
-    reference : (2n,) array
-        Bending vectors to reach and hold [rad]; straight until set.
-    integral : (2n,) array
+    reference : (d,) array
+        Coordinates to reach and hold; straight until set.
+    integral : (d,) array
         Accumulated error [rad s].
 
     Raises

@@ -104,8 +104,8 @@ def simulate(
     ----------
     model : Model
         The robot, ready for computing.
-    q0, qd0 : (2n,) array_like
-        Bending vectors and their rates at the first time [rad], [rad/s].
+    q0, qd0 : (d,) array_like
+        Coordinates and their rates at the first time.
     t : (N,) array_like
         Output times, strictly increasing; the first is the start [s].
     tension, command : optional

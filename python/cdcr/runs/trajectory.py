@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from cdcr import _core
 from cdcr.base.arrays import FloatArray, ReadOnlyArrays, finite, read_only
 from cdcr.base.check import count, require_kind
 from cdcr.model.model import Model
@@ -35,8 +34,8 @@ class Trajectory(Pictures, ReadOnlyArrays):
         The robot that ran.
     t : ndarray, shape (N,)
         Output times [s].
-    q, qd : ndarray, shape (N, 2n)
-        Bending vectors [rad] and their rates [rad/s], base to tip.
+    q, qd : ndarray, shape (N, d)
+        Coordinates and their rates, base to tip: bending and twist in rad, stretch in m.
     tension : ndarray, shape (N, num_cables)
         Cable tensions at the base [N]; at a jump, the value after it.
     status : Status
@@ -107,17 +106,20 @@ class Trajectory(Pictures, ReadOnlyArrays):
 
     @cached_property  # it writes to __dict__, which a frozen dataclass leaves open
     def _polar(self) -> tuple[FloatArray, FloatArray]:
-        theta, phi = _core.polar_along(self.q)
+        theta, phi = self.model.polar(self.q, continuous=True)
         return read_only(theta), read_only(phi)
 
     @property
     def theta(self) -> FloatArray:
-        """Bending angles (N, n) [rad]; negative after a swing through straight."""
+        """Bending angles (N, n) [rad]; negative after a swing through straight.
+
+        Of the first bending vector of each section; zero where its bending is locked.
+        """
         return self._polar[0]
 
     @property
     def phi(self) -> FloatArray:
-        """Orientation angles (N, n) [rad], continuous along the run."""
+        """Orientation angles (N, n) [rad], continuous along the run; of the same vectors."""
         return self._polar[1]
 
     @cached_property
@@ -172,7 +174,8 @@ class Trajectory(Pictures, ReadOnlyArrays):
         Dimensions, each with its labels: ``time`` [s], ``section`` (1, 2, ... from the base),
         ``component`` of a bending vector ("x", "y"), ``cable`` (1, 2, ... section by section) and
         ``axis`` of the base frame ("x", "y", "z"). Variables: ``q`` [rad] and ``qd`` [rad/s]
-        (time, section, component), ``theta`` and ``phi`` (time, section) [rad], ``tension``
+        (time, section, component), where sections are more than arcs (time, ``coordinate``), which
+        ``model.coordinate_names`` labels; ``theta`` and ``phi`` (time, section) [rad], ``tension``
         (time, cable) [N], ``tip`` (time, axis) [m], ``kinetic_energy``, ``potential_energy`` and
         ``energy`` (time) [J]; where cables are driven by length also ``command`` (time, cable), [N]
         or [m], and ``cable_energy`` (time) [J]. Each has attributes ``units`` and ``long_name``;

@@ -14,7 +14,6 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from cdcr import robots
 from cdcr.base.check import known_name
 from cdcr.files.toml import read_toml
 from cdcr.scenarios import library
@@ -43,6 +42,10 @@ _FIGURES = {
     "pull-release": None,
     "length-drive": None,
     "subdivision": None,
+    "helical-cable": None,
+    "twist-under-load": None,
+    "tapered-arm": None,
+    "precurved-tube": None,
 }
 # Modules of studies and figures that serve several scenarios.
 _SHARED = {
@@ -95,7 +98,10 @@ def get(name: str) -> Scenario:
 
         scenario = load_scenario(_file(name))
     else:
-        scenario = Scenario(name=name, **table | {"robot": robots.get(table["robot"])})
+        from cdcr.scenarios.file.robot import read_robot
+
+        robot = read_robot(table["robot"], _file(name))
+        scenario = Scenario(name=name, **table | {"robot": robot})
     module = _SHARED.get(name, name.replace("-", "_"))
     return replace(scenario, paper_figure=_FIGURES.get(name), **_attached(module))
 

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 # A signal has swung when it has left this share of its span around its mean on both sides.
 _SWING = 0.02
+# Fields of a section that take energy away.
+_LOSSES = ("damping", "twist_damping", "stretch_damping", "material_damping", "cable_friction")
 
 
 class Metric(NamedTuple):
@@ -72,7 +74,7 @@ def static_theta(run: Trajectory, wrenches: Sequence[Wrench] = ()) -> FloatArray
         rest = run.model.equilibrium(command[0], wrenches=wrenches)
     except ConvergenceError:
         return None
-    x, y, phi = rest[0::2], rest[1::2], run.phi[-1]
+    (x, y), phi = run.model.bending_vectors(rest).T, run.phi[-1]
     signed: FloatArray = np.copysign(np.hypot(x, y), x * np.cos(phi) + y * np.sin(phi))
     return np.rad2deg(signed)
 
@@ -103,17 +105,20 @@ def round_times(times: FloatArray, last: float) -> FloatArray:
 def energy_drift(run: Trajectory) -> float | None:
     """Return the largest change of the energy that should not change, over the largest kinetic one.
 
-    Under constant tensions F a cable at angle gamma does the work F r e(gamma).(q - q0), so
-    T + U - (B F).q stays what it was. None where tensions change or damping or friction take energy
-    away.
+    Under constant tensions F a cable does the work F (l0 - l), so T + U + F.l stays what it was,
+    or T + U - (B F).q where the actuation matrix B is constant. None where tensions change, or
+    damping or friction take energy away.
     """
     robot = run.model.robot
-    lossy = any(section.damping or section.cable_friction for section in robot.sections)
+    lossy = any(getattr(section, name) for section in robot.sections for name in _LOSSES)
     rubbing = any(cable.friction for cable in robot.cables)
     if lossy or rubbing or not is_steady(run):
         return None
-    force = run.model.actuation_matrix() @ run.tension[0]
-    kept = run.energy - run.q @ force
+    pull = run.tension[0]
+    if run.model.has_constant_actuation:
+        kept = run.energy - run.q @ (run.model.actuation_matrix() @ pull)
+    else:
+        kept = run.energy + run.model.cable_lengths(run.q) @ pull
     scale = float(np.max(run.kinetic_energy)) or 1.0
     return float(np.max(np.abs(kept - kept[0]))) / scale
 

@@ -69,10 +69,10 @@ class Scenario:
         Number of the figure of the origin paper that it redraws.
     robot : Robot
         The robot.
-    q0 : tuple of float, 2n, or callable
-        Bending vectors [rad] at t = 0, or a function of the model that returns them.
-    qd0 : tuple of float, 2n
-        Their rates [rad/s].
+    q0 : tuple of float, d, or callable
+        Coordinates at t = 0, or a function of the model that returns them.
+    qd0 : tuple of float, d
+        Their rates.
     tension : tuple of float, num_cables, or TensionTable or callable
         Cable tensions [N], constant or over time, or a function of the model and the end of the run
         [s] that returns them.
@@ -156,7 +156,7 @@ class Scenario:
         Returns
         -------
         tuple of float
-            Bending vectors (2n,) at t = 0 [rad].
+            Bending vectors (d,) at t = 0 [rad].
         """
         return self.q0(model) if callable(self.q0) else self.q0
 

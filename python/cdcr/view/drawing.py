@@ -11,7 +11,7 @@ from cdcr.plotting.geometry import base_frame, base_plate
 from cdcr.plotting.style import BLACK, DISK, GREY, LIGHT_GREY
 from cdcr.view.colors import rgb, section_rgb, shaded, tension_colors
 from cdcr.view.live import LiveModel, round_up
-from cdcr.view.placement import Poses, cylinder, place, quaternion, sizes
+from cdcr.view.placement import OVERLAP, Poses, cylinder, place, quaternion, sizes
 from cdcr.view.session import TRAIL_POINTS, Moment
 
 LINE, TRAIL_LINE = 2.5, 2.0  # of cables and of the trail [px]
@@ -48,6 +48,9 @@ class Drawing:
         )
         self.disks = _cylinders(
             scene, "/robot/disks", at.disks, self.sizes.disks, rgb(DISK), **solid
+        )
+        self.marks = _cylinders(
+            scene, "/robot/marks", at.marks, self.sizes.marks, rgb(BLACK), **solid
         )
         self.cables: Any = None
         if len(at.cables):
@@ -109,7 +112,12 @@ class Drawing:
         """Show another moment, and the path of the tip (TRAIL_POINTS, 3) [m]."""
         at = place(model, moment.q)
         _move(self.backbone, at.backbone)
+        if self.sizes.stretches:
+            scales = self.sizes.backbone.copy()
+            scales[:, 2] = OVERLAP * at.lengths
+            self.backbone.batched_scales = scales.astype(np.float32)
         _move(self.disks, at.disks)
+        _move(self.marks, at.marks)
         _move(self.frames, at.frames)
         if self.tool is not None:
             self.tool.points = at.tool.astype(np.float32)

@@ -11,6 +11,8 @@ import numpy as np
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray
+from cdcr.plotting.geometry import widest
+from cdcr.plotting.panels import is_damped
 
 if TYPE_CHECKING:
     from cdcr.robot.robot import Robot
@@ -19,6 +21,8 @@ PERIOD = 2e-3  # for which commands and pull are held [s]
 STABLE = 1.2  # step times fastest rate; RK4 is stable up to 2.78, and bent robots are faster
 MOST_SUBSTEPS = 1000
 ADDED_DAMPING = 0.1  # share of critical damping, given to a robot that has none at all
+# First coefficient of each strain of a section, and what damps it.
+DAMPINGS = {"q{}_x": "damping", "t{}": "twist_damping", "e{}": "stretch_damping"}
 MOST_BENT = 2.5  # bending angle that the largest command of a slider gives one section [rad]
 
 
@@ -82,8 +86,8 @@ class LiveRobot:
         The robot.
     formulation : str
         Of the equations of motion.
-    q, qd : (2n,) array, optional
-        Where it starts [rad] and how fast [rad/s]; by default at rest, without tension.
+    q, qd : (d,) array, optional
+        Where it starts and how fast; by default at rest, without tension.
     command : (num_cables,) array, optional
         Of the cables [N], [m] where driven by length.
     """
@@ -105,7 +109,7 @@ class LiveRobot:
         self.command = np.array(self.model.rest_command() if command is None else command)
         self._taken = self.command.copy()  # the last command that was none to refuse
         size = self.model.num_coordinates
-        self.q = self._rest(np.zeros(size)) if q is None else np.array(q)
+        self.q = self._rest(self.model.rest_shape) if q is None else np.array(q)
         self.qd = np.zeros(size) if qd is None else np.array(qd)
         self._build()
 
@@ -193,20 +197,26 @@ class LiveRobot:
 
 def first_damping(robot: Robot) -> float:
     """Return the share of critical damping that is added to a robot unless somebody changes it."""
-    undamped = all(section.damping == 0.0 for section in robot.sections)
-    return ADDED_DAMPING if undamped else 0.0
+    return 0.0 if is_damped(robot) else ADDED_DAMPING
 
 
 def _damped(robot: Robot, formulation: str, share: float) -> Robot:
-    """Return the robot with a share of the critical damping of each section added to its own."""
+    """Return the robot with a share of the critical damping of each strain added to its own."""
     if share == 0.0:
         return robot
     model = LiveModel(robot, formulation)
-    mass = np.diag(model.mass_matrix(np.zeros(model.num_coordinates)))[::2]
-    sections = [
-        replace(section, damping=section.damping + 2.0 * share * math.sqrt(section.stiffness * m))
-        for section, m in zip(robot.sections, mass, strict=True)
-    ]
+    mass, stiffness = (
+        np.diag(matrix) for matrix in (model.mass_matrix(model.rest_shape), model.elastic_stiffness)
+    )
+    sections = []
+    for i, section in enumerate(robot.sections, start=1):
+        own = {name.format(i): field for name, field in DAMPINGS.items()}
+        added = {
+            own[name]: getattr(section, own[name]) + 2.0 * share * math.sqrt(k * m)
+            for name, k, m in zip(model.coordinate_names, stiffness, mass, strict=True)
+            if name in own
+        }
+        sections.append(replace(section, **added))
     return replace(robot, sections=tuple(sections))
 
 
@@ -219,13 +229,13 @@ def command_ranges(model: LiveModel, commands: FloatArray) -> list[tuple[float, 
     ranges = []
     rest = model.rest_command()
     for j, cable in enumerate(model.robot.all_cables):
-        passed = model.robot.sections[: cable.end_section + 1]
+        passed = model.robot.sections[cable.start_section : cable.end_section + 1]
         if cable.length_driven:
-            stroke = cable.radius * MOST_BENT
+            stroke = widest(cable) * MOST_BENT
             low, high = max(0.0, rest[j] - stroke), rest[j] + stroke / 10.0
         else:
             softest = min(section.stiffness for section in passed)
-            low, high = 0.0, round_up(softest * MOST_BENT / cable.radius)
+            low, high = 0.0, round_up(softest * MOST_BENT / widest(cable))
         column = commands[:, j]
         ranges.append((min(low, *column), max(high, *column)))
     return ranges

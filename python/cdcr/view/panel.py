@@ -144,7 +144,7 @@ class Panel:
         drawing = self._drawing
         parts = {
             "backbone": [drawing.backbone],
-            "disks": [drawing.disks],
+            "disks": [drawing.disks, drawing.marks],
             "cables": [drawing.cables],
             "frames": [drawing.frames],
             "path of the tip": [drawing.trail],

@@ -29,9 +29,9 @@ class Moment(NamedTuple):
     """All that is drawn of one time."""
 
     time: float  # [s]
-    q: FloatArray  # (2n,) [rad]
+    q: FloatArray  # (d,)
     tension: FloatArray  # (num_cables,) [N]
-    reference: FloatArray | None = None  # (2n,) [rad]
+    reference: FloatArray | None = None  # (d,)
 
 
 class Session:
@@ -75,8 +75,8 @@ class Session:
             raise TypeError(f"reference must be a cdcr.Trajectory or a cdcr.Reference, got {got}")
         if reference is not None and reference.q.shape[1] != size:
             raise ValueError(
-                f"reference must be of a robot of {count(size // 2, 'section')}, got one of "
-                f"{reference.q.shape[1] // 2}"
+                f"reference must be of a robot of {count(size, 'coordinate')}, got one of "
+                f"{reference.q.shape[1]}"
             )
         self._kept: deque[Moment] = deque()
         self.live: LiveRobot | None = None
@@ -306,7 +306,7 @@ class Session:
 
 
 def _rates_at(run: Trajectory, time: float) -> FloatArray:
-    """Return qd (2n,) at a time, on a line between samples [rad/s]."""
+    """Return qd (d,) at a time, on a line between samples."""
     return np.array([np.interp(time, run.t, rates) for rates in run.qd.T])
 
 
@@ -315,7 +315,8 @@ def circling(ranges: list[tuple[float, float]], model: LiveModel, time: float) -
     share = CIRCLING / model.num_sections * min(1.0, time / RAMP)
     rest, command = model.rest_command(), []
     for j, (cable, (low, high)) in enumerate(zip(model.robot.all_cables, ranges, strict=True)):
-        pulled = share * max(0.0, np.cos(2.0 * np.pi * time / CIRCLE - cable.angle))
+        angle = np.mean(cable.route(cable.end_section)[1])
+        pulled = share * max(0.0, np.cos(2.0 * np.pi * time / CIRCLE - angle))
         toward = low if cable.length_driven else high
         command.append(rest[j] + pulled * (toward - rest[j]))
     return np.array(command)

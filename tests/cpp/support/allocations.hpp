@@ -3,9 +3,11 @@
 // Counts this thread's heap allocations, C and C++ alike, by standing in for malloc and its kin.
 // Under AddressSanitizer, which does the same, counting is off and the counts stay zero.
 
+#include "sanitizers.hpp"
+
 namespace cdcr::test {
 
-#if defined(__SANITIZE_ADDRESS__) || !defined(__GLIBC__)
+#if CDCR_ADDRESS_SANITIZER || !defined(__GLIBC__)
 inline constexpr bool allocations_counted = false;
 #else
 inline constexpr bool allocations_counted = true;

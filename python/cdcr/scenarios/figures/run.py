@@ -50,8 +50,9 @@ def _draw_robot(figure: StyledFigure, run: Trajectory, times: FloatArray) -> Non
 
 def _draw_panels(figure: StyledFigure, run: Trajectory, wrenches: Sequence[Wrench]) -> None:
     turns = bool(np.any(np.ptp(np.rad2deg(run.phi), axis=0) > STILL))
-    plots = [panels.plot_theta, *[_plot_phi] * turns, panels.plot_tension]
-    heights = [2.0, *[1.0] * turns, 1.0]
+    strains = panels.strain_panels(run.model)
+    plots = [panels.plot_theta, *[_plot_phi] * turns, *strains, panels.plot_tension]
+    heights = [2.0, *[1.0] * (turns + len(strains)), 1.0]
     charts = add_panels(figure, heights, left=0.525, top=0.91, hspace=0.35)
     for axes, plot in zip(charts, plots, strict=True):
         plot(axes, run)

@@ -16,17 +16,26 @@ from cdcr.scenarios.studies import subdivision as study
 if TYPE_CHECKING:
     from cdcr.scenarios.scenario import Scenario
 
+COMPARED = 2  # modes, by coordinates and by time
 MARKS = ("o", "s", "^")
 
 
 def plot(scenario: Scenario, run: None) -> StyledFigure:
-    """Draw frequencies and their errors over the number of parts, and step responses."""
+    """Draw frequencies and errors over parts, errors over coordinates and time, responses."""
     with style():
-        figure = new_figure(scenario.title, (12.4, 7.6))
-        grid = figure.add_gridspec(2, 2, height_ratios=[1.15, 1.0])
+        figure = new_figure(scenario.title, (12.4, 10.6))
+        grid = figure.add_gridspec(3, 2, height_ratios=[1.15, 1.0, 0.9])
         _draw_frequencies(figure.add_subplot(grid[0, 0]))
         _draw_convergence(figure.add_subplot(grid[0, 1]))
-        _draw_responses(figure.add_subplot(grid[1, :]))
+        by_size, by_time = figure.add_subplot(grid[1, 0]), figure.add_subplot(grid[1, 1])
+        _compare(by_size, "number of coordinates", _coordinates())
+        times = study.processor_times()
+        spans = [[1e3 * span for span in times[kind].values()] for kind in ("parts", "orders")]
+        _compare(by_time, f"processor time of {study.END:g} s of motion [ms]", spans)
+        by_size.set_xticks(sizes := [2, 4, 8, 16, 32], [str(size) for size in sizes])
+        by_time.set_ylabel("")
+        note(by_size, "full: parts, dashed: orders of bending")
+        _draw_responses(figure.add_subplot(grid[2, :]))
     return figure
 
 
@@ -73,6 +82,33 @@ def _draw_convergence(axes: Axes) -> None:
     axes.set_xlim(0.93, 15.0)
     axes.set_xlabel("number of parts")
     axes.set_ylabel("frequency too high by [%]")
+
+
+def _coordinates() -> list[list[float]]:
+    """Return the numbers of coordinates of the parts and of the orders compared."""
+    return [[2.0 * parts for parts in study.PARTS], [2.0 * (k + 1) for k in study.ORDERS]]
+
+
+def _compare(axes: Axes, name: str, places: list[list[float]]) -> None:
+    """Draw the errors of the first two modes by parts and by orders, over what they cost."""
+    parts = [study.excess(count) for count in study.PARTS]
+    orders = [study.order_excess(k) for k in study.ORDERS]
+    for mode, (color, mark) in enumerate(zip(COLORS[:COMPARED], MARKS, strict=False)):
+        for found, place, dashes in zip((parts, orders), places, ("-", "--"), strict=True):
+            points = [
+                (x, 100.0 * one[mode])
+                for x, one in zip(place, found, strict=True)
+                if len(one) > mode
+            ]
+            axes.plot(*zip(*points, strict=True), color=color, marker=mark, ls=dashes, markersize=5)
+    for k, x in zip(study.ORDERS, places[1], strict=True):
+        name_point(axes, f"order {k}", (x, 100.0 * orders[k - 1][0]), (-8, -3), ha="right")
+    last = study.PARTS[-1]
+    point = (places[0][-1], 100.0 * parts[-1][0])
+    name_point(axes, f"{last} parts", point, (0, -11), ha="center", va="top")
+    axes.set(xscale="log", yscale="log", xlabel=name, ylabel="frequency too high by [%]")
+    axes.margins(x=0.12)
+    axes.minorticks_off()
 
 
 def _draw_responses(axes: Axes) -> None:

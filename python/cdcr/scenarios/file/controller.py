@@ -18,7 +18,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from cdcr.files.toml import refuse, schema_errors
-from cdcr.model.coordinates import polar
 from cdcr.model.model import Model
 from cdcr.runs.pid import Pid
 from cdcr.runs.trajectory import Trajectory
@@ -35,7 +34,7 @@ BAND = 0.02  # of the first error, within which a loop has settled
 
 @dataclass(frozen=True, eq=False)
 class PidLoop:
-    """A PID controller to be made for a model, and the bending vectors it is to reach [rad]."""
+    """A PID controller to be made for a model, and the coordinates it is to reach."""
 
     options: dict[str, Any]
     reference: tuple[float, ...]
@@ -70,7 +69,7 @@ class PidLoop:
         from cdcr.scenarios.figures.run import run_figure
 
         figure = run_figure(scenario, run)
-        theta, phi = polar(np.array([self.reference]))
+        theta, phi = run.model.polar([self.reference])
         # A section that ended bent the other way has a negative theta.
         signed = np.rad2deg(theta * np.sign(np.cos(phi - run.phi[-1]) + 1e-9))[0]
         axes = figure.axes[1]
@@ -92,9 +91,9 @@ def read_controller(table: dict[str, Any], model: Model, file: Path) -> PidLoop:
     reference, at = table.get("reference", {}), f"{AT}.reference"
     found = [*schema_errors(ReferenceTable, reference, at), *values.rival_errors(reference, at)]
     refuse(str(file), found)
-    refuse(str(file), values.length_errors(reference, model.num_sections, at))
+    refuse(str(file), values.length_errors(reference, model, at))
     with values.error_prefix(str(file)):
-        goal = values.bending_vector(reference, model.num_sections, at)
+        goal = values.coordinates(reference, model, at)
     loop = PidLoop(options, goal)
     with values.error_prefix(f"{file}, [{AT}]"):
         loop(model)

@@ -68,10 +68,17 @@ def load_scenario(path: str | PathLike[str]) -> Scenario:
             f"{file} is a robot file: `cdcr info` and `cdcr view` take it, or name it in a scenario"
         )
     with with_lines(file):
-        return _scenario(file, table)
+        return scenario_from_table(table, file)
 
 
-def _scenario(file: Path, table: dict[str, Any]) -> Scenario:
+def scenario_from_table(table: dict[str, Any], file: Path) -> Scenario:
+    """Return the scenario of the table of a file; it may be changed, and the file need not exist.
+
+    Raises
+    ------
+    ValueError
+        As `load_scenario` does, without lines.
+    """
     from cdcr.scenarios.file.schema import ScenarioTable
 
     refuse(
@@ -123,7 +130,7 @@ def _of_model(table: Mapping[str, Any], model: Model, file: Path, t_end: float) 
     if "initial" in table or "q0" not in given:
         with faults.kept():
             command = _first_command(given)
-            q0, qd0 = read_start(table.get("initial", {}), model.num_sections, command, file)
+            q0, qd0 = read_start(table.get("initial", {}), model, command, file)
             given |= {"q0": q0, "qd0": qd0}
     faults.done()
     return given
@@ -204,7 +211,7 @@ def _input(table: Mapping[str, Any], model: Model, file: Path) -> dict[str, Any]
     if "trajectory" in table:
         t_end = table["t_end"]
         motion = read_trajectory(table["trajectory"], model, t_end, file)
-        motion.check(np.linspace(0.0, t_end, NUM_CHECKED))
+        motion.check(model, np.linspace(0.0, t_end, NUM_CHECKED))
         q0, qd0 = motion.start()
         fields = {
             "input_source": motion,

@@ -16,7 +16,7 @@ from cdcr.base.arrays import FloatArray
 from cdcr.files.toml import refuse, schema_errors
 from cdcr.model.model import Model
 from cdcr.model.statics import ConvergenceError
-from cdcr.scenarios.file.values import bending_vector, error_prefix, length_errors, rival_errors
+from cdcr.scenarios.file.values import coordinates, error_prefix, length_errors, rival_errors
 
 _SHAPE = ("q", "theta", "theta_deg", "phi", "phi_deg")
 
@@ -39,7 +39,7 @@ class Rest:
         From the model to the commands (num_cables,) at the start.
     payload : float
         Mass at the tip until the start [kg].
-    guess : tuple of float, 2n, optional
+    guess : tuple of float, d, optional
         Where the search begins [rad].
     where : str
         What a refusal begins with.
@@ -51,7 +51,7 @@ class Rest:
     where: str
 
     def __call__(self, model: Model) -> tuple[float, ...]:
-        """Return the bending vectors (2n,) of rest [rad]."""
+        """Return the coordinates (d,) of rest."""
         loaded = carrying(model, self.payload)
         try:
             return tuple(loaded.equilibrium(self.command(model), self.guess).tolist())
@@ -61,7 +61,7 @@ class Rest:
 
 def read_start(
     table: Mapping[str, Any],
-    num_sections: int,
+    model: Model,
     command: Callable[[Model], FloatArray] | None,
     file: Path,
 ) -> tuple[tuple[float, ...] | Rest, tuple[float, ...]]:
@@ -71,10 +71,10 @@ def read_start(
     at = "initial"
     refuse(str(file), [*schema_errors(InitialTable, table, at), *rival_errors(table, at)])
     arrays = {key: table[key] for key in (*_SHAPE, "qd") if key in table}
-    refuse(str(file), length_errors(arrays, num_sections, at))
+    refuse(str(file), length_errors(arrays, model, at))
     with error_prefix(str(file)):
-        q0 = bending_vector(table, num_sections, at)
-    qd0 = tuple(map(float, table.get("qd", [0.0] * (2 * num_sections))))
+        q0 = coordinates(table, model, at)
+    qd0 = tuple(map(float, table.get("qd", [0.0] * model.num_coordinates)))
     if not table.get("equilibrium", False):
         if "payload" in table:
             refuse(str(file), ["initial.payload needs equilibrium = true: it is held until then"])

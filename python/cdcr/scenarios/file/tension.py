@@ -19,6 +19,7 @@ from cdcr.base.check import count
 from cdcr.files.refusals import named_by
 from cdcr.files.toml import format_toml, refuse, schema_errors
 from cdcr.model.model import Model
+from cdcr.motion.inverse import where
 from cdcr.robot.file import doubled
 from cdcr.runs.command import Interpolation, TensionTable, command_input
 from cdcr.scenarios.file import values
@@ -42,8 +43,8 @@ class Hold:
     ----------
     t : (N,) array
         Times [s]; one alone holds for ever.
-    q : (N, 2n) array
-        Bending vectors at those times [rad].
+    q : (N, d) array
+        Coordinates at those times.
     payload : float
         Mass at the tip, beside that of the robot [kg].
     interpolation : {"linear", "previous"}
@@ -64,8 +65,9 @@ class Hold:
         with values.error_prefix(self.where):
             return np.array(
                 [
-                    loaded.commands(q, loaded.allocate(loaded.inverse_dynamics(q, still, still)))
+                    loaded.commands(q, loaded.allocate(force, q=where(loaded, q)))
                     for q in self.q
+                    for force in [loaded.inverse_dynamics(q, still, still)]
                 ]
             )
 
@@ -145,9 +147,9 @@ def _hold(table: dict[str, Any], model: Model, file: Path) -> Hold:
     q = []
     for k in range(len(t)):
         shape = {key: value[k] for key, value in rows.items()}
-        refuse(str(file), values.length_errors(shape, model.num_sections, at))
+        refuse(str(file), values.length_errors(shape, model, at))
         with values.error_prefix(str(file)):
-            q.append(values.bending_vector(shape, model.num_sections, at))
+            q.append(values.coordinates(shape, model, at))
     times, payload = np.array(t), hold.get("payload", 0.0)
     held = Hold(times, np.array(q), payload, table.get("interpolation", "linear"), f"{file}, {at}")
     commands = held(model, float(times[-1]))

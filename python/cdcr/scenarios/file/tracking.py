@@ -40,7 +40,7 @@ class TrackedMotion:
     Parameters
     ----------
     motion : callable
-        From times (M,) [s] to q, qd, qdd (3, M, 2n).
+        From times (M,) [s] to q, qd, qdd (3, M, d).
     where : str
         What a refusal begins with.
     min_tension, max_tension : float
@@ -83,10 +83,10 @@ class TrackedMotion:
         q, qd, _ = self.motion(np.zeros(1))[:, 0]
         return tuple(q.tolist()), tuple(qd.tolist())
 
-    def check(self, t: FloatArray) -> None:
+    def check(self, model: Model, t: FloatArray) -> None:
         """Refuse a motion that bends a section too far at any of the times (N,) [s]."""
         with error_prefix(self.where):
-            check_bending(self.reference(t))
+            check_bending(model, self.reference(t))
 
     def inverse(self, model: Model, t: FloatArray) -> InverseRun:
         """Return the tensions needed at times (N,) [s]."""
@@ -193,9 +193,9 @@ class TrackedMotion:
 
         figure = run_figure(scenario, run)
         if self.simulate:
-            asked = self.reference(run.t)
+            theta, phi = run.model.polar(self.motion(run.t)[0], continuous=True)
             for axes in figure.axes[1:-1]:  # of theta, and of phi where it moves
-                angles = asked.phi if "varphi" in axes.get_ylabel() else asked.theta
+                angles = phi if "varphi" in axes.get_ylabel() else theta
                 axes.plot(run.t, np.rad2deg(angles), color="black", linewidth=1.0, dashes=(6, 4))
                 axes.set_title("dashed: asked for", loc="left", fontsize=9.5)
         return figure

@@ -22,11 +22,11 @@ from cdcr.files.refusals import named_by
 from cdcr.files.toml import format_toml, refuse, schema_errors
 from cdcr.model.coordinates import bending
 from cdcr.model.model import Model
-from cdcr.motion.reference import Reference
+from cdcr.motion.reference import Reference, placed
 from cdcr.motion.splines import Motion, bending_vectors
-from cdcr.runs.export import columns_of
+from cdcr.runs.export import all_bend_evenly, columns_of
 from cdcr.scenarios.file.tracking import TrackedMotion, driven_by_length
-from cdcr.scenarios.file.values import error_prefix, of_sections, rival_errors
+from cdcr.scenarios.file.values import error_prefix, numbers_of, of_sections, rival_errors
 
 AT = "trajectory"
 _LIMITS = ("min_tension", "max_tension", "infeasible")
@@ -45,7 +45,7 @@ def read_trajectory(table: dict[str, Any], model: Model, t_end: float, file: Pat
     options: dict[str, Any] = {key: table[key] for key in _COMMON if key in table}
     low, high = options.get("min_tension", 0.0), options.get("max_tension", math.inf)
     if given == ["shape"]:
-        motion, error = _shape(table, num_sections, file), (0.0, 0.0)
+        motion, error = placed(_shape(table, num_sections, file), model), (0.0, 0.0)
     else:
         schema = TrajectoryFile if given == ["file"] else TrajectorySamples
         refuse(str(file), [*schema_errors(schema, table, AT), *rival_errors(table, AT)])
@@ -178,12 +178,10 @@ def _samples(table: dict[str, Any], model: Model, file: Path) -> Reference:
     if "file" in table:
         path = file.parent / table["file"]
         with named_by(f"{file}, {AT}.file"):
-            t, given = _read_csv(path, model)
+            t, given = read_csv(path, model)
             with error_prefix(str(path)):
-                return _reference(t, given)
-    given = {
-        key: np.array(_rows(table, key, model.num_sections, file)) for key in _SAMPLED & set(table)
-    }
+                return _reference(t, given, model)
+    given = {key: np.array(_rows(table, key, model, file)) for key in _SAMPLED & set(table)}
     for key, rows in given.items():
         if len(rows) != len(table["t"]):
             requirement = f"as many rows as t, {len(table['t'])}, got {len(rows)}"
@@ -191,15 +189,15 @@ def _samples(table: dict[str, Any], model: Model, file: Path) -> Reference:
     if "q" not in given and not {"theta", "theta_deg"} & set(given):
         refuse(str(file), [f"{AT} must have q, theta or theta_deg beside t"])
     with error_prefix(f"{file}, [{AT}]"):
-        return _reference(table["t"], given)
+        return _reference(table["t"], given, model)
 
 
 _SAMPLED = {"q", "theta", "theta_deg", "phi", "phi_deg"}
 
 
-def _rows(table: dict[str, Any], key: str, num_sections: int, file: Path) -> list[list[float]]:
+def _rows(table: dict[str, Any], key: str, model: Model, file: Path) -> list[list[float]]:
     """Return the rows of a key; for one section they may be numbers."""
-    length = num_sections * (2 if key == "q" else 1)
+    length, _ = numbers_of(key, model)
     rows = [row if isinstance(row, list) else [row] for row in table[key]]
     for i, row in enumerate(rows):
         if len(row) != length:
@@ -208,7 +206,7 @@ def _rows(table: dict[str, Any], key: str, num_sections: int, file: Path) -> lis
     return rows
 
 
-def _reference(t: list[float], given: Mapping[str, FloatArray]) -> Reference:
+def _reference(t: list[float], given: Mapping[str, FloatArray], model: Model) -> Reference:
     if "q" in given:
         return Reference.from_samples(t, given["q"])
     angles = {}
@@ -216,18 +214,20 @@ def _reference(t: list[float], given: Mapping[str, FloatArray]) -> Reference:
         in_degrees = np.deg2rad(given.get(f"{key}_deg", np.zeros(1)))
         angles[key] = given.get(key, in_degrees)
     if angles["phi"].size == 1:
-        return Reference.from_angles(t, angles["theta"], 0.0)
-    return Reference.from_angles(t, angles["theta"], angles["phi"])
+        angles["phi"] = np.zeros(())
+    return Reference.from_angles(t, angles["theta"], angles["phi"]).on(model)
 
 
-def _read_csv(path: Path, model: Model) -> tuple[list[float], dict[str, FloatArray]]:
+def read_csv(path: Path, model: Model) -> tuple[list[float], dict[str, FloatArray]]:
+    """Return the times of a file of samples, and its rows by the keys of a [trajectory]."""
     sections = range(1, model.num_sections + 1)
     layouts = []
     for theta, phi, unit in (("theta_deg", "phi_deg", "deg"), ("theta", "phi", "rad")):
         columns = tuple(f"{key} {i}" for i in sections for key in (theta, phi))
         layouts.append(Layout(columns, f"a number [{unit}]"))
-    columns = tuple(f"q {i} {axis}" for i in sections for axis in "xy")
-    layouts.append(Layout(columns, "a number [rad]"))
+    if all_bend_evenly(model):
+        columns = tuple(f"q {i} {axis}" for i in sections for axis in "xy")
+        layouts.append(Layout(columns, "a number [rad]"))
     layouts.append(Layout(tuple(columns_of(model, "q")), "a number [rad]", time=RUN_TIME))
     layout, t, rows = read_numbers(path, "trajectory file", layouts)
     values = np.array(rows)

@@ -14,6 +14,7 @@ from cdcr.base.arrays import FloatArray
 from cdcr.base.check import count
 from cdcr.files.toml import format_toml, refuse
 from cdcr.model.coordinates import bending
+from cdcr.model.model import Model
 
 _ANGLES = ("theta", "theta_deg", "phi", "phi_deg")
 RIVALS = (("theta", "theta_deg"), ("phi", "phi_deg"), *(("q", angle) for angle in _ANGLES))
@@ -37,40 +38,52 @@ def rival_errors(table: Mapping[str, Any], at: str) -> list[str]:
     ]
 
 
-def length_errors(table: Mapping[str, Any], num_sections: int, at: str) -> list[str]:
-    """Return a sentence for each array that is not a number for each section, or two."""
+def length_errors(table: Mapping[str, Any], model: Model, at: str) -> list[str]:
+    """Return a sentence for each array that is not a number for each section, or coordinate."""
     found = []
     for key, value in table.items():
-        length = num_sections * (2 if key in ("q", "qd") else 1)
+        length, robot = numbers_of(key, model)
         if len(value) != length or any(isinstance(one, list) for one in value):
             found.append(
-                f"{at}.{key} must have {count(length, 'number')} for a robot with "
-                f"{count(num_sections, 'section')}, got {format_toml(value)}"
+                f"{at}.{key} must have {count(length, 'number')} for a robot with {robot}, "
+                f"got {format_toml(value)}"
             )
     return found
 
 
-def bending_vector(table: Mapping[str, Any], num_sections: int, at: str) -> tuple[float, ...]:
-    """Return the bending vectors (2n,) [rad] of a table with q, or theta and phi, or refuse it."""
-    q = _bending_vector(table, num_sections)
-    for i in range(num_sections):
-        angle = math.hypot(*q[2 * i : 2 * i + 2])
+def numbers_of(key: str, model: Model) -> tuple[int, str]:
+    """Return how many numbers a key takes, and the robot that they are for in words."""
+    sections = count(model.num_sections, "section")
+    if key not in ("q", "qd"):
+        return model.num_sections, sections
+    names = f" and coordinates {', '.join(model.coordinate_names)}" if model.has_rods else ""
+    return model.num_coordinates, f"{sections}{names}"
+
+
+def coordinates(table: Mapping[str, Any], model: Model, at: str) -> tuple[float, ...]:
+    """Return the coordinates (d,) of a table with q, or theta and phi, or refuse it.
+
+    theta and phi are those of the first bending vector of each section; all else is zero then.
+    """
+    try:
+        q = np.array(table["q"]) if "q" in table else model.coordinates(_bent(table, model))
+    except ValueError as error:
+        raise ValueError(f"{at}: {error}") from None
+    for i, angle in enumerate(model.polar(q)[0].tolist()):
         if angle > max_bending:
             key = next(name for name in ("q", "theta", "theta_deg") if name in table)
             raise ValueError(
                 f"{at}.{key} must bend each section by at most 3 pi rad, 540 deg, got "
                 f"{angle:.6g} rad, {math.degrees(angle):.6g} deg, in section {i + 1}"
             )
-    return q
+    return tuple(map(float, q))
 
 
-def _bending_vector(table: Mapping[str, Any], num_sections: int) -> tuple[float, ...]:
-    if "q" in table:
-        return tuple(map(float, table["q"]))
-    straight = [0.0] * num_sections
+def _bent(table: Mapping[str, Any], model: Model) -> FloatArray:
+    straight = [0.0] * model.num_sections
     theta = table.get("theta", np.deg2rad(table.get("theta_deg", straight)))
     phi = table.get("phi", np.deg2rad(table.get("phi_deg", straight)))
-    return tuple(bending(theta, phi).tolist())
+    return bending(theta, phi)
 
 
 def of_sections(

@@ -18,13 +18,13 @@ SETTLED = 0.02  # share of the first distance
 
 
 def distance(run: Trajectory, q: FloatArray) -> FloatArray:
-    """Return how far the tip is (N,) from where it is at q (2n,) [m]."""
+    """Return how far the tip is (N,) from where it is at q (d,) [m]."""
     away: FloatArray = np.linalg.norm(run.tip - run.model.tip(q)[1], axis=1)
     return away
 
 
 def at_rest(run: Trajectory) -> FloatArray:
-    """Return q (2n,) where a run under constant tensions comes to rest [rad]."""
+    """Return q (d,) where a run under constant tensions comes to rest [rad]."""
     return run.model.equilibrium(run.command[0])
 
 

@@ -14,7 +14,7 @@ import subprocess
 import sys
 import threading
 import warnings
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sized
 from contextlib import contextmanager, suppress
 from selectors import EVENT_READ, DefaultSelector
 from typing import Any, BinaryIO
@@ -40,20 +40,23 @@ def usable() -> int:
 
 
 def results(
-    function: Callable[[Any], Any], arguments: Sequence[Any], processes: int
+    function: Callable[[Any], Any], arguments: Iterable[Any], processes: int
 ) -> Iterator[tuple[int, Any]]:
     """Yield the place of each argument and what the function gives for it, as they are ready.
 
     One process, which is this one, takes them in order. Of several, none is left when this ends,
-    whatever the reason; function, arguments and results are pickled.
+    whatever the reason; function, arguments and results are pickled. An argument is asked for when
+    a process is free to take it.
 
     Raises
     ------
     JobFailed
         Where the function does, or a process ends before its time.
     """
-    if min(processes, len(arguments)) > 1 and sys.executable:
-        yield from _side_by_side(function, arguments, min(processes, len(arguments)))
+    if isinstance(arguments, Sized):
+        processes = min(processes, len(arguments))
+    if processes > 1 and sys.executable:
+        yield from _side_by_side(function, arguments, processes)
         return
     for job, argument in enumerate(arguments):
         try:
@@ -64,18 +67,17 @@ def results(
 
 
 def _side_by_side(
-    function: Callable[[Any], Any], arguments: Sequence[Any], processes: int
+    function: Callable[[Any], Any], arguments: Iterable[Any], processes: int
 ) -> Iterator[tuple[int, Any]]:
-    waiting = iter(range(len(arguments)))
+    waiting = enumerate(arguments)
     at_work: dict[subprocess.Popen[bytes], int] = {}
     with _workers(processes) as workers, DefaultSelector() as ready:
 
         def employ(worker: subprocess.Popen[bytes]) -> None:
-            job = next(waiting, None)
-            if job is None:
+            for job, argument in waiting:
+                at_work[worker] = job
+                _send(worker.stdin, (function, argument))
                 return
-            at_work[worker] = job
-            _send(worker.stdin, (function, arguments[job]))
 
         for worker in workers:
             assert worker.stdout is not None

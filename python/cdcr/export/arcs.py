@@ -1,0 +1,60 @@
+"""What other software is not told of yet: sections that are more than arcs, cables that wind."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from cdcr.base.check import entry
+from cdcr.robot.cable import Cable
+from cdcr.robot.robot import Robot
+from cdcr.robot.section import Section
+
+
+def as_solid_arcs(robot: Robot, what: str) -> Robot:
+    """Return an equal robot of round, solid arcs with straight cables, or refuse it.
+
+    `what` is what cannot be made of others: "an FMU", "a chain of rigid links".
+    """
+    for i, section in enumerate(robot.sections):
+        if section.is_rod:
+            more = "of constant curvature, untapered, straight at rest, without twist and stretch"
+            raise ValueError(
+                f"{what} can be made of sections {more}; {entry('sections', i)} is more than that"
+            )
+    for j, cable in enumerate(robot.cables):
+        if not cable.straight or cable.start_section > 0:
+            raise ValueError(
+                f"{what} can be made with straight cables that begin at the base; "
+                f"{entry('cables', j)} does not run so"
+            )
+    return replace(
+        robot,
+        sections=tuple(map(_solid, robot.sections)),
+        cables=tuple(map(_plain, robot.cables)),
+    )
+
+
+def _solid(section: Section) -> Section:
+    """Return a section whose stiffness, inertia and damping need no other fields."""
+    # I_t = m (d^2 + d_i^2)/16 of a slice of a tube.
+    diameter = math.hypot(section.diameters[0], section.backbone_inner_diameter)
+    found = replace(
+        section,
+        backbone_diameter=diameter,
+        backbone_inner_diameter=0.0,
+        bending_stiffness=None,
+        damping=section.damping + section.material_damping * section.stiffness,
+        **{name: None for name in ("shear_modulus", "twist_stiffness", "stretch_stiffness")},
+        **{name: 0.0 for name in ("twist_damping", "stretch_damping", "material_damping")},
+    )
+    if found.stiffness == section.stiffness:
+        return found
+    return replace(
+        found, youngs_modulus=section.youngs_modulus * section.stiffness / found.stiffness
+    )
+
+
+def _plain(cable: Cable) -> Cable:
+    (radius, _), (angle, _) = cable.route(cable.end_section)
+    return replace(cable, radius=radius, angle=angle)

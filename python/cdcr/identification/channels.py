@@ -1,0 +1,175 @@
+"""What is measured: arrays with names, units and noise, and the refusal of what is no number."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from cdcr.base.arrays import FloatArray
+from cdcr.base.check import Check, format_value
+from cdcr.model.model import Model
+from cdcr.robot.robot import Robot
+
+MANY = 2**31 - 1
+FARTHEST = 3.0  # distance between two tips, in lengths of the robot, beyond which units are asked
+
+
+@dataclass(frozen=True, eq=False)
+class Channel:
+    """One thing measured, a row for each pose or time.
+
+    Attributes
+    ----------
+    name : str
+        Such as "tip", or "marker 1".
+    unit : str
+    values : (N, k) array
+        NaN where nothing was measured and that is allowed.
+    noise : float or None
+        Standard deviation of one number; None where it is to be found.
+    """
+
+    name: str
+    unit: str
+    values: FloatArray
+    noise: float | None = None
+
+
+Where = Callable[[int, str], str]  # names a row and a column of the data
+
+
+def row_of(name: str) -> Where:
+    """Return what names rows of arrays: they count from 1, as in tables and files."""
+
+    def where(row: int, column: str) -> str:
+        return f"{name}, row {row + 1}, {column}"
+
+    return where
+
+
+def column_name(item: str, k: int) -> str:
+    """Name a column: 'tip x', 'marker 1 y', 'cable 2' of commands, 'tension 3'."""
+    if item == "tip" or item.startswith("marker"):
+        return f"{item} {'xyz'[k]}"
+    return f"{'cable' if item == 'command' else item} {k + 1}"
+
+
+def measured(
+    item: str, value: object, shape: tuple[int | None, ...], where: Where, *, gaps: bool = False
+) -> FloatArray:
+    """Return an array of that shape, None for any length, or refuse it by row and column."""
+    try:
+        array = np.array(value, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise ValueError(f"{item} must be an array of numbers, got {format_value(value)}") from None
+    fits = array.ndim == len(shape) and all(
+        want in (None, got) for want, got in zip(shape, array.shape, strict=False)
+    )
+    if not fits:
+        told = ", ".join("any" if one is None else str(one) for one in shape)
+        comma = "," if len(shape) == 1 else ""
+        raise ValueError(f"{item} must have shape ({told}{comma}), got {array.shape}")
+    bad = np.isinf(array) if gaps else ~np.isfinite(array)
+    if bad.any():
+        at = tuple(int(k) for k in np.argwhere(bad)[0])
+        column = column_name(item, at[1]) if len(at) > 1 else item
+        got = array[at]
+        skip = np.isnan(got) and len(at) > 1 and item != "command"
+        hint = "; gaps='skip' leaves out what was not measured" if skip else ""
+        raise ValueError(f"{where(at[0], column)} must be a finite number, got {got}{hint}")
+    return array
+
+
+def increasing(t: FloatArray, where: Where) -> None:
+    """Refuse times that do not increase."""
+    back = np.flatnonzero(np.diff(t) <= 0.0) + 1
+    if back.size:
+        k = int(back[0])
+        raise ValueError(
+            f"{where(k, 't')} must be later than the time before, got {t[k]:g} s after "
+            f"{t[k - 1]:g} s"
+        )
+
+
+def noise_levels(noise: Mapping[str, float] | float | None, names: Sequence[str]) -> dict[str, Any]:
+    """Return the noise of each channel, one for all where one number is given."""
+    if noise is None:
+        return {}
+    levels: Mapping[str, Any]
+    levels = noise if isinstance(noise, Mapping) else dict.fromkeys(names, noise)
+    for name, level in levels.items():
+        if name not in names:
+            known = ", ".join(names)
+            raise ValueError(f"noise: there is no channel {name!r}; measured are {known}")
+        fine = isinstance(level, int | float | np.floating) and 0.0 < float(level) < np.inf
+        if not fine or isinstance(level, bool):
+            raise ValueError(
+                f"noise of {name} must be a number > 0 and finite, got {format_value(level)}"
+            )
+    return {name: float(level) for name, level in levels.items()}
+
+
+def ask_about_places(values: FloatArray, length: float, where: Where, name: str) -> None:
+    """Refuse places that no robot of that length reaches, whatever the frame: they ask for a unit.
+
+    Raises
+    ------
+    ValueError
+        As a question.
+    """
+    there = np.flatnonzero(np.isfinite(values).all(axis=1))
+    if there.size < 2:
+        return
+    middle = np.median(values[there], axis=0)
+    away = np.linalg.norm(values[there] - middle, axis=1)
+    if away.max() > FARTHEST * length:
+        row = int(there[np.argmax(away)])
+        far = int(np.argmax(np.abs(values[row] - middle)))
+        column = column_name(name, far)
+        raise ValueError(
+            f"{where(row, column)} = {values[row, far]:g} m is {away.max():g} m from the others, "
+            f"and the robot is {length:g} m long: is it in mm?"
+        )
+
+
+def check_commands(
+    command: FloatArray, robot: Robot, where: Where, name: str, *, pulled: bool
+) -> None:
+    """Refuse commands (N, num_cables) that do not fit a robot.
+
+    Lengths that are tensions or millimetres are asked about, by what the robot takes.
+    """
+    if command.shape[1] != robot.num_cables:
+        raise ValueError(
+            f"{name}: command must have shape ({len(command)}, {robot.num_cables}), got "
+            f"{command.shape}"
+        )
+    model = Model(robot)
+    driven = np.array([cable.length_driven for cable in robot.all_cables], dtype=bool)
+    straight = np.where(driven, model.cable_lengths(np.zeros(model.num_coordinates)), np.inf)
+    odd = np.abs(command) > (1.0 if pulled else 3.0) * straight
+    if not pulled:
+        odd |= driven & (command >= 0.0) & (command < straight / 10.0)
+    for row, j in np.argwhere(odd)[:1]:
+        what = "pulled by" if pulled else "told"
+        raise ValueError(
+            f"{where(row, column_name('command', j))} is {what} {command[row, j]:g} m, where the "
+            f"straight robot takes {straight[j]:.4g} m: is it in mm, a tension [N], or a pull?"
+        )
+    for row, j in np.argwhere((command < 0.0) & ~(driven & pulled))[:1]:
+        raise ValueError(
+            f"{where(row, column_name('command', j))} must be >= 0 (a cable cannot push), got "
+            f"{command[row, j]:g}; of cables driven by length, pulls may be negative (pulled=True)"
+        )
+
+
+def whole(item: str, value: object, low: int, high: int | None = None) -> int:
+    """Return a whole number in a range, or refuse it."""
+    check = Check()
+    allowed = f">= {low}" if high is None else f"from {low} to {high}"
+    found = check.whole(item, value, f"a whole number {allowed}", low, high or MANY)
+    check.done()
+    return found

@@ -1,0 +1,280 @@
+"""Motions: tracks of tip and markers in time under commands in time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import KW_ONLY, dataclass, field, replace
+from typing import TYPE_CHECKING, Any, Literal, cast
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from cdcr import _core
+from cdcr.base.arrays import FloatArray
+from cdcr.base.check import format_value, one_of
+from cdcr.identification.channels import (
+    Channel,
+    Where,
+    check_commands,
+    increasing,
+    measured,
+    row_of,
+)
+from cdcr.identification.data import (
+    Data,
+    Noise,
+    Side,
+    UnsolvedError,
+    Wrenches,
+    answers_of,
+    channels_of,
+    check_channels,
+    markers_of,
+)
+from cdcr.identification.files import read_measured
+from cdcr.identification.setup import Place, Setup
+from cdcr.model.model import Model
+from cdcr.runs.command import TensionTable
+from cdcr.runs.simulate import DEFAULT_METHOD, MethodName, find_method, simulate
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+    from cdcr.identification.poses import Gaps
+    from cdcr.robot.robot import Robot
+
+Run = tuple[FloatArray, FloatArray, FloatArray]  # q, tensions and commands at the times measured
+
+
+@dataclass(frozen=True, eq=False)
+class Motion(Data):
+    """A motion of a robot, sampled, and what its cables were told meanwhile.
+
+    Parameters
+    ----------
+    t : (N,) array_like
+        Times, increasing [s].
+    command : (N, num_cables) or (num_cables,) array_like
+        Tensions [N], or lengths [m], at these times, or all the time.
+    tip, markers, tension, length, q, pulled, wrenches, noise, gaps, name
+        As in `Poses`; tensions are those at the base.
+    start : optional
+        How the motion begins: None at rest under the first command; (num_cables,) numbers at rest
+        under these commands, which are then let go; a pair ``(q0, qd0)`` [rad], [rad/s] as it says.
+    interpolation : {"linear", "previous"}, optional
+        Of the commands between the times.
+    method, rtol, step : optional
+        As in `simulate`.
+
+    Raises
+    ------
+    ValueError
+        Naming row and column of what is no number, times that do not increase, and arrays that do
+        not fit together.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import cdcr
+    >>> model = cdcr.Model(cdcr.robots.amouri2020(damping=0.01))
+    >>> run = cdcr.simulate(model, [0.5, 0.0], [0.0, 0.0], t=np.linspace(0, 1, 61))
+    >>> swing = cdcr.identification.Motion(run.t, [0.0, 0.0, 0.0], tip=run.tip,
+    ...                                    start=([0.5, 0.0], [0.0, 0.0]))
+    >>> len(swing)
+    61
+    """
+
+    t: ArrayLike
+    command: ArrayLike
+    _: KW_ONLY
+    tip: ArrayLike | None = None
+    markers: Mapping[Place, ArrayLike] | None = None
+    tension: ArrayLike | None = None
+    length: ArrayLike | None = None
+    q: ArrayLike | None = None
+    start: Any = None
+    pulled: bool = False
+    wrenches: Wrenches = ()
+    noise: Noise = None
+    gaps: Gaps = "refuse"
+    interpolation: Literal["linear", "previous"] = "linear"
+    method: MethodName = DEFAULT_METHOD
+    rtol: float | None = None
+    step: float | None = None
+    name: str = "motion"
+    where: Where | None = None
+    source: Mapping[str, Any] = field(default_factory=dict)
+    channels: tuple[Channel, ...] = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Keep arrays of numbers, or refuse what is none."""
+        for name, known in (
+            ("gaps", ("refuse", "skip")),
+            ("interpolation", ("linear", "previous")),
+        ):
+            if not one_of(getattr(self, name), known):
+                raise ValueError(
+                    f"{name} must be {known[0]!r} or {known[1]!r}, got {getattr(self, name)!r}"
+                )
+        find_method(self.method)
+        where = self._named
+        t = measured("t", self.t, (None,), where)
+        if t.size < 2:
+            raise ValueError(f"{self.name}: a motion must have at least two times, got {t.size}")
+        increasing(t, where)
+        given_command = np.asarray(self.command)
+        if given_command.ndim == 1:
+            given_command = np.tile(given_command, (len(t), 1))
+        command = measured("command", given_command, (len(t), None), where)
+        markers = markers_of(self.markers)
+        given = {name: getattr(self, name) for name in ("tip", "tension", "length", "q")}
+        channels = channels_of(given, markers, len(t), self.noise, where, gaps=self.gaps == "skip")
+        plain = {"t": t, "command": command, "markers": markers, "channels": channels}
+        for name, value in plain.items():
+            object.__setattr__(self, name, value)
+
+    @classmethod
+    def load(cls, path: str | PathLike[str], robot: Robot, **options: Any) -> Motion:
+        """Read a motion from a CSV file; as `Poses.load`, with a column ``t [s]``.
+
+        The file of a run that `Trajectory.save` writes can be read too.
+
+        Parameters
+        ----------
+        path : path-like
+            The file.
+        robot : Robot
+            Whose cables they are.
+        **options
+            As in `Poses.load`, and the options of `Motion`.
+
+        Returns
+        -------
+        Motion
+
+        Raises
+        ------
+        FileNotFoundError
+            Where there is no such file.
+        ValueError
+            With file, line and column of what is wrong.
+        """
+        return cls(**read_measured(path, robot, timed=True, **options))
+
+    def until(self, time: float) -> Motion:
+        """Return the beginning of the motion: swings of later are easily taken for one another.
+
+        Parameters
+        ----------
+        time : float
+            How long it lasts [s].
+
+        Returns
+        -------
+        Motion
+        """
+        t = cast("FloatArray", self.t)
+        count = int(np.searchsorted(t, t[0] + time, side="right"))
+        names = ("t", "command", "tip", "tension", "length", "q")
+        given: dict[str, Any] = {
+            name: None if getattr(self, name) is None else np.asarray(getattr(self, name))[:count]
+            for name in names
+        }
+        given["markers"] = {
+            place: np.asarray(one)[:count] for place, one in (self.markers or {}).items()
+        }
+        return replace(self, **given)
+
+    @property
+    def places(self) -> tuple[Place, ...]:
+        """Section and fraction of each marker."""
+        return tuple(self.markers or ())
+
+    def _check(self, robot: Robot) -> None:
+        """Refuse what does not fit a robot."""
+        command = np.asarray(self.command)
+        check_commands(command, robot, self._named, self.name, pulled=self.pulled)
+        check_channels(self, robot, self._named)
+        self._start(robot, Model(robot).num_coordinates)
+
+    def _named(self, row: int, column: str) -> str:
+        """Name a row and a column, those of the file where they come from one."""
+        return (self.where or row_of(self.name))(row, column)
+
+    def _start(self, robot: Robot, num_q: int) -> tuple[str, Any]:
+        """Return how the motion begins: 'held' with commands, or 'state' with q0 and qd0."""
+        if self.start is None:
+            return "held", np.asarray(self.command)[0]
+        state = isinstance(self.start, tuple) and len(self.start) == 2 and np.ndim(self.start[0])
+        if state:
+            shapes = [np.shape(one) for one in self.start]
+            if shapes == [(num_q,), (num_q,)]:
+                return "state", tuple(np.asarray(one, float) for one in self.start)
+        elif np.shape(self.start) == (robot.num_cables,):
+            return "held", np.asarray(self.start, float)
+        raise ValueError(
+            f"{self.name}: start must be None, {robot.num_cables} commands, or a pair (q0, qd0) of "
+            f"{num_q} numbers each, got {format_value(self.start)}"
+        )
+
+    def _solve(self, setup: Setup, near: Any) -> Run:
+        """Return shapes, tensions and commands at the times measured."""
+        model = setup.model
+        kind, value = self._start(setup.robot, model.num_coordinates)
+        t = cast("FloatArray", self.t)
+        if kind == "held":
+            told = setup.commands(value, pulled=self.pulled)
+            found = model.find_equilibrium(told, None, self.wrenches)
+            if found.status is not _core.Status.ok:
+                raise UnsolvedError(f"{self._named(0, 'equilibrium')}: no start at rest was found")
+            q0, qd0 = found.q, np.zeros(model.num_coordinates)
+        else:
+            q0, qd0 = value
+        commands = setup.commands(np.asarray(self.command), pulled=self.pulled)
+        wanted = t - setup.time_shift
+        moving = wanted > t[0]
+        times = np.concatenate([[t[0]], wanted[moving]])
+        if not np.ptp(commands, axis=0).any():
+            asked: Any = commands[0]
+        else:
+            asked = TensionTable(t, commands, self.interpolation)
+        step = self.step if self.method == "rk4" else None
+        rtol = None if self.method == "rk4" else self.rtol
+        run = simulate(
+            model, q0, qd0, t=times, command=asked, wrenches=self.wrenches,
+            method=self.method, rtol=rtol, step=step,
+        )  # fmt: skip
+        if not run.success:
+            raise UnsolvedError(f"{self.name}: {run.message}")
+        at = np.where(moving, np.cumsum(moving), 0)  # before the start the robot is as it begins
+        return run.q[at], run.tension[at], run.command[at]
+
+    def _answers(self, setup: Setup, state: Any) -> list[FloatArray]:
+        """Return what the model says, an array for each channel."""
+        q, tension, command = state
+        return answers_of(setup, self.channels, self.places, q, command, tension)
+
+    def _slopes(self, setup: Setup, state: Any, sides: Sequence[Side]) -> list[FloatArray]:
+        """Return the derivatives of the answers, by the difference of two runs."""
+        here = self._answers(setup, state)
+        found: list[list[FloatArray]] = []
+        for side in sides:
+            there = self._answers(side.above, self._solve(side.above, None))
+            found.append([(a - b) / side.step for a, b in zip(there, here, strict=True)])
+        return [np.stack(columns, axis=-1) for columns in zip(*found, strict=True)]
+
+    def _rows(self, chosen: FloatArray) -> Motion:
+        """Return the same motion, measured at some times alone."""
+        keep = np.asarray(chosen, bool)
+
+        def part(value: ArrayLike | None) -> FloatArray | None:
+            if value is None:
+                return None
+            array: FloatArray = np.where(keep[:, None], np.asarray(value, float), np.nan)
+            return array
+
+        given: dict[str, Any] = {
+            name: part(getattr(self, name)) for name in ("tip", "tension", "length", "q")
+        }
+        given["markers"] = {place: part(one) for place, one in (self.markers or {}).items()}
+        return replace(self, **given, gaps="skip")

@@ -1,0 +1,75 @@
+"""Measurements of a robot at rest: equilibria and their derivatives by the implicit function."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from cdcr import _core
+from cdcr.base.arrays import FloatArray
+from cdcr.identification.data import Data, Side, UnsolvedError, Wrenches
+from cdcr.identification.setup import Setup
+
+
+class AtRest(Data):
+    """Equilibria q(p) of r(q, p) = dU/dq - Q(q, commands) = 0, one for each row of commands.
+
+    dq/dp = -K^-1 dr/dp, with K the static stiffness; what is measured, y(q, p), changes along
+    (dq/dp, 1), by central differences.
+    """
+
+    wrenches: Wrenches
+
+    def _told(self, setup: Setup) -> FloatArray:
+        """Return what the cables are told (N, num_cables)."""
+        raise NotImplementedError
+
+    def _named(self, row: int, column: str) -> str:
+        """Name a row and a column."""
+        raise NotImplementedError
+
+    def _at(self, setup: Setup, q: FloatArray) -> list[FloatArray]:
+        """Return what the model says at shapes q (N, 2n)."""
+        raise NotImplementedError
+
+    def _answers(self, setup: Setup, state: Any) -> list[FloatArray]:
+        """Return what the model says, an array for each channel."""
+        return self._at(setup, state)
+
+    def _solve(self, setup: Setup, near: Any) -> FloatArray:
+        """Return shapes (N, 2n) at rest."""
+        model, commands = setup.model, self._told(setup)
+        shapes = np.empty((len(commands), model.num_coordinates))
+        for i, command in enumerate(commands):
+            found = model.find_equilibrium(
+                command, None if near is None else near[i], self.wrenches
+            )
+            if found.status is not _core.Status.ok:
+                told = _core.status_message(found.status)
+                raise UnsolvedError(f"{self._named(i, 'equilibrium')}: {told}")
+            shapes[i] = found.q
+        return shapes
+
+    def _slopes(self, setup: Setup, state: Any, sides: Sequence[Side]) -> list[FloatArray]:
+        """Return the derivatives of the answers, (N, k, len(sides)) for each channel."""
+        q: FloatArray = state
+        stiffness = setup.model.static_stiffness(q, self._told(setup), self.wrenches)
+        found: list[list[FloatArray]] = []
+        for side in sides:
+            change = self._imbalance(side.above, q) - self._imbalance(side.below, q)
+            shift = -np.linalg.solve(stiffness, change[..., None])[..., 0]
+            above, below = side.step / side.width, side.step / side.width - 1.0
+            high = self._at(side.above, q + above * shift)
+            low = self._at(side.below, q + below * shift)
+            found.append([(a - b) / side.width for a, b in zip(high, low, strict=True)])
+        return [np.stack(columns, axis=-1) for columns in zip(*found, strict=True)]
+
+    def _imbalance(self, setup: Setup, q: FloatArray) -> FloatArray:
+        model = setup.model
+        force = model.potential_gradient(q)
+        force = force - model.cable_force(q, np.zeros_like(q), self._told(setup))
+        if self.wrenches:
+            force = force - model.wrench_force(q, self.wrenches)
+        return force

@@ -1,0 +1,126 @@
+"""The result of a sweep: labelled arrays, and their file."""
+
+from __future__ import annotations
+
+import json
+import secrets
+import shutil
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from cdcr.base.extras import require
+from cdcr.files.netcdf import write_netcdf
+from cdcr.files.new_file import new_file
+from cdcr.sweeps.design import Design
+from cdcr.sweeps.jobs import Outcome
+from cdcr.sweeps.metrics import Asked
+
+if TYPE_CHECKING:
+    import xarray
+
+SUFFIXES = (".nc", ".zarr")
+ZARR_FORMAT = 2  # in which strings are specified
+_ZARR = (".zgroup", "zarr.json")  # one of which stands in its folder
+_BESIDE = ("status", "message")  # variables that are no metrics
+
+
+def metric_names(result: xarray.Dataset) -> list[str]:
+    """Return the names of the metrics of a sweep."""
+    return [str(name) for name in result.data_vars if name not in _BESIDE]
+
+
+def parameter_names(result: xarray.Dataset) -> list[str]:
+    """Return the names of the parameters of a sweep."""
+    return list(json.loads(result.attrs["sweep"])["parameters"])
+
+
+def make_dataset(
+    design: Design,
+    metrics: Sequence[Asked],
+    outcomes: Mapping[int, Outcome],
+    units: Mapping[str, str],
+    sweep: Mapping[str, Any],
+) -> xarray.Dataset:
+    """Return the outcomes of all runs, in the shape of the grid or along the runs."""
+    xr: Any = require("xarray", "sweep")
+    ended = [outcomes[i] for i in range(len(design.rows))]
+    about = {name: {"units": units[name]} if units.get(name) else {} for name in design.names}
+    coords: dict[str, Any]
+    if design.axes:
+        dims: tuple[str, ...] = design.names
+        shape = tuple(axis.size for axis in design.axes)
+        pairs = zip(design.names, design.axes, strict=True)
+        coords = {name: (name, axis, about[name]) for name, axis in pairs}
+    else:
+        dims, shape = ("run",), (len(design.rows),)
+        columns = zip(design.names, design.rows.T, strict=True)
+        coords = {name: ("run", column, about[name]) for name, column in columns}
+        coords["run"] = ("run", np.arange(1, len(design.rows) + 1), {"long_name": "run, from 1"})
+    values = np.array([one.values for one in ended]).reshape(len(ended), len(metrics))
+    data: dict[str, Any] = {
+        metric.name: (dims, column.reshape(shape), _attributes(metric))
+        for metric, column in zip(metrics, values.T, strict=True)
+    }
+    words = {"status": "how the run ended", "message": "why, where it failed"}
+    for name, told in words.items():
+        strings = np.array([getattr(one, name) for one in ended]).reshape(shape)
+        data[name] = (dims, strings, {"long_name": told})
+    title = "Sweep of a cable-driven continuum robot"
+    dataset: xarray.Dataset = xr.Dataset(
+        data, coords, {"title": title, "samples": design.kind, "sweep": json.dumps(sweep)}
+    )
+    return dataset
+
+
+def _attributes(metric: Asked) -> dict[str, str]:
+    told = {"units": metric.unit, "long_name": metric.about or metric.name}
+    return {key: value for key, value in told.items() if value}
+
+
+def check_path(path: Path) -> None:
+    """Refuse a name that no result can have, for want of an extra too."""
+    if path.suffix not in SUFFIXES:
+        raise ValueError(f"the file name must end in .nc or .zarr, got {path.name!r}")
+    require("zarr", "zarr") if path.suffix == ".zarr" else require("h5netcdf", "sweep")
+    if not path.parent.is_dir():
+        raise FileNotFoundError(f"the folder {path.parent} does not exist; make it first")
+    is_zarr = any((path / name).exists() for name in _ZARR)
+    if path.is_dir() and not (path.suffix == ".zarr" and is_zarr):
+        raise IsADirectoryError(f"{path} is a folder, not a sweep")
+
+
+def write(result: xarray.Dataset, path: Path, *, overwrite: bool) -> None:
+    """Write a result, which appears whole or not at all."""
+    if path.suffix == ".zarr":
+        _write_zarr(result, path, overwrite=overwrite)
+        return
+    with new_file(path, overwrite=overwrite) as part:
+        write_netcdf(result, part)
+
+
+def _write_zarr(result: xarray.Dataset, path: Path, *, overwrite: bool) -> None:
+    """Write a folder beside its place, and move it there."""
+    part = path.with_name(f".{path.stem}-{secrets.token_hex(4)}{path.suffix}")
+    try:
+        result.to_zarr(part, zarr_format=ZARR_FORMAT)
+        if overwrite and path.exists():
+            shutil.rmtree(path)
+        part.rename(path)
+    finally:
+        shutil.rmtree(part, ignore_errors=True)
+
+
+def read(path: Path) -> xarray.Dataset:
+    """Return the result that a file holds."""
+    xr: Any = require("xarray", "sweep")
+    engine = "zarr" if path.suffix == ".zarr" else "h5netcdf"
+    try:
+        with xr.open_dataset(path, engine=engine) as stored:
+            found: xarray.Dataset = stored.load()
+        json.loads(found.attrs["sweep"])
+    except (OSError, KeyError, ValueError) as error:
+        raise FileExistsError(f"{path} is no sweep that cdcr has written: {error}") from None
+    return found
