@@ -148,7 +148,9 @@ void check_bending(const Model& model, const Array& q, const char* name) {
   for (Index first = 0; first < end; first += size) {
     const Eigen::Map<const VectorXd> state(data + first, size);
     for (Index i = 0; i < model.num_sections(); ++i) {
-      const double theta = state.segment<2>(model.first_coordinate(i)).norm();
+      const Index begin = model.first_coordinate(i);
+      if (model.first_coordinate(i + 1) - begin < 2) continue;  // it does not bend
+      const double theta = state.segment<2>(begin).norm();
       if (theta <= max_bending) continue;
       std::vector<Index> before = sizes_of(q);
       before.pop_back();

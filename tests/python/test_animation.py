@@ -3,8 +3,9 @@
 import base64
 import io
 import re
-import shutil
 import stat
+import sys
+import types
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ import pytest
 from PIL import Image
 
 import cdcr
+from cdcr.base.extras import find_ffmpeg
 from cdcr.plotting import plot_robot
 from cdcr.plotting.animation import Film, draw_frames, frame_times
 from cdcr.plotting.letters import have_room
@@ -66,9 +68,11 @@ def test_suffix_chooses_the_format(
     run: cdcr.Trajectory, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("PATH", "")
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
     assert run.animate(tmp_path / "run", fps=4.0) == tmp_path / "run.gif"
     with pytest.raises(RuntimeError, match=r"run\.mp4 needs the program ffmpeg"):
         run.animate(tmp_path / "run.mp4")
+    assert run.animate(tmp_path / "RUN.GIF", fps=4.0).read_bytes().startswith(b"GIF89a")
     with pytest.raises(ValueError, match=r"must end in \.gif, \.mp4 or \.html, got 'run\.avi'"):
         run.animate(tmp_path / "run.avi")
 
@@ -109,7 +113,7 @@ def test_ffmpeg_failing_is_told_in_its_words(
     assert list(out.iterdir()) == []
 
 
-@pytest.mark.skipif(shutil.which("ffmpeg") is None, reason="needs ffmpeg")
+@pytest.mark.skipif(find_ffmpeg() is None, reason="needs ffmpeg")
 def test_mp4(run: cdcr.Trajectory, tmp_path: Path) -> None:
     path = run.animate(tmp_path / "run.mp4", fps=10.0)
     assert path.read_bytes()[4:8] == b"ftyp"
@@ -144,10 +148,17 @@ def test_no_silent_overwrite(run: cdcr.Trajectory, tmp_path: Path) -> None:
 
 def test_refusals_name_the_item(run: cdcr.Trajectory, tmp_path: Path) -> None:
     path = tmp_path / "run.gif"
-    with pytest.raises(ValueError, match=r"^fps must be > 0 and finite, got 0$"):
-        run.animate(path, fps=0)
-    with pytest.raises(ValueError, match=r"^speed must be > 0 and finite, got nan$"):
-        run.animate(path, speed=float("nan"))
+    odd: Any
+    for odd in (0, "x", None, float("nan"), True):
+        for name in ("fps", "speed"):
+            told = rf"^{name} must be a number > 0 and finite, got {odd!r} \("
+            with pytest.raises(ValueError, match=told):
+                run.animate(path, **{name: odd})
+    with pytest.raises(ValueError, match=r"^a film has at most 100000 pictures, of 0.5 s "):
+        run.animate(path, speed=1e-9)
+    odd = 5
+    with pytest.raises(TypeError, match=r"^path must be the path of a file, got 5 \(int\)$"):
+        run.animate(odd)
     with pytest.raises(ValueError, match=r"^fps must be at most 50 in a \.gif, got 60$"):
         run.animate(path, fps=60)
     assert list(tmp_path.iterdir()) == []
@@ -187,3 +198,13 @@ def test_the_box_round_the_robot_is_closed() -> None:
     for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
         assert axis.pane.get_closed()
         assert axis.pane.get_edgecolor()[3] == 1.0
+
+
+def test_the_program_of_a_package_will_do(monkeypatch: pytest.MonkeyPatch) -> None:
+    package = types.ModuleType("imageio_ffmpeg")
+    package.get_ffmpeg_exe = lambda: "/a/program"  # type: ignore[attr-defined]
+    monkeypatch.setenv("PATH", "")
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", package)
+    assert find_ffmpeg() == "/a/program"
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
+    assert find_ffmpeg() is None

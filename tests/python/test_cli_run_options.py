@@ -1,9 +1,12 @@
 """Options of ``cdcr run``: --film, --max-steps."""
 
 import shutil
+import sys
 from pathlib import Path
 
 import pytest
+
+from cdcr.base.extras import find_ffmpeg
 
 pytest.importorskip("typer")
 pytest.importorskip("matplotlib")
@@ -18,7 +21,7 @@ FILES = ["step-tension.png", "step-tension.csv", "step-tension.nc"]
 @pytest.mark.usefixtures("quick")
 @pytest.mark.parametrize("film", ["gif", "html", "mp4"])
 def test_a_film_is_written_too(tmp_path: Path, film: str) -> None:
-    if film == "mp4" and not shutil.which("ffmpeg"):
+    if film == "mp4" and not find_ffmpeg():
         pytest.skip("needs ffmpeg")
     args = ("run", "step-tension", "--out", tmp_path, "--t-end", 0.1, "--film")
     assert cdcr_(*args, film).exit_code == 0
@@ -46,6 +49,7 @@ def test_films_that_cannot_be_written_are_refused(
     told = refused(cdcr_("run", "pid", "--out", tmp_path, "--film", "avi"))
     assert told == "--film must be one of mp4, gif, html, got 'avi'"
     monkeypatch.setattr(shutil, "which", lambda name: None)
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
     told = refused(cdcr_("run", "pid", "--out", tmp_path, "--film", "mp4"))
     assert told.startswith("--film mp4 needs the program ffmpeg, which is not on the PATH")
     assert refused(cdcr_("run", "gravity-ratio", "--film", "gif")).endswith("takes no --film")

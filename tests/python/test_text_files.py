@@ -1,6 +1,7 @@
 """Files that are no text files of ours: refused quickly, without what is in them."""
 
 import os
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -102,3 +103,11 @@ def test_a_runs_own_csv_is_an_input(tmp_path: Path) -> None:
     path.write_text(f'{robot}trajectory.file = "run.csv"\n')
     motion = load_scenario(path).simulate(num_samples=21)
     assert abs(motion.q - run.q).max() < 1e-12
+
+
+def test_a_run_in_place_of_a_text_is_told_so(tmp_path: Path) -> None:
+    path = tmp_path / "run.nc"
+    path.write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(100))
+    told = f"{path} is a netCDF file, not a robot file: `cdcr view` plays a run"
+    with pytest.raises(ValueError, match=f"^{re.escape(told)}$"):
+        cdcr.Robot.load(path)

@@ -11,6 +11,7 @@ import threading
 from collections.abc import Iterator
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 from urllib.request import urlopen
 
 import numpy as np
@@ -149,6 +150,20 @@ def test_a_robot_records_a_circle_and_a_robot_without_cables_no_legend() -> None
         length=0.5, backbone_mass=0.01, backbone_diameter=0.003, youngs_modulus=60e9, damping=0.01
     )
     assert "cdcr-legend" not in page(Session(cdcr.Robot(sections=[section])), "rod")
+
+
+def test_runs_and_robots_record_themselves(run: cdcr.Trajectory, tmp_path: Path) -> None:
+    View(Session(ROBOT, run=run, speed=2.0), "run").record(tmp_path / "view.html")
+    page = run.record(tmp_path / "run.html", speed=2.0)
+    assert page == tmp_path / "run.html"
+    sizes = [(tmp_path / name).stat().st_size for name in ("run.html", "view.html")]
+    assert sizes[0] == pytest.approx(sizes[1], rel=1e-3)
+    assert ROBOT.record(tmp_path / "robot.html").stat().st_size > 1e6
+    with pytest.raises(FileExistsError, match="exists already"):
+        run.record(page)
+    odd: Any = 3
+    with pytest.raises(TypeError, match="reference must be a "):
+        run.record(tmp_path / "other.html", reference=odd)
 
 
 def test_refusals_of_recording(run: cdcr.Trajectory, tmp_path: Path) -> None:

@@ -1,6 +1,8 @@
 """Optional dependencies: imported when used, with an error that says how to get them."""
 
 import importlib
+import shutil
+from contextlib import suppress
 from types import ModuleType
 
 
@@ -30,3 +32,12 @@ def require(module: str, extra: str) -> ModuleType:
         raise ImportError(
             f'{package} is needed for this and could not be imported: pip install "cdcr[{extra}]"'
         ) from error
+
+
+def find_ffmpeg() -> str | None:
+    """Return the program ffmpeg: that on the PATH, or that of the package imageio-ffmpeg."""
+    found = shutil.which("ffmpeg")
+    if found is None:
+        with suppress(ImportError, RuntimeError):  # not installed, or without its program
+            found = str(importlib.import_module("imageio_ffmpeg").get_ffmpeg_exe())
+    return found

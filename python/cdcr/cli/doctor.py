@@ -5,7 +5,6 @@ from __future__ import annotations
 import importlib.metadata
 import platform
 import re
-import shutil
 import sys
 import time
 from collections.abc import Iterator
@@ -20,6 +19,7 @@ from rich.text import Text
 
 import cdcr
 from cdcr import _core
+from cdcr.base.extras import find_ffmpeg
 from cdcr.base.processes import usable
 from cdcr.cli.plain import AsJson, print_json, told_plainly
 from cdcr.cli.run import DelayedBar
@@ -62,7 +62,7 @@ def examine(console: Console) -> dict[str, Any]:
         "processor": _processor(),
         "blas": _blas(),
         "cvode": _core.with_cvode,
-        "ffmpeg": shutil.which("ffmpeg"),
+        "ffmpeg": find_ffmpeg(),
         "extras": extras,
         "self_test": [_as_dict(outcome) for outcome in checks],
         "self_test_s": time.perf_counter() - start,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 MAX_MEGABYTES = 1000
+_HDF5 = b"\x89HDF\r\n\x1a\n"  # with which files of netCDF-4 begin
 
 
 def read_text(path: Path, what: str) -> str:
@@ -32,6 +33,8 @@ def read_text(path: Path, what: str) -> str:
         raise FileNotFoundError(f"there is no {what} {path}") from None
     if len(data) > MAX_MEGABYTES * 10**6:
         raise ValueError(f"{path} must have at most {MAX_MEGABYTES} MB, and has more")
+    if data.startswith(_HDF5):
+        raise ValueError(f"{path} is a netCDF file, not a {what}: `cdcr view` plays a run")
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 import subprocess
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
@@ -13,21 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from cdcr.base.extras import find_ffmpeg
 from cdcr.plotting.film_page import write_page
 
 Frame = NDArray[np.uint8]  # (height, width, 4): red, green, blue, opacity
 MAX_GIF_FPS = 50.0  # browsers slow down anything faster
-
-
-def find_ffmpeg() -> str | None:
-    """Return the program ffmpeg: that of the PATH, or of the package imageio-ffmpeg."""
-    found = shutil.which("ffmpeg")
-    if found is None:
-        with suppress(ImportError, RuntimeError):  # not installed, or without its program
-            import imageio_ffmpeg  # type: ignore[import-not-found, unused-ignore]
-
-            found = str(imageio_ffmpeg.get_ffmpeg_exe())
-    return found
 
 
 def film_path(path: Path) -> Path:

@@ -21,6 +21,9 @@ from cdcr.robot.section import Section
 from cdcr.robot.units import ask_about_robot
 
 if TYPE_CHECKING:
+    from os import PathLike
+    from pathlib import Path
+
     from cdcr.view import View
 
 Vector = tuple[float, float, float]
@@ -284,7 +287,7 @@ class Robot(Filed):
 
         It begins at rest. Sliders change cables, gravity and payload; the mouse pulls the backbone.
         A robot without damping gets a tenth of the critical one, which a slider changes too. A
-        notebook shows the recorded page, on which the robot goes round in a circle.
+        notebook shows the page that `record` writes.
 
         Parameters
         ----------
@@ -315,6 +318,15 @@ class Robot(Filed):
         from cdcr import view
 
         return view.show(view.Session(self), "robot", port=port, browser=browser)
+
+    def record(self, path: str | PathLike[str], *, overwrite: bool = False) -> Path:
+        """Write a page on which the robot goes round in a circle once. Needs the extra ``view``.
+
+        Arguments, answer and errors are those of `Trajectory.record`.
+        """
+        from cdcr import view
+
+        return view.View(view.Session(self), "robot").record(path, overwrite=overwrite)
 
     def _to_core(self) -> _core.Robot:
         plain = {item.name: getattr(self, item.name) for item in fields(self)}

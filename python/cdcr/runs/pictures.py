@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from cdcr.plotting.geometry import Motion
     from cdcr.plotting.sizes import Size
     from cdcr.runs.trajectory import Trajectory
-    from cdcr.view import View
+    from cdcr.view import Session, View
 
 
 class Pictures:
@@ -133,7 +133,7 @@ class Pictures:
 
         Sliders of the cables, gravity and payload, and the mouse, which pulls the backbone, leave
         the run at what is shown and simulate from there, without the wrenches of the run. A
-        notebook shows the recorded page, as ``.record("out.html")`` of what is returned writes it.
+        notebook shows the page that `record` writes.
 
         Parameters
         ----------
@@ -169,8 +169,62 @@ class Pictures:
         """
         from cdcr import view
 
+        session = self._session(reference, speed)
+        return view.show(session, "run", port=port, browser=browser)
+
+    def record(
+        self,
+        path: str | PathLike[str],
+        *,
+        reference: Motion | None = None,
+        speed: float = 1.0,
+        overwrite: bool = False,
+    ) -> Path:
+        """Write one page that plays the run in any browser. Needs the extra ``view``.
+
+        It needs no network. Runs longer than 30 s have fewer pictures a second.
+
+        Parameters
+        ----------
+        path : path-like
+            The file, ending in ``.html``.
+        reference, speed
+            As in `view`.
+        overwrite : bool, default False
+            Whether an existing file may be replaced.
+
+        Returns
+        -------
+        Path
+            The file written.
+
+        Raises
+        ------
+        ImportError
+            Without the extra ``view``.
+        ValueError
+            For another suffix.
+        FileExistsError
+            If the file exists and ``overwrite`` is false.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> import cdcr
+        >>> model = cdcr.Model(cdcr.robots.amouri2020())
+        >>> run = cdcr.simulate(model, [0.5, 0.0], [0.0, 0.0], t=[0.0, 0.1])
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     print(run.record(f"{folder}/pull.html").name)
+        pull.html
+        """
+        from cdcr import view
+
+        return view.View(self._session(reference, speed), "run").record(path, overwrite=overwrite)
+
+    def _session(self, reference: Motion | None, speed: float) -> Session:
+        from cdcr import view
+
         run = self._run
-        session = view.Session(
+        return view.Session(
             run.model.robot, run.model.formulation, run=run, reference=reference, speed=speed
         )
-        return view.show(session, "run", port=port, browser=browser)
