@@ -85,4 +85,4 @@ for k, (turn, model, q) in enumerate(zip(turns, models, shapes, strict=True)):
     if k < 3:
         axes.set_zlabel("")
 fig.subplots_adjust(left=0.0, right=0.96, wspace=0.15)
-fig.savefig(sys.argv[1]) if len(sys.argv) > 1 else plt.show()
+cdcr.plotting.show_or_save(fig, sys.argv[1:])

@@ -85,4 +85,4 @@ for tension, q in zip(tensions[::2], shapes[::2], strict=True):
 right.set(xlabel="z [m]", ylabel="height x [m]", aspect="equal")
 right.legend(title="tension")
 fig.tight_layout()
-fig.savefig(sys.argv[1]) if len(sys.argv) > 1 else plt.show()
+cdcr.plotting.show_or_save(fig, sys.argv[1:])

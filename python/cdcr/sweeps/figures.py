@@ -14,7 +14,8 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
 from cdcr.base.arrays import FloatArray
-from cdcr.plotting.sizes import COLUMN, Size, checked_size, is_narrow, shrink_letters
+from cdcr.plotting.letters import shrink_letters
+from cdcr.plotting.sizes import COLUMN, TEXT, Size, checked_size, is_narrow
 from cdcr.plotting.style import COLORS, GREY, LIGHT_GREY, NARROW, StyledFigure, style
 from cdcr.sweeps.indices import sobol_indices
 from cdcr.sweeps.result import metric_names, parameter_names
@@ -73,7 +74,7 @@ def plot(result: xarray.Dataset, *, size: Size = None) -> Figure:
             drawn = _parallel(figure, result, narrow)
         figure.set_size_inches(*_inches(sides, drawn))
         if narrow:
-            shrink_letters(figure)
+            shrink_letters(figure, TEXT)
     return figure
 
 
