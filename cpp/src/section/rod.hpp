@@ -105,16 +105,12 @@ struct Rod : RodFrames<S> {
       for (int c = 0; c < 3; ++c) {
         const int a = (c + 1) % 3, b = (c + 2) % 3;
         RowPack sum[max_packs];  // NOLINT(modernize-avoid-c-arrays): of a typedef
+        Rows<S>::clear(sum, n);
         for (int k = 0; k < rod->num_nodes(); ++k) {
           const Vector3<S> lever = rod->rule.mass[k] * places.get(k);
           const RowPack* J = packs_of(node_rows(width, k));
           for (int i = 0; i < n; ++i) {
-            const RowPack add = lever[a] * J[b * n + i] - lever[b] * J[a * n + i];
-            if (k == 0) {
-              sum[i] = add;
-            } else {
-              sum[i] += add;
-            }
+            sum[i] += lever[a] * J[b * n + i] - lever[b] * J[a * n + i];
           }
         }
         for (int k = 1; k <= rod->num_frames(); ++k) {
