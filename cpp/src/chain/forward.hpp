@@ -4,26 +4,48 @@
 #include <type_traits>
 
 #include "chain/chain.hpp"
-#include "chain/eliminate.hpp"
+#include "chain/forward_many.hpp"
 #include "chain/inertia.hpp"
 
 namespace cdcr::detail {
+
+/// Inverse of a symmetric positive definite matrix.
+template <class Square, class S = typename Square::Scalar>
+[[nodiscard]] Square inverse_of(const Square& D) {
+  if constexpr (Square::RowsAtCompileTime == 2) {
+    const S factor = 1.0 / (D(0, 0) * D(1, 1) - D(0, 1) * D(0, 1));
+    const S across = -D(0, 1) * factor;
+    Square inverse;
+    inverse << D(1, 1) * factor, across, across, D(0, 0) * factor;
+    return inverse;
+  } else {
+    return D.llt().solve(Square::Identity(D.rows(), D.rows()));
+  }
+}
 
 /// Accelerations under a generalised force, by one pass from tip to base for articulated inertia
 /// and one out again for accelerations, eqs. (31), (32): O(n).
 template <class Section, class S = typename Section::Scalar>
 void forward_dynamics(const Chain& chain, const ChainState<Section>& state, const S* force,
                       S* qdd) {
+  if constexpr (Section::m == Eigen::Dynamic) {
+    return forward_dynamics_of_many(chain, state, force, qdd);
+  }
   using Vectorm = typename Section::Vectorm;
   using Matrixm = typename Section::Matrixm;
   using Matrix3m = typename Section::Matrix3m;
+  struct Solved {
+    Matrix3m U_omega, U_v;  // force on the base that an acceleration of q needs
+    Matrixm inverse;        // of the section's articulated mass D
+    Vectorm u;              // D^-1 of the force on q at rest
+  };
   const Index n = chain.num_sections();
-  std::array<Eliminated<Section>, max_sections> eliminated;
+  std::array<Solved, max_sections> solved;
   Articulated<S> outboard = articulated_payload(chain.payload, state.tip);
   // Eliminates q of section i; `carries` is false where no mass lies beyond it.
   const auto eliminate = [&](Index i, auto carries) {
     const Section& section = state.sections[i];
-    Eliminated<Section>& s = eliminated[i];
+    Solved& s = solved[i];
     Matrixm D = section.own_mass();
     Vectorm b = section.bias - Eigen::Map<const Vectorm>(force + chain.first[i], D.rows());
     Vector3<S> f_tip, m_tip;
@@ -43,24 +65,30 @@ void forward_dynamics(const Chain& chain, const ChainState<Section>& state, cons
     } else {
       s.U_v = section.linear_coupling();
     }
-    if (i == 0) {  // its base neither turns nor passes anything on
-      s.solve(D, b, false);
-      return;
-    }
+    s.inverse = inverse_of(D);
+    s.u = s.inverse.lazyProduct(b);
+    if (i == 0) return;  // its base neither turns nor passes anything on
+
     if constexpr (carries) {
       for (Index k = 0; k < F.cols(); ++k) T.col(k) += section.r.cross(F.col(k));
       s.U_omega = T + section.angular_coupling();
       shift(outboard, section.r);
-      outboard.force = f_tip + section.force;
-      outboard.moment = m_tip + section.r.cross(f_tip) + section.moment;
     } else {
       s.U_omega = section.angular_coupling();
-      outboard.force = section.force;
-      outboard.moment = section.moment;
     }
     add_section(outboard, chain.sections[i].mass, section);
-    s.solve(D, b, true);
-    s.take_from(outboard);
+    const Matrix3m UD = s.U_omega.lazyProduct(s.inverse), VD = s.U_v.lazyProduct(s.inverse);
+    outboard.J -= UD.lazyProduct(s.U_omega.transpose());
+    outboard.G -= UD.lazyProduct(s.U_v.transpose());
+    outboard.M -= VD.lazyProduct(s.U_v.transpose());
+    if constexpr (carries) {
+      outboard.force = f_tip + section.force - s.U_v.lazyProduct(s.u);
+      outboard.moment =
+          m_tip + section.r.cross(f_tip) + section.moment - s.U_omega.lazyProduct(s.u);
+    } else {
+      outboard.force = section.force - s.U_v.lazyProduct(s.u);
+      outboard.moment = section.moment - s.U_omega.lazyProduct(s.u);
+    }
   };
   Index last = n - 1;
   if (!chain.payload.has_inertia()) eliminate(last--, std::false_type());
@@ -70,7 +98,10 @@ void forward_dynamics(const Chain& chain, const ChainState<Section>& state, cons
   Vector3<S> omega = Vector3<S>::Zero(), v = -chain.gravity.template cast<S>();
   for (Index i = 0; i < n; ++i) {
     const Section& section = state.sections[i];
-    const Vectorm a = eliminated[i].acceleration(omega, v, i > 0);
+    const Solved& s = solved[i];
+    Vectorm w = s.U_v.transpose().lazyProduct(v);
+    if (i > 0) w += s.U_omega.transpose().lazyProduct(omega);
+    const Vectorm a = -s.u - s.inverse.lazyProduct(w);
     Eigen::Map<Vectorm>(qdd + chain.first[i], a.size()) = a;
     if (i + 1 == n) break;
     v += omega.cross(section.r) + section.J_v.lazyProduct(a) + section.tip_linear_bias;

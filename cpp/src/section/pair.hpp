@@ -1,8 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cmath>
 #include <cstring>
+#include <type_traits>
 
 namespace cdcr::detail {
 
@@ -24,7 +24,10 @@ struct Pair {
   friend Pair operator*(Pair a, Pair b) { return Pair(a.both * b.both); }
   friend Pair operator/(Pair a, Pair b) { return Pair(a.both / b.both); }
   friend Pair operator-(Pair a) { return Pair(-a.both); }
-  friend Pair sqrt(Pair a) { return Pair(Native{std::sqrt(a.both[0]), std::sqrt(a.both[1])}); }
+  friend Pair sqrt(Pair a) {
+    const Eigen::Array2d root = Eigen::Array2d(a.both[0], a.both[1]).sqrt();
+    return Pair(Native{root[0], root[1]});
+  }
 };
 
 /// How many numbers S are worked on at once, and as what: two doubles, one of any other.
@@ -45,6 +48,11 @@ struct Lanes {
   }
   static const S& get(const Pack& pack, int) { return pack; }
   static void set(Pack& pack, int, const S& value) { pack = value; }
+  /// f(lane) of all.
+  template <class F>
+  static void each(const F& f) {
+    f(std::integral_constant<int, 0>());
+  }
 };
 
 template <>
@@ -68,6 +76,11 @@ struct Lanes<double> {
   }
   static double get(Pair pair, int lane) { return pair.both[lane]; }
   static void set(Pair& pair, int lane, double value) { pair.both[lane] = value; }
+  template <class F>
+  static void each(const F& f) {
+    f(std::integral_constant<int, 0>());
+    f(std::integral_constant<int, 1>());
+  }
 };
 
 /// The same in rows of numbers that stand next to one another, aligned as packs are; four doubles.
@@ -75,12 +88,18 @@ template <class S>
 struct Rows {
   using Pack = S;
   static constexpr int count = 1;
+  static void clear(Pack* packs, int size) {
+    for (int i = 0; i < size; ++i) packs[i] = S(0.0);
+  }
 };
 template <>
 struct Rows<double> {
   // NOLINTNEXTLINE(modernize-use-using)
   typedef double Pack __attribute__((vector_size(32), may_alias));
   static constexpr int count = 4;
+  static void clear(Pack* packs, int size) {
+    for (int i = 0; i < size; ++i) packs[i] = Pack{};
+  }
 };
 inline constexpr std::size_t row_alignment = sizeof(Rows<double>::Pack);
 template <class S>

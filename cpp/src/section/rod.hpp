@@ -4,15 +4,6 @@
 
 namespace cdcr::detail {
 
-template <class Pack>
-void set_zero(Pack& pack) {
-  if constexpr (std::is_constructible_v<Pack, double>) {
-    pack = Pack(0.0);
-  } else {
-    pack = Pack{};
-  }
-}
-
 /// The kind of section (section_state.hpp) whose bending, twist and stretch vary along it: rigid
 /// elements at nodes, cpp/rods.md eqs. (58) to (62). The number of coordinates is that of its
 /// parameters.
@@ -115,7 +106,7 @@ struct Rod : RodFrames<S> {
       for (int c = 0; c < 3; ++c) {
         const int a = (c + 1) % 3, b = (c + 2) % 3;
         RowPack sum[max_packs];  // NOLINT(modernize-avoid-c-arrays): of a typedef
-        for (int i = 0; i < n; ++i) set_zero(sum[i]);
+        Rows<S>::clear(sum, n);
         for (int k = 0; k < rod->num_nodes(); ++k) {
           const Vector3<S> lever = rod->rule.mass[k] * places.get(k);
           const RowPack* J = packs_of(node_rows(width, k));

@@ -44,10 +44,10 @@ struct RodFrames {
 
   // Of all frames, the base first: axes; omega and its rate from velocities alone on a base at
   // rest.
-  FrameAxes<S> axes_at;
-  Vectors<S> omega_at, omega_dot_at;
+  FrameAxes<S> axes_at{};
+  Vectors<S> omega_at{}, omega_dot_at{};
   // Of all nodes, the same.
-  Vectors<S> places, v_at, v_dot_at;
+  Vectors<S> places{}, v_at{}, v_dot_at{};
   alignas(row_alignment) std::array<S, (3 * max_rod_nodes + 4 * max_rod_frames) * max_m> rows;
 
   template <class Width>
@@ -128,10 +128,10 @@ struct RodFrames {
 
   /// The vectors of a pack, each with a zero after it, this far apart.
   static void put(const Vector3<Pack>& v, S* to, int apart) {
-    for (int lane = 0; lane < L::count; ++lane) {
+    L::each([&](auto lane) {
       for (int c = 0; c < 3; ++c) to[lane * apart + c] = L::get(v[c], lane);
       to[lane * apart + 3] = S(0.0);
-    }
+    });
   }
 
   /// f(node, integrals up to it) of `length` numbers, whose values and slopes stand after one

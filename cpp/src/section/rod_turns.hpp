@@ -14,7 +14,7 @@ template <class S>
 struct Vectors {
   using L = Lanes<S>;
   static constexpr int max = max_rod_nodes;
-  std::array<S, max> x{}, y{}, z{};
+  std::array<S, max> x, y, z;
 
   [[nodiscard]] Vector3<typename L::Pack> load(int k) const {
     return {L::load(&x[k]), L::load(&y[k]), L::load(&z[k])};
@@ -77,10 +77,9 @@ class RodTurns {
     frames.set(0, axes);
     int k = 1;
     for (int p = 0; p < count / L::count; ++p) {
-      std::array<Matrix3<S>, L::count> from;
-      for (int lane = 0; lane < L::count; ++lane) {
-        from[lane] = axes;
-        const Matrix3<Pack>& by = turns[p];
+      const Matrix3<Pack>& by = turns[p];
+      L::each([&](auto lane) {
+        for (int i = 0; i < 9; ++i) L::set(steps_[p].from(i), lane, axes(i));
         for (int c = 0; c < 3; ++c) {
           const S x = axes(c, 0), y = axes(c, 1), z = axes(c, 2);
           for (int j = 0; j < 3; ++j) {
@@ -91,12 +90,7 @@ class RodTurns {
         if (k <= rod.num_frames() && p * L::count + lane + 1 == rod.rule.frames[k].steps_before) {
           frames.set(k++, axes);
         }
-      }
-      for (int i = 0; i < 9; ++i) {
-        for (int lane = 0; lane < L::count; ++lane) {
-          L::set(steps_[p].from(i), lane, from[lane](i));
-        }
-      }
+      });
     }
     return axes;
   }
@@ -124,11 +118,11 @@ class RodTurns {
       }
       for (int j = 0; j < rod.num_twist; ++j) {
         const Vector3<Pack> z = about(2, j);
-        for (int lane = 0; lane < L::count; ++lane) {
+        L::each([&](auto lane) {
           for (int c = 0; c < 3; ++c) {
             to[(3 * lane + c) * width + rod.first_twist + j] = L::get(z[c], lane);
           }
-        }
+        });
       }
     }
   }
@@ -156,7 +150,7 @@ class RodTurns {
                                  growth * (f.dA * across + f.dG * again);
       const Vector3<Pack> turned = step.from.lazyProduct(turning),
                           turned_rate = step.from.lazyProduct(rate);
-      for (int lane = 0; lane < L::count; ++lane) {
+      L::each([&](auto lane) {
         const auto at = [lane](const Vector3<Pack>& v) {
           return Vector3<S>(L::get(v[0], lane), L::get(v[1], lane), L::get(v[2], lane));
         };
@@ -166,7 +160,7 @@ class RodTurns {
           omega_at.set(k, omega);
           omega_dot_at.set(k++, omega_dot);
         }
-      }
+      });
     }
   }
 
