@@ -1,5 +1,5 @@
 // Laws of motion that hold for any robot in any state, for every kind of section: by the public
-// functions, and by the recursions over arcs, rods and the kinds of support/kinds.hpp.
+// functions, and by the recursions over arcs and over rods.
 #include <doctest/doctest.h>
 
 #include <Eigen/Eigenvalues>
@@ -114,22 +114,17 @@ TEST_CASE("every kind moves as the robot of arcs that it stands for") {
   for_each_subject(all_numbers, [](Subject& robot, const Model& model, const LawState& s) {
     if (!robot.moves_as_arcs()) return;
     Library arcs(model);
-    const MatrixXd M = robot.mass_matrix(s.q), whole = arcs.mass_matrix(s.whole.q);
-    MatrixXd rows(s.q.size(), whole.cols()), expected(s.q.size(), s.q.size());
-    for (Index k = 0; k < whole.cols(); ++k) rows.col(k) = robot.select(whole.col(k));
-    for (Index k = 0; k < s.q.size(); ++k) {
-      expected.row(k) = robot.select(rows.row(k).transpose()).transpose();
-    }
-    CHECK(residual(M, expected) <= tolerance::recursion);
-    const VectorXd h = robot.select(arcs.bias(s.whole.q, s.whole.qd));
+    const MatrixXd M = robot.mass_matrix(s.q);
+    CHECK(residual(M, arcs.mass_matrix(s.q)) <= tolerance::recursion);
+    const VectorXd h = arcs.bias(s.q, s.qd);
     const double scale = largest(inertial_scale(M, s.qd)) + largest(h) + s.weight;
     CHECK(residual(robot.bias(s.q, s.qd), h, scale) <= tolerance::recursion);
-    const double U = arcs.potential(s.whole.q);
+    const double U = arcs.potential(s.q);
     CHECK(residual(robot.potential(s.q), U, std::abs(U) + s.weight) <= tolerance::recursion);
-    const double T = arcs.kinetic(s.whole.q, s.whole.qd);
+    const double T = arcs.kinetic(s.q, s.qd);
     const double size = M.diagonal().cwiseSqrt().dot(s.qd.cwiseAbs());
     CHECK(residual(robot.kinetic(s.q, s.qd), T, size * size) <= tolerance::recursion);
-    const VectorXd gradient = robot.select(arcs.gradient(s.whole.q));
+    const VectorXd gradient = arcs.gradient(s.q);
     CHECK(residual(robot.gradient(s.q), gradient, largest(gradient) + s.weight) <=
           tolerance::recursion);
   });

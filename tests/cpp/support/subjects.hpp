@@ -13,15 +13,13 @@
 #include "chain/inverse.hpp"
 #include "chain/mass_matrix.hpp"
 #include "chain_cases.hpp"
-#include "kinds.hpp"
 #include "rods.hpp"
 
 // What the battery of laws is tried on: the functions of motion of a robot, by the public functions
 // or by the recursions over sections of one kind.
 //
-// Every subject is made of a robot of arcs; but for those of more coordinates, adapted() is the
-// robot that it can stand for, select() its coordinates among those of that robot, and where the
-// robot's other coordinates are zero both move alike.
+// Every subject is made of a robot of arcs, as which it moves where it has as many coordinates;
+// select() gives those that stand for the coordinates of that robot, or for a force on them.
 
 namespace cdcr::test {
 
@@ -56,7 +54,6 @@ class Subject {
 class Library final : public Subject {
  public:
   static constexpr int m = 2;
-  static Robot adapted(Robot robot) { return robot; }
 
   explicit Library(const Model& model) : model_(model), data_(model) {}
 
@@ -103,12 +100,7 @@ class Recursion : public Subject {
   static constexpr int m = Section::m;
 
   explicit Recursion(detail::Chain chain)
-      : chain_(std::move(chain)), state_(std::make_unique<detail::ChainState<Section>>()) {
-    if (m == Eigen::Dynamic) return;  // the chain knows
-    for (Index i = 0; i <= chain_.num_sections(); ++i) {
-      chain_.first[static_cast<std::size_t>(i)] = i * m;
-    }
-  }
+      : chain_(std::move(chain)), state_(std::make_unique<detail::ChainState<Section>>()) {}
 
   [[nodiscard]] Index size() const override { return chain_.num_coordinates(); }
   MatrixXd mass_matrix(const VectorXd& q) override {
@@ -159,50 +151,13 @@ class Recursion : public Subject {
 };
 
 struct Arcs final : Recursion<detail::ConstantCurvature<double>> {
-  static Robot adapted(Robot robot) { return robot; }
   explicit Arcs(const Model& model) : Recursion(detail::Chain(model.robot())) {}
-};
-
-struct Planars final : Recursion<Planar<double>> {
-  static Robot adapted(Robot robot) { return robot; }
-  [[nodiscard]] VectorXd select(const VectorXd& whole) const override {
-    VectorXd part(whole.size() / 2);
-    for (Index i = 0; i < part.size(); ++i) part[i] = whole[2 * i];
-    return part;
-  }
-  explicit Planars(const Model& model) : Recursion(detail::Chain(model.robot())) {}
-};
-
-/// Of every two sections the second is as the first.
-struct Pairs final : Recursion<Pair<double>> {
-  static Robot adapted(Robot robot) {
-    if (robot.sections.size() % 2 == 1) robot.sections.push_back(robot.sections.back());
-    for (std::size_t i = 1; i < robot.sections.size(); i += 2) {
-      robot.sections[i] = robot.sections[i - 1];
-    }
-    return robot;
-  }
-  explicit Pairs(const Model& model) : Recursion(paired(model.robot())) {}
-
- private:
-  static detail::Chain paired(const Robot& robot) {
-    detail::Chain chain(robot);
-    const auto arcs = chain.sections;
-    chain.sections.clear();
-    for (std::size_t i = 0; i < arcs.size(); i += 2) {
-      chain.sections.push_back(arcs[i]);
-      chain.sections.back().mass *= 2.0;
-    }
-    chain.first.resize(chain.sections.size() + 1);
-    return chain;
-  }
 };
 
 /// Rods of these orders in place of arcs; those of order 0 alone move as arcs.
 template <int bending_order, int twist_order, int stretch_order>
 struct Rods final : Recursion<detail::Rod<double>> {
   static constexpr int m = 2 * (bending_order + 1) + twist_order + 1 + stretch_order + 1;
-  static Robot adapted(Robot robot) { return robot; }
 
   explicit Rods(const Model& model)
       : Recursion(chain_of_rods(detail::Chain(model.robot()), described(model.robot()))) {}
@@ -258,19 +213,16 @@ void for_each_of(const char* kind, const std::vector<int>& numbers, const LawBod
   Random random;
   std::vector<NamedRobot> robots;
   // A point on the tip alone has not enough inertia for more than two coordinates.
-  if (Kind::m <= 2) robots = sample_robots(random);
+  if (Kind::m == 2) robots = sample_robots(random);
   for (const int n : numbers) {
     robots.push_back({std::to_string(n) + " sections", random_chain(random, n)});
   }
   for (const NamedRobot& sample : robots) {
-    const Model model(Kind::adapted(sample.robot));
+    const Model model(sample.robot);
     Kind subject(model);
     const double weight = static_cast<double>(ChainSum(model.robot()).weight_scale()[0]);
-    for (ChainState whole : chain_states(model, random)) {
+    for (const ChainState& whole : chain_states(model, random)) {
       INFO(random, ", ", kind, ", robot: ", sample.name, ", state: ", whole.name);
-      if (Kind::m == 1) {  // the planar robot's state, seen as one of arcs
-        for (Index i = 1; i < whole.q.size(); i += 2) whole.q[i] = whole.qd[i] = 0.0;
-      }
       body(subject, model,
            LawState{whole, subject.select(whole.q), subject.select(whole.qd), weight});
     }
@@ -282,8 +234,6 @@ void for_each_of(const char* kind, const std::vector<int>& numbers, const LawBod
 inline void for_each_subject(const std::vector<int>& numbers, const LawBody& body) {
   for_each_of<Library>("public functions", numbers, body);
   for_each_of<Arcs>("arcs", numbers, body);
-  for_each_of<Planars>("planar sections", numbers, body);
-  for_each_of<Pairs>("pairs of arcs", numbers, body);
   for_each_of<Rods<0, -1, -1>>("rods of order 0", numbers, body);
   for_each_of<Rods<2, 1, 0>>("rods", numbers, body);
 }
