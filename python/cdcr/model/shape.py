@@ -92,7 +92,9 @@ class ShapeModel(_core.Model):
         return np.reshape(theta, leading), np.reshape(phi, leading)
 
     def coordinates(self, bending: ArrayLike) -> FloatArray:
-        """Coordinates of sections that bend evenly, without twist and stretch, cpp/rods.md eq. (51).
+        """Coordinates of sections that bend evenly, without twist and stretch.
+
+        Of cpp/rods.md eq. (51) those of order 0.
 
         Parameters
         ----------

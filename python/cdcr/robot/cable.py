@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from cdcr import _core
 from cdcr.base.check import Check
@@ -65,14 +65,14 @@ class Cable:
     (False, 0.0)
     """
 
-    radius: float | Pairs = quantity(
+    radius: Any = quantity(
         "from backbone to cable",
         "m",
         "a number in m, or one (base, tip) pair for each section passed",
         kind="route",
         each="a number in m",
     )
-    angle: float | Pairs = quantity(
+    angle: Any = quantity(
         "about Z, from X",
         "rad",
         "a number of rad, or one (base, tip) pair for each section passed",

@@ -128,7 +128,7 @@ class Section:
 
     length: float = quantity("arc length of the backbone", "m", "> 0")
     backbone_mass: float = quantity("spread evenly along the length", "kg", ">= 0")
-    backbone_diameter: float | Pair = quantity(
+    backbone_diameter: Any = quantity(
         "of the round backbone",
         "m",
         "a number > 0 m and finite, or one (base, tip) pair",

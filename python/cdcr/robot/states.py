@@ -26,7 +26,8 @@ def subdivide_state(robot: Robot, parts: Parts, q: ArrayLike) -> FloatArray:
     Returns
     -------
     (..., D) array
-        Coordinates, of every part its share: exactly the shape of the whole robot, as parts keep the orders.
+        Coordinates, of every part its share: exactly the shape of the whole robot, as parts keep
+        the orders.
 
     Raises
     ------
