@@ -80,7 +80,7 @@ for k, (turn, model, q) in enumerate(zip(turns, models, shapes, strict=True)):
     axes = fig.add_subplot(1, 4, k + 1, projection="3d")
     cdcr.plotting.plot_robot(model, q, axes)
     axes.set(xlim=(-0.02, 0.08), ylim=(-0.03, 0.07), zlim=(0.0, 0.2))
-    axes.set_title(f"turns: {turn:g}", y=1.02, fontsize=11)
+    axes.set_title(f"turns: {turn:g}", y=1.1, fontsize=11)
     axes.set_box_aspect((0.1, 0.1, 0.2), zoom=1.1)
     axes.set(xticks=[0.0, 0.05], yticks=[0.0, 0.05])
     if k < 3:
