@@ -75,14 +75,15 @@ print(f"tip of a rod bent by {bent:g} and twisted by {twisted:g} rad:", tip.roun
 # -----------
 
 plt.style.use(cdcr.plotting.STYLE)
-fig = plt.figure(figsize=(9, 4.2))
+fig = plt.figure(figsize=(9, 3.4))
 for k, (turn, model, q) in enumerate(zip(turns, models, shapes, strict=True)):
     axes = fig.add_subplot(1, 4, k + 1, projection="3d")
     cdcr.plotting.plot_robot(model, q, axes)
-    axes.set(xlim=(-0.02, 0.08), ylim=(-0.03, 0.07), zlim=(0.0, 0.2), title=f"{turn:g} turns")
+    axes.set(xlim=(-0.02, 0.08), ylim=(-0.03, 0.07), zlim=(0.0, 0.2))
+    axes.set_title(f"turns: {turn:g}", y=1.1, fontsize=11)
     axes.set_box_aspect((0.1, 0.1, 0.2), zoom=1.1)
     axes.set(xticks=[0.0, 0.05], yticks=[0.0, 0.05])
     if k < 3:
         axes.set_zlabel("")
-fig.subplots_adjust(left=0.0, right=0.96, wspace=0.15)
+fig.subplots_adjust(left=0.0, right=0.9, bottom=0.06, top=0.95, wspace=0.15)
 cdcr.plotting.show_or_save(fig, sys.argv[1:])

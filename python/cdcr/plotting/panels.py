@@ -38,6 +38,7 @@ SHORT_DASHES: tuple[Any, ...] = (
     (0, (4.5, 0.8)),
     (0, (1, 2.2)),
 )
+Panel = Callable[[Axes, "Trajectory"], None]
 MARKERS = ("", "o", "s", "^", "D", "v")  # of the cables after those that differ in dashes
 NUM_MARKED = 8  # places along a line that carry its marker
 STRAIGHT = 0.05  # share of the largest bending below which phi of several sections is not drawn
@@ -64,8 +65,8 @@ def plot_run(run: Trajectory) -> StyledFigure:
     >>> cdcr.plotting.plot_run(run).axes[0].get_ylabel()[:13]
     'bending angle'
     """
-    left = [plot_theta, plot_phi, *strain_panels(run.model), plot_tension]
-    right = [_plot_tip, _plot_energy] + ([_plot_energy_error] if _is_free(run) else [])
+    left: list[Panel] = [plot_theta, plot_phi, *strain_panels(run.model), plot_tension]
+    right: list[Panel] = [_plot_tip, _plot_energy, *[_plot_energy_error] * _is_free(run)]
     with style():
         figure = StyledFigure(figsize=(11.0, 6.6), layout="constrained")
         rows = math.lcm(len(left), len(right))
@@ -124,7 +125,7 @@ def plot_phi(axes: Axes, run: Trajectory) -> None:
     keep_span(axes, MIN_ANGLE)
 
 
-def strain_panels(model: Model) -> list[Callable[[Axes, Trajectory], None]]:
+def strain_panels(model: Model) -> list[Panel]:
     """Return what draws twist and stretch of a run, of those that the robot has."""
     panels = {"t": plot_twist, "e": plot_stretch}
     return [panel for kind, panel in panels.items() if _sections_with(model, kind)]

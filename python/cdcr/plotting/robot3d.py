@@ -126,7 +126,7 @@ def plot_robot(
     model : Model
         The robot.
     q : array_like, shape (d,)
-        Coordinates, of which bending vectors and twists are in rad, stretches in m.
+        Coordinates: bending vectors and twists [rad], stretches [m].
     ax : Axes3D, optional
         Axes to draw into; by default those of a new figure.
     tension : array_like, shape (num_cables,), optional

@@ -33,7 +33,6 @@ def plot(scenario: Scenario, run: None) -> StyledFigure:
         spans = [[1e3 * span for span in times[kind].values()] for kind in ("parts", "orders")]
         _compare(by_time, f"processor time of {study.END:g} s of motion [ms]", spans)
         by_size.set_xticks(sizes := [2, 4, 8, 16, 32], [str(size) for size in sizes])
-        by_time.set_ylabel("")
         note(by_size, "full: parts, dashed: orders of bending")
         _draw_responses(figure.add_subplot(grid[2, :]))
     return figure

@@ -40,7 +40,7 @@ def model_of(parts: int, damping: float = 0.0) -> Model:
 def rod(order: int, damping: float = 0.0) -> Model:
     """Return the robot of Table 1 whose one section has an order of bending."""
     robot = amouri2020(damping=damping)
-    return Model(replace(robot, sections=[replace(robot.sections[0], bending_order=order)]))
+    return Model(replace(robot, sections=(replace(robot.sections[0], bending_order=order),)))
 
 
 @lru_cache(maxsize=64)

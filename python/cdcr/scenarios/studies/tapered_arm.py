@@ -24,7 +24,7 @@ ROUNDS = 50  # of a contraction to less than a tenth
 def model_of(scenario: Scenario, order: int) -> Model:
     """Return the arm with another order of its bending."""
     (section,) = scenario.robot.sections
-    return Model(replace(scenario.robot, sections=[replace(section, bending_order=order)]))
+    return Model(replace(scenario.robot, sections=(replace(section, bending_order=order),)))
 
 
 def curvature(model: Model, tension: float) -> FloatArray:

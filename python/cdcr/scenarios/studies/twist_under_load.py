@@ -46,7 +46,7 @@ def twist(answer: Answer) -> FloatArray:
 
 def _answer(scenario: Scenario, changes: dict[str, Any]) -> Answer:
     robot = scenario.robot
-    sections = [replace(section, **changes) for section in robot.sections]
+    sections = tuple(replace(section, **changes) for section in robot.sections)
     model = Model(replace(robot, sections=sections))
     q = [model.equilibrium(TENSION)]
     for load in LOADS[1:]:
