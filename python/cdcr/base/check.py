@@ -192,7 +192,10 @@ class Check:
         self, item: str, value: object, requirement: str, each: str, *, many: bool
     ) -> tuple[Any, ...]:
         """Return a (base, tip) pair, or `many` of them, of which one may stand by itself."""
+        before = len(self.sentences)
         values = self.items(item, value, requirement)
+        if len(self.sentences) > before:
+            return ()
         if all(isinstance(one, Real) for one in values):
             pair = self.vector(item, values, requirement, each, size=2)
             return (pair,) if many and len(pair) == 2 else pair
