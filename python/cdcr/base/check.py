@@ -197,7 +197,7 @@ class Check:
         if len(self.sentences) > before:
             return ()
         if all(isinstance(one, Real) for one in values):
-            pair = self.vector(item, values, requirement, each, size=2)
+            pair = self.vector(item, value, requirement, each, size=2)
             return (pair,) if many and len(pair) == 2 else pair
         if not many:
             self.refuse(item, requirement, value)
