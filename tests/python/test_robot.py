@@ -52,12 +52,28 @@ FULL: dict[str, Any] = REQUIRED | {
     "rest_twist": 0.0,
     "nodes": None,
 }
+RODS: dict[str, Any] = {
+    "bending_order": 0,
+    "twist_order": None,
+    "stretch_order": None,
+    "backbone_inner_diameter": 0.0,
+    "shear_modulus": None,
+    "bending_stiffness": None,
+    "twist_stiffness": None,
+    "stretch_stiffness": None,
+    "twist_damping": 0.0,
+    "stretch_damping": 0.0,
+    "material_damping": 0.0,
+    "rest_bending": (0.0, 0.0),
+    "rest_twist": 0.0,
+    "nodes": None,
+}
 NUMBERS = [name for name in FULL if isinstance(FULL[name], float)]
 
 
 def test_defaults() -> None:
     section = cdcr.Section(**REQUIRED)
-    assert dataclasses.asdict(section) == REQUIRED | {
+    assert dataclasses.asdict(section) == RODS | REQUIRED | {
         "disk_mass": 0.0,
         "disk_diameter": 0.0,
         "num_disks": 0,
@@ -270,8 +286,8 @@ def test_stiffness_by_hand() -> None:
 def test_the_core_has_the_same_fields_and_stiffness() -> None:
     section = cdcr.Section(**FULL)
     assert section._to_core().stiffness == pytest.approx(section.stiffness, rel=REL)
-    assert _core.Section(**FULL).violations() == []
-    assert [item.name for item in dataclasses.fields(section)] == list(FULL)
+    assert _core.Section(**FULL | RODS).violations() == []
+    assert [item.name for item in dataclasses.fields(section)] == list(FULL | RODS)
 
 
 def test_masses_and_counts() -> None:

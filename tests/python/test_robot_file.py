@@ -187,7 +187,26 @@ def test_the_papers_robot_comes_back(tmp_path: Path) -> None:
 
 
 def test_the_text_names_every_field_with_its_unit() -> None:
-    lines = robot_text(FULL).splitlines()
+    rod = dataclasses.replace(
+        FULL.sections[0],
+        bending_order=1,
+        twist_order=0,
+        stretch_order=0,
+        backbone_inner_diameter=1e-4,
+        shear_modulus=1e9,
+        bending_stiffness=1.0,
+        twist_stiffness=1.0,
+        stretch_stiffness=1.0,
+        twist_damping=1.0,
+        stretch_damping=1.0,
+        material_damping=1.0,
+        rest_bending=(0.1, 0.0),
+        rest_twist=0.1,
+        nodes=8,
+    )
+    cable = cdcr.Cable(radius=0.01, angle=0.0, end_section=1, start_section=1)
+    robot = dataclasses.replace(FULL, sections=(*FULL.sections, rod), cables=(*FULL.cables, cable))
+    lines = robot_text(robot).splitlines()
     for kind in (cdcr.Section, cdcr.Robot, cdcr.Cable):
         for item in dataclasses.fields(kind):
             if item.name in ("sections", "cables"):
@@ -223,7 +242,11 @@ def test_the_text_of_a_plain_robot_has_the_plain_fields_alone() -> None:
 
 def test_the_schema_has_the_fields_of_the_descriptions() -> None:
     section = {item.name for item in dataclasses.fields(cdcr.Section)}
-    assert set(table_of(cdcr.Section).model_fields) == section | {"cable_angles_deg"}
+    assert set(table_of(cdcr.Section).model_fields) == section | {
+        "cable_angles_deg",
+        "rest_bending_deg",
+        "rest_twist_deg",
+    }
     cable = {item.name for item in dataclasses.fields(cdcr.Cable)}
     assert set(table_of(cdcr.Cable).model_fields) == cable | {"angle_deg"}
     assert set(table_of(cdcr.Robot).model_fields) == {

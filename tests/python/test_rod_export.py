@@ -35,7 +35,7 @@ def test_rods_are_refused(change: dict[str, Any], sentence: str, tmp_path: Path)
 
 def test_a_tube_is_told_as_the_solid_arc_that_moves_alike() -> None:
     tube = replace(SECTION, backbone_inner_diameter=0.003, bending_stiffness=0.2)
-    robot = replace(ROBOT, sections=[replace(tube, material_damping=0.02)])
+    robot = replace(ROBOT, sections=(replace(tube, material_damping=0.02),))
     solid = as_solid_arcs(robot, "it")
     assert solid.sections[0].backbone_inner_diameter == 0.0
     q, qd, tension = [0.5, 0.3], [1.0, -2.0], [5.0, 1.0, 0.0]

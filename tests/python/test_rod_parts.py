@@ -85,5 +85,5 @@ def test_states_of_rods_are_not_merged() -> None:
 def test_many_states_at_once() -> None:
     cut = cdcr.subdivide_state(ROBOT, PARTS, np.stack([Q, QD]))
     assert np.array_equal(cut[1], cdcr.subdivide_state(ROBOT, PARTS, QD))
-    rigid = replace(ROBOT, sections=[replace(ROD, bending_order=None, twist_order=None), ARC])
+    rigid = replace(ROBOT, sections=(replace(ROD, bending_order=None, twist_order=None), ARC))
     assert cdcr.subdivide_state(rigid, 2, [0.3, 1.0, 0.0]).shape == (6,)

@@ -16,7 +16,7 @@ ALLOCATED = 1e-9
 HELIX = cdcr.Cable(radius=0.015, angle=[(0.0, 1.5)], end_section=0)
 ROBOT = cdcr.robots.amouri2020(damping=0.02)
 ROD = replace(ROBOT.sections[0], bending_order=1, stretch_order=0, stretch_damping=30.0, nodes=6)
-MODEL = cdcr.Model(replace(ROBOT, sections=[ROD], cables=[HELIX]))
+MODEL = cdcr.Model(replace(ROBOT, sections=(ROD,), cables=(HELIX,)))
 Q0 = np.array([0.3, 0.1, 0.05, -0.02, 1e-4])
 
 
@@ -79,7 +79,7 @@ def test_signals_are_named_and_differentiated() -> None:
 
 def test_rest_tells_of_bending_and_twist() -> None:
     twisted = replace(ROD, twist_order=0, shear_modulus=3e9, rest_twist=0.5)
-    rest = at_rest(replace(ROBOT, sections=[twisted]))
+    rest = at_rest(replace(ROBOT, sections=(twisted,)))
     assert rest.words == "straight, twisted by 28.65 deg"
     assert rest.stable
     assert rest.is_nondegenerate

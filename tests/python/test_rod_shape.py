@@ -75,7 +75,7 @@ def test_marks_turn_with_the_twist() -> None:
     for x, (center, rim) in zip((1 / 3, 2 / 3, 1.0), marks, strict=True):
         arm = [0.02 * np.cos(0.9 * x), 0.02 * np.sin(0.9 * x), 0.0]
         np.testing.assert_allclose(rim - center, arm, rtol=0.0, atol=ROUNDING)
-    still = cdcr.Model(replace(ROBOT, sections=[replace(SECTION, twist_order=None)] * 2))
+    still = cdcr.Model(replace(ROBOT, sections=(replace(SECTION, twist_order=None),) * 2))
     assert not robot_shape(still, np.zeros(still.num_coordinates)).marks
 
 

@@ -23,13 +23,10 @@ ORDERS = ("bending_order", "twist_order", "stretch_order")
 
 
 def robot_of(case: dict[str, Any], nodes: int | None) -> cdcr.Robot:
-    sections = [
-        cdcr.Section(
-            **{key: None if key in ORDERS and value == -1 else value for key, value in one.items()},
-            nodes=nodes,
-        )
-        for one in case["sections"]
-    ]
+    def fields(one: dict[str, Any]) -> dict[str, Any]:
+        return {key: None if key in ORDERS and one[key] == -1 else one[key] for key in one}
+
+    sections = [cdcr.Section(**fields(one), nodes=nodes) for one in case["sections"]]
     cables = [cdcr.Cable(**one | {"end_section": one["end_section"] - 1}) for one in case["cables"]]
     return cdcr.Robot(
         sections=sections, cables=cables, gravity=case["gravity"], payload=case["payload"]
@@ -59,7 +56,7 @@ def test_cases_of_others(case: dict[str, Any]) -> None:
 
 def test_an_arc_is_a_rod_of_order_0() -> None:
     robot = cdcr.robots.three_sections()
-    rod = replace(robot, sections=[replace(one, nodes=32) for one in robot.sections])
+    rod = replace(robot, sections=tuple(replace(one, nodes=32) for one in robot.sections))
     q, qd = np.linspace(-0.8, 0.9, 6), np.linspace(2.0, -1.0, 6)
     arcs, rods = cdcr.Model(robot), cdcr.Model(rod)
     assert rods.has_rods

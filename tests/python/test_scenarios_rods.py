@@ -86,7 +86,7 @@ def test_a_helical_cable_twists_against_its_winding() -> None:
     assert twist == pytest.approx(straight, rel=STRAIGHT)
     # Alone, without bending, it is the same.
     (section,) = scenario.robot.sections
-    stiff = replace(scenario.robot, sections=[replace(section, bending_order=None)])
+    stiff = replace(scenario.robot, sections=(replace(section, bending_order=None),))
     (only, _) = cdcr.Model(stiff).equilibrium([4.0])
     assert only == pytest.approx(straight, rel=1e-8)
 
