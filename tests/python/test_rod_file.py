@@ -62,7 +62,7 @@ def test_angles_of_a_route_may_be_in_degrees(tmp_path: Path) -> None:
     cable = f"{CABLE}radius = 0.01\nangle_deg = [0, 180]\n"
     robot = load(tmp_path, f"{FILE}rest_bending_deg = [90, 0]\n{cable}")
     assert robot.cables[0].angle == ((0.0, pytest.approx(3.14159265)),)
-    assert robot.sections[0].rest_bending == (pytest.approx(1.57079633), 0.0)
+    assert robot.sections[0].rest_bending == pytest.approx((1.57079633, 0.0))
 
 
 @pytest.mark.parametrize(

@@ -70,7 +70,7 @@ def test_rest_and_taper_go_on_from_part_to_part() -> None:
 def test_cables_begin_and_end_where_they_did() -> None:
     cables = ROBOT.subdivide(PARTS).cables
     assert [(one.start_section, one.end_section) for one in cables] == [(0, 2), (0, 4), (3, 4)]
-    assert cables[0].route(0)[1] == (0.2, pytest.approx(0.7))
+    assert cables[0].route(0)[1] == pytest.approx((0.2, 0.7))
     assert cables[1].route(4) == ((0.01, 0.01), (1.75, 1.5))
     assert cables[2].angle == 2.0
 

@@ -322,7 +322,36 @@ class Robot(Filed):
     def record(self, path: str | PathLike[str], *, overwrite: bool = False) -> Path:
         """Write a page on which the robot goes round in a circle once. Needs the extra ``view``.
 
-        Arguments, answer and errors are those of `Trajectory.record`.
+        Parameters
+        ----------
+        path : str or path
+            The page, ending in ``.html``.
+        overwrite : bool, default False
+            Whether a file of that name may be replaced.
+
+        Returns
+        -------
+        Path
+            Of the page.
+
+        Raises
+        ------
+        FileExistsError
+            Where there is such a file and `overwrite` is False.
+        ValueError
+            For another ending.
+        ImportError
+            Without the extra ``view``.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> from pathlib import Path
+        >>> import cdcr
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     page = cdcr.robots.amouri2020().record(Path(folder) / "robot.html")
+        ...     page.name
+        'robot.html'
         """
         from cdcr import view
 
