@@ -54,7 +54,7 @@ def subdivide_state(robot: Robot, parts: Parts, q: ArrayLike) -> FloatArray:
         for part in range(count):
             for block in blocks:
                 share = _restriction(block.shape[-2], part, count) @ block / count
-                found.append(share.reshape(*state.shape[:-1], -1))
+                found.append(share.reshape(*state.shape[:-1], block.shape[-2] * block.shape[-1]))
     return np.concatenate(found, axis=-1)
 
 
@@ -100,7 +100,7 @@ def merge_state(robot: Robot, parts: Parts, q: ArrayLike) -> FloatArray:
                 f"and section {i + 1} has orders {_orders(section)}"
             )
     state = _checked(q, 2 * int(counts.sum()))
-    vectors = state.reshape(*state.shape[:-1], -1, 2)
+    vectors = state.reshape(*state.shape[:-1], int(counts.sum()), 2)
     firsts = np.cumsum(counts) - counts
     sums = np.add.reduceat(vectors, firsts, axis=-2)
     return sums.reshape(*sums.shape[:-2], 2 * len(counts))
