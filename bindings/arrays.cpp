@@ -8,6 +8,7 @@
 
 #include "bind.hpp"
 #include "cdcr/cables.hpp"
+#include "cdcr/robot_ode.hpp"
 #include "docs.hpp"
 #include "states.hpp"
 
@@ -141,25 +142,16 @@ Array convert(const py::handle& object, const char* name, std::initializer_list<
   refuse(text);
 }
 
-/// Refuses a section bent beyond max_bending, in any state.
+/// Refuses a shape that the model is not valid for, in any state.
 void check_bending(const Model& model, const Array& q, const char* name) {
   const Index size = model.num_coordinates(), end = q.size();
   const double* data = q.data();
   for (Index first = 0; first < end; first += size) {
     const Eigen::Map<const VectorXd> state(data + first, size);
-    for (Index i = 0; i < model.num_sections(); ++i) {
-      const Index begin = model.first_coordinate(i);
-      if (model.first_coordinate(i + 1) - begin < 2) continue;  // it does not bend
-      const double theta = state.segment<2>(begin).norm();
-      if (theta <= max_bending) continue;
-      std::vector<Index> before = sizes_of(q);
-      before.pop_back();
-      std::ostringstream text;
-      text << name << index_text(first / size, before)
-           << " must bend each section by at most 3 pi rad, got " << theta << " rad in section "
-           << i + 1;
-      refuse(text);
-    }
+    if (check_shape(model, state) == Status::ok) continue;
+    std::vector<Index> before = sizes_of(q);
+    before.pop_back();
+    require_shape((name + index_text(first / size, before)).c_str(), model, state);
   }
 }
 

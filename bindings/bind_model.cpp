@@ -62,10 +62,12 @@ void bind_model(py::module_& m) {
                              "Whether the actuation matrix is the same at all q.")
       .def_property_readonly(
           "rest_shape", [](const Model& self) { return to_array(self.rest()); },
-          "The unloaded shape (d,) [rad]: zero but for sections bent or twisted at rest, cpp/rods.md.")
+          "The unloaded shape (d,) [rad]: zero but for sections bent or twisted at rest, "
+          "cpp/rods.md.")
       .def_property_readonly(
           "elastic_stiffness", [](const Model& self) { return to_rows(self.elastic_stiffness()); },
-          "Stiffness K of the backbone (d, d) [N m/rad]: its elastic energy is half of (q - rest)^T K\n"
+          "Stiffness K of the backbone (d, d) [N m/rad]: its elastic energy is half of (q - "
+          "rest)^T K\n"
           "(q - rest), cpp/README.md eq. (14) and cpp/rods.md eq. (52).")
       .def_property_readonly("has_friction", &Model::has_friction,
                              "Whether a cable rubs in its holes.")

@@ -193,7 +193,9 @@ def test_wrong_types_and_values(tmp_path: Path, old: str, new: str, sentence: st
         (
             "radius = 0.01\n",
             "",
-            "cable 1 of cables: radius is missing; it must be a number > 0 m and finite",
+            "cable 1 of cables: radius is missing; it must be a number [m], or one "
+            "[base, tip] pair for "
+            "each section passed",
         ),
         ("angle = 0.5\n", "", "cable 1 of cables must have angle [rad] or angle_deg [deg]"),
         (
@@ -209,7 +211,8 @@ def test_wrong_types_and_values(tmp_path: Path, old: str, new: str, sentence: st
         (
             "angle = 0.5",
             "angle_deg = '1'",
-            "cable 1 of cables: angle_deg must be a finite number [deg], got '1' (string)",
+            "cable 1 of cables: angle_deg must be a number [deg], or one [base, tip] pair for "
+            "each section passed, got '1' (string)",
         ),
         (
             "end_section = 1",

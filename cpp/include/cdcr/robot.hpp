@@ -15,7 +15,7 @@ inline constexpr Index max_sections = 32;
 /// Largest order of a strain of a section.
 inline constexpr int max_order = 4;
 /// Of all sections together: bending (x, y), twist and stretch of all orders.
-inline constexpr Index max_coordinates = 4 * (max_order + 1) * max_sections;
+inline constexpr Index max_coordinates = max_sections * 4 * (max_order + 1);
 /// Places along a section where its mass may be summed up.
 inline constexpr int min_nodes = 3, max_nodes = 32;
 /// Order of a strain that is locked.

@@ -72,6 +72,11 @@ class RobotOde {
   bool command_holds_ = false;  // over the whole segment
 };
 
+/// ok, bending_limit or compression_limit for finite coordinates (d). Real-time safe.
+[[nodiscard]] Status check_shape(const Model& model, const ConstVectorRef& q) noexcept;
+/// Throws std::invalid_argument, naming the item and the section, where check_shape is not ok.
+void require_shape(const char* item, const Model& model, const ConstVectorRef& q);
+
 /// ok, wrong_size, non_finite_state, bending_limit or compression_limit for a state (q, qd) (2d).
 /// Real-time safe.
 [[nodiscard]] Status check_state(const Model& model, const ConstVectorRef& y) noexcept;

@@ -3,6 +3,9 @@
 #include "chain/inertia.hpp"
 #include "section/width.hpp"
 
+// NOLINTBEGIN(bugprone-implicit-widening-of-multiplication-result,readability-identifier-naming):
+// counts of rows and coordinates, all small; letters of the equations
+
 namespace cdcr::detail {
 
 /// The coordinates q of one section, eliminated: what its base and the rest of the chain feel of
@@ -113,3 +116,5 @@ struct Eliminated {
 };
 
 }  // namespace cdcr::detail
+
+// NOLINTEND(bugprone-implicit-widening-of-multiplication-result,readability-identifier-naming)

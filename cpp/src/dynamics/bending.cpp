@@ -14,8 +14,8 @@ constexpr double least_length = 0.1;
 double turning_of(const RodParameters& rod, const double* q) noexcept {
   const Vector3d& locked = rod.locked_turning;
   double sum = locked.squaredNorm();
-  for (int j = 0; j < rod.num_bending; ++j) {
-    sum += (q[2 * j] * q[2 * j] + q[2 * j + 1] * q[2 * j + 1]) / (2.0 * j + 1.0);
+  for (Index j = 0; j < rod.num_bending; ++j) {
+    sum += (q[2 * j] * q[2 * j] + q[2 * j + 1] * q[2 * j + 1]) / static_cast<double>(2 * j + 1);
   }
   for (int j = 0; j < rod.num_twist; ++j) {
     const double twist = q[rod.first_twist + j];

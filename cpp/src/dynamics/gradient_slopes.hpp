@@ -23,7 +23,7 @@ void gradient_slopes(const Model& model, std::optional<RodChainState<Dual>>& rod
     });
   };
   if (chain.has_rods()) {
-    differentiate_with(*rods);
+    differentiate_with(*rods);  // NOLINT(bugprone-unchecked-optional-access): has room
   } else {
     ArcChainState<Dual> state;
     differentiate_with(state);

@@ -76,6 +76,7 @@ class Data::Kept {
   auto with(const Model& model, const F& f, const Positions*... at) noexcept {
     const detail::Chain& chain = detail::chain_of(model);
     if (arcs_) return f(chain, arcs_->at(chain, at...));
+    // NOLINTNEXTLINE(bugprone-unchecked-optional-access): one of the two
     return f(chain, rods_->at(chain, at...));
   }
 

@@ -27,6 +27,7 @@ void differentiate_motion(const Model& model, Data& data, const ConstVectorRef& 
                           const ConstVectorRef& qd, const ConstVectorRef& command,
                           const Wrenches& wrenches, MatrixRef A, MatrixRef* B) noexcept {
   if (model.has_rods()) {
+    // NOLINTNEXTLINE(bugprone-unchecked-optional-access): has room
     return detail::differentiate_motion(model, *data.kept()->dual_rods, q, qd, command, wrenches, A,
                                         B);
   }

@@ -159,8 +159,16 @@ Status RobotOde::check(const double* y) const noexcept {
 Status check_state(const Model& model, const ConstVectorRef& y) noexcept {
   if (y.size() != 2 * model.num_coordinates()) return Status::wrong_size;
   if (!y.allFinite()) return Status::non_finite_state;
-  if (!(detail::largest_bending(model, y) <= max_bending)) return Status::bending_limit;
-  return detail::keeps_length(model, y) ? Status::ok : Status::compression_limit;
+  return check_shape(model, y.head(model.num_coordinates()));
+}
+
+Status check_shape(const Model& model, const ConstVectorRef& q) noexcept {
+  if (!(detail::largest_bending(model, q) <= max_bending)) return Status::bending_limit;
+  return detail::keeps_length(model, q) ? Status::ok : Status::compression_limit;
+}
+
+void require_shape(const char* item, const Model& model, const ConstVectorRef& q) {
+  detail::require_bending(item, model, q);
 }
 
 Status check_tension(const Model& model, const ConstVectorRef& tension) noexcept {

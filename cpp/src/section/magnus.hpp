@@ -4,6 +4,8 @@
 
 #include "section/section_state.hpp"
 
+// NOLINTBEGIN(readability-identifier-naming): letters of the equations
+
 namespace cdcr::detail {
 
 /// Rotation vector Omega of one step of dR/dx = R [u(x)], R(x + h) = R(x) exp [Omega], by the
@@ -75,3 +77,5 @@ class Magnus {
 };
 
 }  // namespace cdcr::detail
+
+// NOLINTEND(readability-identifier-naming)

@@ -40,13 +40,13 @@ struct Lanes {
   static Weights weights(const double* from) { return *from; }
   static const Pack& load(const S* from) { return *from; }
   static void store(const Pack& pack, S* to) { *to = pack; }
-  static const S& total(const Pack& pack) { return pack; }
+  static S total(const Pack& pack) { return pack; }
   /// Both, next to one another, the lanes this far apart.
   static void store(const Pack& a, const Pack& b, S* to, int /*apart*/) {
     to[0] = a;
     to[1] = b;
   }
-  static const S& get(const Pack& pack, int) { return pack; }
+  static S get(const Pack& pack, int) { return pack; }
   static void set(Pack& pack, int, const S& value) { pack = value; }
   /// f(lane) of all.
   template <class F>
@@ -117,7 +117,7 @@ namespace Eigen {
 
 template <>
 struct NumTraits<cdcr::detail::Pair> : GenericNumTraits<cdcr::detail::Pair> {
-  enum {
+  enum {  // NOLINTBEGIN(readability-identifier-naming): names of Eigen
     IsComplex = 0,
     IsInteger = 0,
     IsSigned = 1,
@@ -125,7 +125,7 @@ struct NumTraits<cdcr::detail::Pair> : GenericNumTraits<cdcr::detail::Pair> {
     ReadCost = 1,
     AddCost = 1,
     MulCost = 1
-  };
+  };  // NOLINTEND(readability-identifier-naming)
 };
 template <class Operation>
 struct ScalarBinaryOpTraits<cdcr::detail::Pair, double, Operation> {

@@ -238,7 +238,7 @@ struct Rod : RodFrames<S> {
       }
     };
     Vectors<S> push_at, twist_at;
-    Vector3<Pack> whole_force = Vector3<Pack>::Zero(), whole_moment = whole_force;
+    Vector3<Pack> whole_force = Vector3<Pack>::Zero(), whole_moment = Vector3<Pack>::Zero();
     for (int k = 0; k < rod->num_nodes(); k += L::count) {
       Vector3<Pack> a = v_dot_at.load(k);
       const Vector3<Pack> place = places.load(k);

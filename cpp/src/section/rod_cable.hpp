@@ -6,6 +6,9 @@
 #include "section/rod_parameters.hpp"
 #include "section/width.hpp"
 
+// NOLINTBEGIN(bugprone-implicit-widening-of-multiplication-result): counts of rows and coordinates,
+// all small
+
 namespace cdcr::detail {
 
 /// Gauss points that sum up the length of a cable: those of the rod, and more where it winds.
@@ -88,3 +91,5 @@ class RodCable {
 };
 
 }  // namespace cdcr::detail
+
+// NOLINTEND(bugprone-implicit-widening-of-multiplication-result)

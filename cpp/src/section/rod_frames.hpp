@@ -5,6 +5,9 @@
 #include "section/rod_turns.hpp"
 #include "section/width.hpp"
 
+// NOLINTBEGIN(bugprone-implicit-widening-of-multiplication-result,readability-identifier-naming):
+// counts of rows and coordinates, all small
+
 namespace cdcr::detail {
 
 /// Frames and nodes along a rod in one state: functions of q that are differentiated as they stand,
@@ -272,3 +275,5 @@ struct RodFrames {
 };
 
 }  // namespace cdcr::detail
+
+// NOLINTEND(bugprone-implicit-widening-of-multiplication-result,readability-identifier-naming)

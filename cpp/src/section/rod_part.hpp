@@ -2,6 +2,9 @@
 
 #include "section/rod_frames.hpp"
 
+// NOLINTBEGIN(bugprone-implicit-widening-of-multiplication-result): counts of rows and coordinates,
+// all small
+
 namespace cdcr::detail {
 
 /// A rod from its base to a fraction of its length: where that is, and how it moves with q. The tip
@@ -150,3 +153,5 @@ struct RodPart {
 };
 
 }  // namespace cdcr::detail
+
+// NOLINTEND(bugprone-implicit-widening-of-multiplication-result)

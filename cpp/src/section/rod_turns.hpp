@@ -7,6 +7,9 @@
 #include "section/pair.hpp"
 #include "section/rod_parameters.hpp"
 
+// NOLINTBEGIN(bugprone-implicit-widening-of-multiplication-result): counts of rows and coordinates,
+// all small
+
 namespace cdcr::detail {
 
 /// Vectors at the frames or nodes of a rod, as many as there are lanes worked on at once.
@@ -249,3 +252,5 @@ class RodTurns {
 };
 
 }  // namespace cdcr::detail
+
+// NOLINTEND(bugprone-implicit-widening-of-multiplication-result)

@@ -5,6 +5,9 @@
 
 #include "section/rod_parameters.hpp"
 
+// NOLINTBEGIN(bugprone-implicit-widening-of-multiplication-result): counts of rows and coordinates,
+// all small
+
 namespace cdcr::detail {
 
 /// A cable that rubs along its path through one rod: at Gauss points, as RodCable sums up its
@@ -129,3 +132,5 @@ class RubbingPath {
 };
 
 }  // namespace cdcr::detail
+
+// NOLINTEND(bugprone-implicit-widening-of-multiplication-result)

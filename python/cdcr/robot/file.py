@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import MISSING, Field, fields
+from dataclasses import MISSING, Field, fields, replace
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
@@ -163,11 +163,12 @@ def switched_off(robot: Robot) -> str:
     section, cable = robot.sections[0], Cable(radius=0.02, angle=0.0, end_section=0, friction=0.0)
     return "\n".join([
         "",
-        "# What else there may be, with its default. To switch a line on, put it into its table",
-        "# and take away the # before it. Of the robot, above its sections:",
-        *_advanced(robot),
+        "# What else there may be, with its default or, where it has none, an example. To switch a",
+        "# line on, put it into its table and take away the # before it.",
+        "# Of the robot, above its sections:",
+        *_advanced(robot, robot),
         "# Of a section:",
-        *_advanced(section),
+        *_advanced(section, _with_examples(section)),
         "# Cables that no section lists; all values an example:",
         "#[[cables]]",
         *(f"#{line}" for line in _lines(cable, all_fields=True)),
@@ -175,9 +176,25 @@ def switched_off(robot: Robot) -> str:
     ])  # fmt: skip
 
 
-def _advanced(thing: Robot | Section) -> Iterator[str]:
+def _with_examples(section: Section) -> Section:
+    """Return a section with values for what has no default: of steel, or what its shape gives."""
+    modulus, moment = section.youngs_modulus, section.second_moment_of_area
+    base, inner = section.diameters[0], section.backbone_inner_diameter
+    shear = section.shear_modulus or modulus / 2.6
+    return replace(
+        section,
+        shear_modulus=shear,
+        bending_stiffness=section.bending_stiffness or modulus * moment,
+        twist_stiffness=section.twist_stiffness or 2.0 * shear * moment,
+        stretch_stiffness=section.stretch_stiffness
+        or modulus * math.pi / 4.0 * (base * base - inner * inner),
+        nodes=section.nodes or 12,
+    )
+
+
+def _advanced(thing: Robot | Section, filled: Robot | Section) -> Iterator[str]:
     off = [item.name for item in fields(thing) if not _is_written(thing, item, all_fields=False)]
-    for line in _lines(thing, all_fields=True):
+    for line in _lines(filled, all_fields=True):
         if line.split(" ")[0] in off:
             yield f"#{line}"
 
@@ -186,7 +203,8 @@ def robot_lines(robot: Robot, *, all_fields: bool = False) -> list[str]:
     """Return the tables of a robot by lines, also with the advanced fields that say nothing."""
     lines = list(_lines(robot, all_fields))
     for section in robot.sections:
-        lines += ["", "[[sections]]", *_lines(section, all_fields)]
+        one = _with_examples(section) if all_fields else section
+        lines += ["", "[[sections]]", *_lines(one, all_fields)]
     for cable in robot.cables:
         lines += ["", "[[cables]]", *_lines(cable, all_fields)]
     return lines

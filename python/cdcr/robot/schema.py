@@ -85,6 +85,6 @@ def _requirement(item: Field[Any], unit: str) -> str:
     words = str(item.metadata["requirement"]).removesuffix(", or None")
     words = words.replace("None to lock it", '"locked"').replace("(base, tip)", "[base, tip]")
     # "numbers in kg" and "a number of rad" are "numbers [kg]" and "a number [rad]" there.
-    return re.sub(r"(numbers?) (in|of) \S+$", rf"\1 [{unit}]", words).replace(
+    return re.sub(r"(numbers?) (in|of) [^\s,]+(?=,|$)", rf"\1 [{unit}]", words).replace(
         "a sequence", "an array"
     )

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "cdcr/cdcr.hpp"
 #include "cases.hpp"
+#include "cdcr/cdcr.hpp"
 
 // Robots of rods, as Model takes them.
 
