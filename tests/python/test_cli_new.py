@@ -248,8 +248,8 @@ def test_what_else_a_robot_may_have_is_shown_with_its_default(tmp_path: Path) ->
     path.write_text(text, encoding="utf-8")
     found = cdcr.Robot.load(path)
     stiffnesses = [f"{strain}_stiffness" for strain in ("bending", "twist", "stretch")]
-    examples = dict.fromkeys(["shear_modulus", *stiffnesses, "nodes"])
-    plain = replace(found, sections=[replace(found.sections[0], **examples)])
+    examples: dict[str, Any] = dict.fromkeys(["shear_modulus", *stiffnesses, "nodes"])
+    plain = replace(found, sections=(replace(found.sections[0], **examples),))
     assert plain == cdcr.robots.amouri2020()
     path.write_text(whole + _on(cable), encoding="utf-8")
     assert cdcr.Robot.load(path).num_cables == 4

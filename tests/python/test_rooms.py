@@ -20,7 +20,7 @@ SPINE = (
     *("description/*", "section/*", "chain/*", "dynamics/*", "loads/cable*"),
     *("integration/robot_ode.*", "integration/rk4.*", "integration/simulator.*"),
 )
-MOST_SPINE = 5000  # lines of code
+MOST_SPINE = 5200  # lines of code
 
 
 def folders_with_files() -> set[str]:

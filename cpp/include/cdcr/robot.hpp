@@ -103,7 +103,8 @@ struct Cable {
   std::optional<double> friction;  ///< mu in all its holes, in place of Section::cable_friction
   int start_section = 0;           ///< index of the section at whose base it begins
   /// (base, tip) in each section passed, in place of `radius` [m] and `angle` [rad]; or empty.
-  std::vector<std::array<double, 2>> radii, angles;
+  // NOLINTNEXTLINE(readability-redundant-member-init): cables may be listed without them
+  std::vector<std::array<double, 2>> radii{}, angles{};
 
   /// How it runs through a section that it passes.
   [[nodiscard]] CableRoute route(int section) const noexcept;
