@@ -8,7 +8,8 @@ namespace cdcr::detail {
 
 #if defined(__x86_64__)
 /// Whether this processor has fused multiply-add, which halves the instructions of a rod.
-inline const bool has_fma = static_cast<bool>(__builtin_cpu_supports("fma"));
+// NOLINTNEXTLINE(readability-implicit-bool-conversion): a bool to clang, an int to GCC
+inline const bool has_fma = __builtin_cpu_supports("fma") != 0;
 
 template <class F, class Width>
 [[gnu::target("fma"), gnu::flatten]] void run_with_fma(const F& f, Width width) {
