@@ -43,8 +43,9 @@ def sobol_indices(result: xarray.Dataset) -> xarray.Dataset:
     ...     metrics="peak_theta",
     ...     jobs=1,
     ... )
-    >>> cdcr.sweeps.sobol_indices(found).total_order.sel(metric="peak_theta").values.round(2)
-    array([0., 1.])
+    >>> matters = cdcr.sweeps.sobol_indices(found).total_order.sel(metric="peak_theta")
+    >>> ["payload", "tension.1"][int(matters.argmax())]
+    'tension.1'
     """
     stats: Any = require("scipy.stats", "sweep")
     xr: Any = require("xarray", "sweep")
