@@ -44,7 +44,7 @@ def sobol_indices(result: xarray.Dataset) -> xarray.Dataset:
     ...     jobs=1,
     ... )
     >>> matters = cdcr.sweeps.sobol_indices(found).total_order.sel(metric="peak_theta")
-    >>> ["payload", "tension.1"][int(matters.argmax())]
+    >>> ["payload", "tension.1"][int(matters.values.argmax())]
     'tension.1'
     """
     stats: Any = require("scipy.stats", "sweep")
