@@ -21,7 +21,8 @@ WRITER = """
 import signal, sys
 from pathlib import Path
 from cdcr.files.new_file import new_files
-signal.signal(signal.SIGQUIT, signal.SIG_DFL)  # which a background job may have inherited ignored
+for number in signal.SIGQUIT, signal.SIGHUP:  # a background job may have inherited them ignored
+    signal.signal(number, signal.SIG_DFL)
 with new_files([Path("new/out/a.txt"), Path("new/out/b.txt")]) as (a, b):
     a.write_text("whole")
     b.write_text("half")

@@ -108,7 +108,9 @@ class View:
         self._drawing = Drawing(self._server.scene, session.model, session.moment(), session.scale)
         self._panel = Panel(self._server.gui, self._session, self._drawing, self._tasks.put)
         self._make_pullable()
-        self._thread = threading.Thread(target=self._run, name="cdcr view", daemon=True)
+        self._thread = threading.Thread(
+            target=self._run, args=(self._server,), name="cdcr view", daemon=True
+        )
         self._thread.start()
         atexit.register(self.close)
         if browser and _has_screen():
@@ -172,9 +174,9 @@ class View:
             raise RuntimeError("a view that is served cannot be recorded; close it first")
         return write_page(self._session, file_path(path), self._title, overwrite=overwrite)
 
-    def _run(self) -> None:
+    def _run(self, server: Any) -> None:
         try:
-            self._draw_on()
+            self._draw_on(server)
         except BaseException as failure:
             self._failure = failure
             self._panel.tell_end(str(failure))
@@ -182,7 +184,7 @@ class View:
                 print(f"cdcr: the view of {self._title} has stopped: {failure}", file=sys.stderr)
             self._closing.set()
 
-    def _draw_on(self) -> None:
+    def _draw_on(self, server: Any) -> None:
         """Draw until closing: as often as it can, PICTURES a second at most."""
         session, meter = self._session, _Meter()
         last = due = time.perf_counter()
@@ -190,7 +192,7 @@ class View:
         while not self._closing.wait(max(0.0, due - time.perf_counter())):
             now = time.perf_counter()
             due = max(due + 1.0 / PICTURES, now)
-            watched = bool(self._server.get_clients())  # else time stands still
+            watched = bool(server.get_clients())  # else time stands still
             busy = (session.playing and watched) or not self._tasks.empty()
             while not self._tasks.empty():
                 session.attempt(self._tasks.get())
@@ -198,7 +200,7 @@ class View:
             last = now
             moment = session.moment()
             if busy or told < 0.0:
-                with self._server.atomic():
+                with server.atomic():
                     self._drawing.update(session.model, moment, session.trail())
                     self._show_pull()
             if now - told >= TOLD:
