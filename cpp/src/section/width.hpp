@@ -48,10 +48,8 @@ void with_width(int size, const F& f) {
   if constexpr (Rows<S>::count == 1) {
     f(size);
   } else {
-    if (size <= 4) return run(f, std::integral_constant<int, 4>());
     if (size <= 8) return run(f, std::integral_constant<int, 8>());
     if (size <= 12) return run(f, std::integral_constant<int, 12>());
-    if (size <= 16) return run(f, std::integral_constant<int, 16>());
     run(f, std::integral_constant<int, 20>());
   }
 }
