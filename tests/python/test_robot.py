@@ -24,34 +24,6 @@ REQUIRED: dict[str, Any] = {
     "backbone_diameter": 0.005,
     "youngs_modulus": 9.5e9,
 }
-FULL: dict[str, Any] = REQUIRED | {
-    "disk_mass": 0.008,
-    "disk_diameter": 0.04,
-    "num_disks": 10,
-    "disk_positions": (),
-    "disk_masses": (),
-    "disk_diameters": (),
-    "cable_radius": 0.019,
-    "cable_angles": (0.0, 2.0, 4.0),
-    "cable_stiffness": 1e4,
-    "cable_damping": 2.0,
-    "cable_friction": 0.1,
-    "damping": 1e-3,
-    "bending_order": 0,
-    "twist_order": None,
-    "stretch_order": None,
-    "backbone_inner_diameter": 0.0,
-    "shear_modulus": None,
-    "bending_stiffness": None,
-    "twist_stiffness": None,
-    "stretch_stiffness": None,
-    "twist_damping": 0.0,
-    "stretch_damping": 0.0,
-    "material_damping": 0.0,
-    "rest_bending": (0.0, 0.0),
-    "rest_twist": 0.0,
-    "nodes": None,
-}
 RODS: dict[str, Any] = {
     "bending_order": 0,
     "twist_order": None,
@@ -67,6 +39,21 @@ RODS: dict[str, Any] = {
     "rest_bending": (0.0, 0.0),
     "rest_twist": 0.0,
     "nodes": None,
+}
+FULL: dict[str, Any] = REQUIRED | {
+    "disk_mass": 0.008,
+    "disk_diameter": 0.04,
+    "num_disks": 10,
+    "disk_positions": (),
+    "disk_masses": (),
+    "disk_diameters": (),
+    "cable_radius": 0.019,
+    "cable_angles": (0.0, 2.0, 4.0),
+    "cable_stiffness": 1e4,
+    "cable_damping": 2.0,
+    "cable_friction": 0.1,
+    "damping": 1e-3,
+    **RODS,
 }
 # But those whose range depends on another field, or that may be negative.
 OTHER = ("backbone_inner_diameter", "rest_twist")

@@ -12,6 +12,14 @@ import cdcr
 REL = 4e-15
 
 
+# What a section of an arc leaves unsaid.
+UNSAID = {
+    item.name: item.default
+    for item in dataclasses.fields(cdcr.Section)
+    if item.metadata["advanced"] and not item.name.startswith(("disk", "cable"))
+}
+
+
 def test_table_1() -> None:
     robot = cdcr.robots.amouri2020()
     assert dataclasses.asdict(robot) == {
@@ -33,20 +41,7 @@ def test_table_1() -> None:
                 "cable_damping": 0.0,
                 "cable_friction": 0.0,
                 "damping": 0.0,
-                "bending_order": 0,
-                "twist_order": None,
-                "stretch_order": None,
-                "backbone_inner_diameter": 0.0,
-                "shear_modulus": None,
-                "bending_stiffness": None,
-                "twist_stiffness": None,
-                "stretch_stiffness": None,
-                "twist_damping": 0.0,
-                "stretch_damping": 0.0,
-                "material_damping": 0.0,
-                "rest_bending": (0.0, 0.0),
-                "rest_twist": 0.0,
-                "nodes": None,
+                **UNSAID,
             },
         ),
         "gravity": (0.0, 0.0, 0.0),
