@@ -8,9 +8,12 @@ CDCR_RANDOM_TESTS=N draws other examples each time, N times as many; the nightly
 from __future__ import annotations
 
 import os
-from collections.abc import Generator
+import sys
+from collections.abc import Generator, Iterator
+from pathlib import Path
 
 import pytest
+from example_script import Example
 from hypothesis import settings
 
 import cdcr
@@ -76,3 +79,17 @@ def skip_what_needs_cvode() -> Generator[None]:
 
 
 pytest_runtest_setup = pytest_runtest_call = skip_what_needs_cvode
+
+
+@pytest.fixture
+def example(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> Iterator[Example]:
+    monkeypatch.setattr(sys, "argv", [])
+    mpl = pytest.importorskip("matplotlib")
+    mpl.use("Agg")
+    with mpl.rc_context():
+        yield Example(tmp_path / "picture.png", capsys)
+    from matplotlib import pyplot
+
+    pyplot.close("all")

@@ -14,6 +14,7 @@ from cdcr.base.arrays import FloatArray, ReadOnlyArrays, finite, read_only
 from cdcr.base.check import count, require_kind
 from cdcr.model.model import Model
 from cdcr.motion import splines
+from cdcr.motion.placed import placed
 from cdcr.motion.splines import Motion, Pair, TimeFunction
 
 Angle: TypeAlias = "ArrayLike | TimeFunction"
@@ -334,20 +335,3 @@ class Reference(ReadOnlyArrays):
     def _quintic(self) -> Motion:
         """Motion between the samples where none was given."""
         return splines.quintic(self.t, self.q, self.qd, self.qdd)
-
-
-@dataclass(frozen=True, eq=False)
-class _Placed:
-    """Coordinates of a robot that bends as a motion says."""
-
-    motion: Motion
-    model: Model
-
-    def __call__(self, times: FloatArray) -> FloatArray:
-        """Return values, rates and accelerations at times (M,)."""
-        return self.model.coordinates(self.motion(times))
-
-
-def placed(motion: Motion, model: Model) -> Motion:
-    """Return a motion of bending vectors as one of a robot's coordinates."""
-    return _Placed(motion, model) if model.has_rods else motion

@@ -18,13 +18,8 @@ from cdcr.robot.cable import Cable
 from cdcr.robot.filed import Filed
 from cdcr.robot.parts import Parts, cable_of_parts, part_counts, parts_of
 from cdcr.robot.section import Section
+from cdcr.robot.shown import Shown
 from cdcr.robot.units import ask_about_robot
-
-if TYPE_CHECKING:
-    from os import PathLike
-    from pathlib import Path
-
-    from cdcr.view import View
 
 Vector = tuple[float, float, float]
 Matrix = tuple[Vector, Vector, Vector]  # three rows
@@ -38,7 +33,7 @@ _ZERO: Vector = (0.0, 0.0, 0.0)
 
 @by_keyword
 @dataclass(frozen=True, kw_only=True)
-class Robot(Filed):
+class Robot(Filed, Shown):
     """A cable-driven continuum robot: its sections from base to tip, and what acts on all of them.
 
     Parameters
@@ -281,81 +276,6 @@ class Robot(Filed):
         cut = [parts_of(*pair) for pair in zip(self.sections, counts, strict=True)]
         cables = [cable_of_parts(cable, counts) for cable in self.cables]
         return replace(self, sections=tuple(chain.from_iterable(cut)), cables=tuple(cables))
-
-    def view(self, *, port: int = 8080, browser: bool = True) -> View:
-        """Simulate the robot in the browser, live. Needs the extra ``view``.
-
-        It begins at rest. Sliders change cables, gravity and payload; the mouse pulls the backbone.
-        A robot without damping gets a tenth of the critical one, which a slider changes too. A
-        notebook shows the page that `record` writes.
-
-        Parameters
-        ----------
-        port : int, default 8080
-            Where it is served, to this machine alone; 0 for any free one.
-        browser : bool, default True
-            Whether to open it in the browser.
-
-        Returns
-        -------
-        View
-            Served until its ``close()``, at its ``url``; ``wait()`` waits for Ctrl-C.
-
-        Raises
-        ------
-        ImportError
-            Without the extra ``view``.
-        OSError
-            Where the port is in use.
-
-        Examples
-        --------
-        >>> import cdcr
-        >>> with cdcr.robots.amouri2020().view(port=0, browser=False) as view:
-        ...     print(view.url)
-        http://127.0.0.1:...
-        """
-        from cdcr import view
-
-        return view.show(view.Session(self), "robot", port=port, browser=browser)
-
-    def record(self, path: str | PathLike[str], *, overwrite: bool = False) -> Path:
-        """Write a page on which the robot goes round in a circle once. Needs the extra ``view``.
-
-        Parameters
-        ----------
-        path : str or path
-            The page, ending in ``.html``.
-        overwrite : bool, default False
-            Whether a file of that name may be replaced.
-
-        Returns
-        -------
-        Path
-            Of the page.
-
-        Raises
-        ------
-        FileExistsError
-            Where there is such a file and `overwrite` is False.
-        ValueError
-            For another ending.
-        ImportError
-            Without the extra ``view``.
-
-        Examples
-        --------
-        >>> import tempfile
-        >>> from pathlib import Path
-        >>> import cdcr
-        >>> with tempfile.TemporaryDirectory() as folder:
-        ...     page = cdcr.robots.amouri2020().record(Path(folder) / "robot.html")
-        ...     page.name
-        'robot.html'
-        """
-        from cdcr import view
-
-        return view.View(view.Session(self), "robot").record(path, overwrite=overwrite)
 
     def _to_core(self) -> _core.Robot:
         plain = {item.name: getattr(self, item.name) for item in fields(self)}

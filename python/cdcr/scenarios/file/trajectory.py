@@ -22,7 +22,8 @@ from cdcr.files.refusals import named_by
 from cdcr.files.toml import format_toml, refuse, schema_errors
 from cdcr.model.coordinates import bending
 from cdcr.model.model import Model
-from cdcr.motion.reference import Reference, placed
+from cdcr.motion.placed import placed
+from cdcr.motion.reference import Reference
 from cdcr.motion.splines import Motion, bending_vectors
 from cdcr.runs.export import all_bend_evenly, columns_of
 from cdcr.scenarios.file.tracking import TrackedMotion, driven_by_length
