@@ -75,20 +75,6 @@ def test_defaults() -> None:
         "cable_damping": 0.0,
         "cable_friction": 0.0,
         "damping": 0.0,
-        "bending_order": 0,
-        "twist_order": None,
-        "stretch_order": None,
-        "backbone_inner_diameter": 0.0,
-        "shear_modulus": None,
-        "bending_stiffness": None,
-        "twist_stiffness": None,
-        "stretch_stiffness": None,
-        "twist_damping": 0.0,
-        "stretch_damping": 0.0,
-        "material_damping": 0.0,
-        "rest_bending": (0.0, 0.0),
-        "rest_twist": 0.0,
-        "nodes": None,
     }
     robot = cdcr.Robot(sections=[section])
     assert (robot.gravity, robot.payload) == ((0.0, 0.0, 0.0), 0.0)
