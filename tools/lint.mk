@@ -17,7 +17,7 @@ mypy:
 imports:
 	PYTHONPATH=python lint-imports --no-cache
 ruff:
-	ruff check
+	ruff check --no-cache
 ruff-format:
 	ruff format --check
 codespell:

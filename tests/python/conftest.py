@@ -13,11 +13,11 @@ from collections.abc import Generator, Iterator
 from pathlib import Path
 
 import pytest
-from example_script import Example
 from hypothesis import settings
 
 import cdcr
 from cdcr import _core
+from example_script import Example
 
 LONGEST = {
     "test_cli",

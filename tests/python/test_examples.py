@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from example_script import Example
 from scipy.integrate import solve_ivp  # type: ignore[import-untyped]
 from scipy.linalg import expm  # type: ignore[import-untyped]
 from scipy.optimize import brentq, minimize_scalar, root  # type: ignore[import-untyped]
 
 import cdcr
+from example_script import Example
 
 GRAVITY = 9.81
 

@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from example_script import Example
 from scipy.optimize import root  # type: ignore[import-untyped]
+
+from example_script import Example
 
 
 def test_helical_cable(example: Example) -> None:
