@@ -7,11 +7,6 @@
 
 namespace cdcr::detail {
 
-template <int N>
-void read(const PolynomialTable<N>& table, double sigma, Eigen::Array<double, N, 1>& f) {
-  table(sigma, f);
-}
-
 struct RodParameters;
 
 /// What is fixed about a section, a constant-curvature one if it is no rod.
