@@ -7,9 +7,11 @@
 
 #include "batch/rk4_lanes.hpp"
 #include "cdcr/simulate.hpp"
+#include "support/cable_robots.hpp"
 #include "support/cases.hpp"
 #include "support/chain_cases.hpp"
 #include "support/residual.hpp"
+#include "support/rod_robots.hpp"
 #include "support/runs.hpp"
 
 namespace cdcr::test {
@@ -108,6 +110,43 @@ TEST_CASE("a state that is none, or bent too far, leaves those beside it alone")
       for (int lane = 2; lane < width.value; ++lane) CHECK(found[lane] == beside[lane]);
     });
   });
+}
+
+TEST_CASE("many states at once are those of single states, of any robot and number") {
+  Random random;
+  std::vector<Model> models;
+  for_each_model([&](const Model& model, Random&) { models.push_back(model); });
+  models.emplace_back(rubbing_chain(random, 2));
+  models.emplace_back(rod_robot());
+  for (const Model& model : models) {
+    const Index d = model.num_coordinates(), cables = model.num_cables();
+    Data data(model);
+    for (const Index count : {0, 1, 7}) {
+      RowMatrixXd q(count, d), qd(count, d), qdd(count, d);
+      for (Index i = 0; i < count; ++i) {
+        q.row(i) = model.rest() + random.vector(d, 1e-2);
+        qd.row(i) = random.vector(d, 1.0);
+      }
+      const VectorXd tension = rest_command_of(model);
+      forward_dynamics(model, data, count, {q.data(), d}, {qd.data(), d}, {tension.data(), 0},
+                       qdd.data());
+      for (Index i = 0; i < count; ++i) {
+        VectorXd expected(d);
+        forward_dynamics(model, data, q.row(i).transpose(), qd.row(i).transpose(), tension,
+                         expected);
+        CHECK(residual(qdd.row(i).transpose(), expected, expected.norm()) <= same_acceleration);
+      }
+      RowMatrixXd pulls = RowMatrixXd::Random(count, cables).cwiseAbs();
+      forward_dynamics(model, data, count, {q.data(), 0}, {qd.data(), 0}, {pulls.data(), cables},
+                       qdd.data());
+      for (Index i = 0; i < count; ++i) {
+        VectorXd expected(d);
+        forward_dynamics(model, data, q.row(0).transpose(), qd.row(0).transpose(),
+                         pulls.row(i).transpose(), expected);
+        CHECK(residual(qdd.row(i).transpose(), expected, expected.norm()) <= same_acceleration);
+      }
+    }
+  }
 }
 
 TEST_CASE("motions in lanes are those of rk4, of any width") {
