@@ -1,5 +1,7 @@
 #include "batch/rk4_lanes.hpp"
 
+#include <algorithm>
+
 namespace cdcr::detail {
 namespace {
 
@@ -8,13 +10,17 @@ class Rk4Of final : public Rk4Lanes {
  public:
   using P = Pack<W>;
 
-  explicit Rk4Of(const Model& model) : d_(model.num_coordinates()), lanes_(model) {
-    for (std::vector<P>* v : {&y_, &slope_, &sum_}) v->assign(size_of_state() * blocks, P(0.0));
-    trial_.assign(size_of_state(), P(0.0));
-    force_.assign(static_cast<std::size_t>(d_) * blocks, P(0.0));
+  Rk4Of(const Model& model, Index motions)
+      : d_(model.num_coordinates()),
+        packs_(std::clamp<Index>((motions + W - 1) / W, 1, most)),
+        lanes_(model) {
+    const auto size = static_cast<std::size_t>(d_), packs = static_cast<std::size_t>(packs_);
+    for (std::vector<P>* v : {&y_, &slope_, &sum_}) v->assign(2 * size * packs, P(0.0));
+    trial_.assign(2 * size, P(0.0));
+    force_.assign(size * packs, P(0.0));
   }
 
-  [[nodiscard]] Index size() const noexcept override { return W * blocks; }
+  [[nodiscard]] Index size() const noexcept override { return W * packs_; }
 
   void set_state(Index motion, const VectorXd& y) noexcept override {
     P* to = y_.data() + motion / W * 2 * d_;
@@ -41,15 +47,13 @@ class Rk4Of final : public Rk4Lanes {
 
  private:
   // Of one section several at once, since each waits for its own last result.
-  static constexpr int blocks = closed ? 8 : 1;
-
-  [[nodiscard]] std::size_t size_of_state() const { return 2 * static_cast<std::size_t>(d_); }
+  static constexpr Index most = closed ? 8 : 1;
 
   /// Slopes at y + share slope, which are added to the sum by their weight.
   template <class First>
   [[gnu::always_inline]] void stage(double share, double weight, First first) noexcept {
     const Index d = closed ? 2 : d_;
-    for (int b = 0; b < blocks; ++b) {
+    for (Index b = 0; b < packs_; ++b) {
       const P *y = y_.data() + b * 2 * d, *force = force_.data() + b * d;
       P *slope = slope_.data() + b * 2 * d, *sum = sum_.data() + b * 2 * d, *at = trial_.data();
       for (Index i = 0; i < 2 * d; ++i) at[i] = first ? y[i] : y[i] + share * slope[i];
@@ -59,18 +63,18 @@ class Rk4Of final : public Rk4Lanes {
     }
   }
 
-  Index d_;
+  Index d_, packs_;
   MotionLanes<W, closed> lanes_;
   std::vector<P> y_, slope_, sum_, trial_, force_;
 };
 
 }  // namespace
 
-std::unique_ptr<Rk4Lanes> make_rk4_lanes(const Model& model, int lanes) {
+std::unique_ptr<Rk4Lanes> make_rk4_lanes(const Model& model, Index motions, int lanes) {
   return with_motion_lanes(
       model,
       [&](auto width, auto closed) -> std::unique_ptr<Rk4Lanes> {
-        return std::make_unique<Rk4Of<width.value, closed.value>>(model);
+        return std::make_unique<Rk4Of<width.value, closed.value>>(model, motions);
       },
       lanes);
 }

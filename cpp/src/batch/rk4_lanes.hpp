@@ -24,7 +24,9 @@ class Rk4Lanes {
   virtual void step(double h) noexcept = 0;
 };
 
-/// In the lanes of this processor, or fewer. For models with fits_lanes() alone.
-[[nodiscard]] std::unique_ptr<Rk4Lanes> make_rk4_lanes(const Model& model, int lanes = num_lanes);
+/// For so many motions, or as many of them as go well together, in the lanes of this processor or
+/// fewer. For models with fits_lanes() alone.
+[[nodiscard]] std::unique_ptr<Rk4Lanes> make_rk4_lanes(const Model& model, Index motions,
+                                                       int lanes = num_lanes);
 
 }  // namespace cdcr::detail

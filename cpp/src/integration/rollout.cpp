@@ -96,7 +96,7 @@ class Rollout {
     const Index count = motions_.size();
     for (Index i = 0; i < count; ++i) rows_.clear(i);
     is_begun_.assign(static_cast<std::size_t>(count), 0);
-    const bool in_lanes = count > 1 && detail::fits_lanes(motions_, options_);
+    const bool in_lanes = count > 0 && detail::fits_lanes(motions_, options_);
     const Index block = in_lanes ? detail::lane_block(motions_) : 1;
     const auto task = [&](Index i, const detail::GoOn& go_on) {
       if (!in_lanes) return run_motion(i, go_on);

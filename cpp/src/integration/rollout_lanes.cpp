@@ -19,7 +19,7 @@ class Block {
         model_(motions.model(0)),
         rows_(rows),
         lost_(lost),
-        lanes_(make_rk4_lanes(model_)),
+        lanes_(make_rk4_lanes(model_, motions.size() - first)),
         first_(first),
         count_(std::min(lanes_->size(), motions.size() - first)),
         is_lost_(static_cast<std::size_t>(count_), false),
@@ -94,7 +94,7 @@ bool fits_lanes(const Motions& motions, const RolloutOptions& options) noexcept 
 }
 
 Index lane_block(const Motions& motions) {
-  return make_rk4_lanes(motions.model(0))->size();
+  return make_rk4_lanes(motions.model(0), motions.size())->size();
 }
 
 bool run_in_lanes(const Motions& motions, const RolloutOptions& options, Index first,
