@@ -6,9 +6,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "chain/dual.hpp"
 #include "chain/energy.hpp"
 #include "chain/functions.hpp"
+#include "derivatives/dual.hpp"
 #include "section/rod_cable.hpp"
 #include "support/allocations.hpp"
 #include "support/cases.hpp"
@@ -213,13 +213,12 @@ TEST_CASE("on dual numbers, the gradient of the potential energy is its derivati
     state->update_position(chain, q.data());
     VectorXd gradient(q.size());
     detail::weight_gradient(chain, *state, q.data(), gradient.data());
-    MatrixXd slope(1, q.size());
-    detail::differentiate(static_cast<int>(q.size()), 1, q.data(), slope,
-                          [&](const Dual* at, Dual* U) {
-                            duals->update_position(chain, at);
-                            U[0] = detail::potential_energy_of(chain, *duals, at);
-                          });
-    CHECK(residual(slope.transpose(), gradient) <= tolerance::recursion);
+    MatrixXd slope = MatrixXd::Zero(q.size(), q.size());
+    detail::differentiate(q.size(), q.data(), slope, 1.0, [&](const Dual* at, Dual* U) {
+      duals->update_position(chain, at);
+      U[0] = detail::potential_energy_of(chain, *duals, at);
+    });
+    CHECK(residual(slope.row(0).transpose(), gradient) <= tolerance::recursion);
   }
 }
 

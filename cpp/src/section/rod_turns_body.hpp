@@ -171,7 +171,7 @@ template <class S>
 void RodTurns<S>::read_table(const ArcTable& arcs, const Pack& sigma, TurnFunctions<Pack>& f) {
   for (int lane = 0; lane < L::count; ++lane) {
     ArcValues<S> values;
-    detail::read(arcs, S(L::get(sigma, lane)), values);
+    read_arcs(arcs, S(L::get(sigma, lane)), values);
     L::set(f.A, lane, values[arc_a]);
     L::set(f.sine, lane, values[arc_s]);
     L::set(f.G, lane, values[arc_g]);

@@ -1,4 +1,4 @@
-#include "chain/dual.hpp"
+#include "derivatives/dual.hpp"
 #include "section/rod_body.hpp"
 #include "section/rod_part_body.hpp"
 
