@@ -138,7 +138,7 @@ class Data {
     return parts_ == model.parts();
   }
 
-  /// What is kept; private to the library. None where the closed form applies.
+  /// What is kept; private to the library.
   class Kept;
   [[nodiscard]] Kept* kept() noexcept { return kept_.get(); }
 

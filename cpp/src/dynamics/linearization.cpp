@@ -2,8 +2,9 @@
 
 #include "base/sizes.hpp"
 #include "cdcr/dynamics.hpp"
-#include "dynamics/differentiate_motion.hpp"
 #include "dynamics/kept.hpp"
+#include "loads/cable_force.hpp"
+#include "loads/force_derivatives.hpp"
 
 namespace cdcr {
 namespace {
@@ -22,17 +23,32 @@ void set_upper_rows(Index m, MatrixRef A) noexcept {
          check_wrenches(model, wrenches) == Status::ok;
 }
 
-/// The same with the room of either kind of section.
+/// Rows of A that are d(qdd)/d(q, qd), and of B where it is wanted, under all forces.
 void differentiate_motion(const Model& model, Data& data, const ConstVectorRef& q,
                           const ConstVectorRef& qd, const ConstVectorRef& command,
                           const Wrenches& wrenches, MatrixRef A, MatrixRef* B) noexcept {
-  if (model.has_rods()) {
-    // NOLINTNEXTLINE(bugprone-unchecked-optional-access): has room
-    return detail::differentiate_motion(model, *data.kept()->dual_rods, q, qd, command, wrenches, A,
-                                        B);
-  }
-  detail::ArcChainState<detail::Dual> state;
-  detail::differentiate_motion(model, state, q, qd, command, wrenches, A, B);
+  total_force(model, q, qd, command, wrenches, data.force);
+  detail::ForceDuals& duals = data.kept()->force_duals;
+  data.kept()->with_derivatives(
+      model,
+      [&](auto& chain, auto& state, auto& derivatives) {
+        const detail::LaneMap& lanes = derivatives.lanes;
+        derivatives.update(chain, state, q.data(), qd.data(), data.force.data());
+        add_force_derivatives(model, duals, q, qd, command, wrenches, lanes,
+                              derivatives.rows.data());
+        derivatives.solve(B != nullptr ? lanes.width() : lanes.num_state_quads());
+        const Index m = q.size();
+        for (Index k = 0; k < m; ++k) {
+          for (Index i = 0; i < m; ++i) {
+            A(m + i, k) = derivatives(i, lanes.on_q(k));
+            A(m + i, m + k) = derivatives(i, lanes.on_qd(k));
+          }
+        }
+        for (Index j = 0; B != nullptr && j < command.size(); ++j) {
+          for (Index i = 0; i < m; ++i) (*B)(m + i, j) = derivatives(i, lanes.on_command(j));
+        }
+      },
+      q.data(), qd.data());
 }
 
 /// The lower rows of A, and M^-1, of one section under a constant force.

@@ -7,6 +7,12 @@
 
 namespace cdcr::detail {
 
+/// The table on any scalar that has such a function.
+template <class S>
+void read_arcs(const ArcTable& arcs, const S& sigma, ArcValues<S>& f) {
+  read(arcs, sigma, f);
+}
+
 struct RodParameters;
 
 /// What is fixed about a section, a constant-curvature one if it is no rod.
@@ -22,7 +28,8 @@ struct SectionParameters {
 /// eqs. (23) to (25): where it ends, and how the end moves with q.
 template <class S>
 struct Arc {
-  using Matrix3m = Eigen::Matrix<S, 3, 2>;
+  static constexpr int max_m = 2;
+  using Matrix3m = Eigen::Matrix<S, 3, max_m>;
 
   FrameState<S> base;
   S q_x, q_y;

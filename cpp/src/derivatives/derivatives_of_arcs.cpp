@@ -1,0 +1,10 @@
+#include "derivatives/differentiate_motion.hpp"
+#include "derivatives/weight_hessian.hpp"
+
+namespace cdcr::detail {
+
+template class MotionDerivatives<ConstantCurvature>;
+template void weight_hessian(const Chain&, const ArcChainState<double>&, const double*,
+                             ConstantCurvature<Dual>&, MatrixRef) noexcept;
+
+}  // namespace cdcr::detail
