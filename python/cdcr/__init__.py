@@ -45,6 +45,7 @@ from cdcr.runs.events import SlackEvent
 from cdcr.runs.pid import Pid
 from cdcr.runs.rollout import rollout
 from cdcr.runs.rollout_result import Rollout, RolloutFailure
+from cdcr.runs.rollout_store import rollout_to_zarr
 from cdcr.runs.simulate import simulate
 from cdcr.runs.trajectory import Trajectory
 
@@ -94,6 +95,7 @@ __all__ = [
     "polar",
     "robots",
     "rollout",
+    "rollout_to_zarr",
     "scenarios",
     "simulate",
     "stable_step",
