@@ -50,5 +50,6 @@ void bind_modes(PyModel& model);                          ///< called by bind_mo
 void bind_control(pybind11::module_& m);
 void bind_simulate(pybind11::module_& m);
 void bind_simulator(pybind11::module_& m);
+void bind_rollout(pybind11::module_& m);
 
 }  // namespace cdcr::python

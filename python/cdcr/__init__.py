@@ -43,6 +43,8 @@ from cdcr.robot.states import merge_state, subdivide_state
 from cdcr.runs.command import TensionTable
 from cdcr.runs.events import SlackEvent
 from cdcr.runs.pid import Pid
+from cdcr.runs.rollout import rollout
+from cdcr.runs.rollout_result import Rollout, RolloutFailure
 from cdcr.runs.simulate import simulate
 from cdcr.runs.trajectory import Trajectory
 
@@ -69,6 +71,8 @@ __all__ = [
     "Pid",
     "Reference",
     "Robot",
+    "Rollout",
+    "RolloutFailure",
     "Section",
     "Simulator",
     "SlackEvent",
@@ -89,6 +93,7 @@ __all__ = [
     "paper",
     "polar",
     "robots",
+    "rollout",
     "scenarios",
     "simulate",
     "stable_step",

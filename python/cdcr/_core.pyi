@@ -271,6 +271,22 @@ def simulate_controlled(
     loads: Loads,
     events: Sequence[tuple[Callable[..., object], int, int]],
 ) -> Trajectory: ...
+def rollout(
+    models: Sequence[Model],
+    q0: ArrayLike,
+    qd0: ArrayLike,
+    commands: ArrayLike | None,
+    controllers: Controller | Sequence[Controller] | None,
+    loads: Loads,
+    method: Method,
+    options: Options,
+    step: float,
+    steps: int,
+    record_every: int,
+    start: float,
+    threads: int,
+    progress: Callable[[int], object] | None,
+) -> tuple[_FloatArray, _FloatArray, _FloatArray | None, list[tuple[int, Status, str]], Stats]: ...
 
 class Controller(metaclass=_Bound):
     """Turns the measured state into commands, each period."""

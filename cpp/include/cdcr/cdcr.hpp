@@ -16,6 +16,7 @@
 #include "cdcr/modes.hpp"
 #include "cdcr/pid.hpp"
 #include "cdcr/robot.hpp"
+#include "cdcr/rollout.hpp"
 #include "cdcr/signal.hpp"
 #include "cdcr/simulate.hpp"
 #include "cdcr/simulator.hpp"

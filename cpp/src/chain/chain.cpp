@@ -1,8 +1,8 @@
 #include "chain/chain.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
+#include <Eigen/Cholesky>
 
+#include "base/eigenvalues.hpp"
 #include "chain/functions.hpp"
 
 namespace cdcr::detail {
@@ -86,11 +86,9 @@ Index find_singular_section(const Chain& chain) {
     const auto scale = size.segment(at, m_i).cwiseInverse().asDiagonal();
     const MatrixXd relative = scale * D * scale;
     if (!relative.allFinite()) return i;
-    const double smallest =
-        Eigen::SelfAdjointEigenSolver<MatrixXd>(relative, Eigen::EigenvaluesOnly).eigenvalues()[0];
-    if (!(smallest > singular_share)) return i;
+    if (!(symmetric_eigenvalues(relative)[0] > singular_share)) return i;
     const MatrixXd coupling = M.block(0, at, at, m_i);
-    M.topLeftCorner(at, at) -= coupling * D.inverse() * coupling.transpose();
+    M.topLeftCorner(at, at) -= coupling * D.llt().solve(coupling.transpose());
   }
   return -1;
 }
