@@ -27,6 +27,7 @@ from cdcr._core import (
     taylor_range,
 )
 from cdcr.model.coordinates import bending, polar
+from cdcr.model.derivatives import Derivatives
 from cdcr.model.inverse_kinematics import InverseKinematics
 from cdcr.model.model import Model
 from cdcr.model.modes import Modes
@@ -63,6 +64,7 @@ __all__ = [
     "Cable",
     "Controller",
     "ConvergenceError",
+    "Derivatives",
     "Equilibrium",
     "InfeasibleError",
     "InverseKinematics",
