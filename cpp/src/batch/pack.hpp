@@ -133,4 +133,12 @@ struct ScalarBinaryOpTraits<double, cdcr::detail::Pack<W>, Operation> {
   using ReturnType = cdcr::detail::Pack<W>;
 };
 
+// Packs are aligned by themselves, further than Eigen aligns its arrays; Clang refuses less.
+namespace internal {
+template <int W, int Size>
+struct compute_default_alignment<cdcr::detail::Pack<W>, Size> {
+  enum { value = 0 };  // NOLINT(readability-identifier-naming): a name of Eigen
+};
+}  // namespace internal
+
 }  // namespace Eigen
