@@ -5,7 +5,7 @@
 #include <exception>
 #include <utility>
 
-#include "cdcr/pid.hpp"
+#include "cdcr/controller.hpp"
 
 namespace cdcr::python {
 
@@ -30,14 +30,6 @@ class PythonController final : public Controller {
 
   double period_;
   std::exception_ptr exception_;
-};
-
-/// A Pid that knows the model as Python has it.
-class PythonPid final : public Pid {
- public:
-  PythonPid(pybind11::object of, PidOptions options);
-
-  pybind11::object model;
 };
 
 }  // namespace cdcr::python
