@@ -31,6 +31,24 @@ py::tuple linearize_states(const Model& self, const py::object& q, const py::obj
   return py::make_tuple(std::move(all_A), std::move(all_B));
 }
 
+py::array_t<double> accelerations(const Model& self, const py::object& q, const py::object& qd,
+                                  const py::object& tension, const Wrenches& loads) {
+  const Index d = self.num_coordinates();
+  const States states{read_bendings(self, q), read_rates(self, qd, "qd"),
+                      read_tensions(self, tension)};
+  if (!loads.empty() || !states.is_one_row()) {
+    return states.vectors(d, [&](auto& x, auto& xd, auto& command, auto& out) {
+      forward_dynamics(self, scratch(self), x, xd, command, loads, out);
+    });
+  }
+  py::array_t<double> all = states.output({d});
+  double* qdd = all.mutable_data();
+  states.blocks([&](Index first, Index count, const auto&... rows) {
+    forward_dynamics(self, scratch(self), count, rows..., qdd + first * d);
+  });
+  return all;
+}
+
 py::tuple differentiate_states(const Model& self, const py::object& q, const py::object& qd,
                                const py::object& tension, const py::object& wrenches) {
   require_inertia(self);
@@ -87,12 +105,7 @@ void bind_dynamics(PyModel& model) {
           [](const Model& self, const py::object& q, const py::object& qd,
              const py::object& tension, const py::object& wrenches) {
             require_inertia(self);
-            const Wrenches loads = read_wrenches(self, wrenches);
-            return States{read_bendings(self, q), read_rates(self, qd, "qd"),
-                          read_tensions(self, tension)}
-                .vectors(self.num_coordinates(), [&](auto& x, auto& xd, auto& command, auto& out) {
-                  forward_dynamics(self, scratch(self), x, xd, command, loads, out);
-                });
+            return accelerations(self, q, qd, tension, read_wrenches(self, wrenches));
           },
           "q"_a, "qd"_a, "tension"_a, "wrenches"_a = py::tuple(),
           Doc("Accelerations under cables and wrenches: cpp/README.md eqs. (12), (16),\n"

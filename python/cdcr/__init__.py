@@ -20,6 +20,7 @@ from cdcr._core import (
     Allocation,
     Controller,
     Equilibrium,
+    ReferencePath,
     Simulator,
     Stats,
     Status,
@@ -35,6 +36,7 @@ from cdcr.model.stability import stable_step
 from cdcr.model.statics import ConvergenceError, InfeasibleError
 from cdcr.model.subdivision import subdivide_wrench
 from cdcr.model.wrench import Wrench
+from cdcr.motion.feasibility import PathReport, check_path
 from cdcr.motion.inverse import InverseRun, inverse_run
 from cdcr.motion.reference import Reference
 from cdcr.robot.cable import Cable
@@ -42,10 +44,13 @@ from cdcr.robot.robot import Robot
 from cdcr.robot.section import Section
 from cdcr.robot.states import merge_state, subdivide_state
 from cdcr.runs.command import TensionTable
+from cdcr.runs.controllers import ComputedTorque, StateFeedback, TaskSpace
 from cdcr.runs.events import SlackEvent
+from cdcr.runs.loop import Actuator, Loop, LoopRun, Sensor, Winch
 from cdcr.runs.pid import Pid
 from cdcr.runs.rollout import rollout
 from cdcr.runs.rollout_result import Rollout, RolloutFailure
+from cdcr.runs.rollout_store import rollout_to_zarr
 from cdcr.runs.simulate import simulate
 from cdcr.runs.trajectory import Trajectory
 
@@ -59,8 +64,10 @@ if TYPE_CHECKING:
 __version__: str = _core.__version__
 
 __all__ = [
+    "Actuator",
     "Allocation",
     "Cable",
+    "ComputedTorque",
     "Controller",
     "ConvergenceError",
     "Derivatives",
@@ -68,23 +75,32 @@ __all__ = [
     "InfeasibleError",
     "InverseKinematics",
     "InverseRun",
+    "Loop",
+    "LoopRun",
     "Model",
     "Modes",
+    "PathReport",
     "Pid",
     "Reference",
+    "ReferencePath",
     "Robot",
     "Rollout",
     "RolloutFailure",
     "Section",
+    "Sensor",
     "Simulator",
     "SlackEvent",
+    "StateFeedback",
     "Stats",
     "Status",
+    "TaskSpace",
     "TensionTable",
     "Trajectory",
+    "Winch",
     "Wrench",
     "__version__",
     "bending",
+    "check_path",
     "control",
     "export",
     "identification",
@@ -96,6 +112,7 @@ __all__ = [
     "polar",
     "robots",
     "rollout",
+    "rollout_to_zarr",
     "scenarios",
     "simulate",
     "stable_step",

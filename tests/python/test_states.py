@@ -123,6 +123,21 @@ def test_one_state_has_no_leading_dimension(model: cdcr.Model, name: str) -> Non
         assert np.shape(one) == core_shape(model, letters)
 
 
+@pytest.mark.parametrize("robot", [cdcr.robots.amouri2020(), cdcr.robots.three_sections()])
+def test_many_states_in_lanes_are_single_states_to_rounding(robot: cdcr.Robot) -> None:
+    plain = cdcr.Model(robot)
+    rng = np.random.default_rng(2)
+    q, qd = (rng.normal(size=(11, plain.num_coordinates)) for _ in range(2))
+    tension = rng.uniform(0.0, 3.0, plain.num_cables)
+    for pulls in (tension, tension * np.arange(11)[:, None]):
+        got = plain.forward_dynamics(q, qd, pulls)
+        for i, row in enumerate(np.broadcast_to(pulls, (11, plain.num_cables))):
+            expected = plain.forward_dynamics(q[i], qd[i], row)
+            scale = np.abs(expected).max()
+            np.testing.assert_allclose(got[i], expected, rtol=0.0, atol=1e-12 * scale)
+    assert plain.forward_dynamics(q[:0], qd[:0], tension).shape == (0, plain.num_coordinates)
+
+
 def test_any_layout_of_an_array_will_do(model: cdcr.Model) -> None:
     q = states(model, q=(6, 4))["q"]
     for view in (q[::2], q[:, ::-1], q.transpose(1, 0, 2), np.asfortranarray(q), q.tolist()):

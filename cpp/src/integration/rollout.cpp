@@ -9,14 +9,12 @@
 
 #include "cdcr/robot_ode.hpp"
 #include "dynamics/bending.hpp"
-#include "integration/workers.hpp"
+#include "integration/rollout_lanes.hpp"
 
 namespace cdcr {
 namespace {
 
 using detail::require;
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// The n-th of the items of that name, as messages call it: "q0[2] (motion 3)".
 std::string nth(const char* item, Index motion) {
@@ -26,7 +24,7 @@ std::string nth(const char* item, Index motion) {
 void check_motions(const Motions& motions) {
   const Index count = motions.size();
   const auto is_one_or_each = [&](std::size_t size) {
-    return size == 1 || static_cast<Index>(size) == count;
+    return size == 1 || (size > 0 && static_cast<Index>(size) == count);
   };
   require(is_one_or_each(motions.models.size()), "models must be one, or one for each of the ",
           count, " motions, got ", motions.models.size());
@@ -60,7 +58,7 @@ void check_commands(const Motions& motions, const RolloutOptions& options) {
   const Index steps = given.between_steps == 0 ? 1 : options.steps;
   for (Index i = 0; i < all; ++i) {
     for (Index k = 0; k < steps; ++k) {
-      const double* command = given.data + i * given.between_motions + k * given.between_steps;
+      const double* command = detail::command_of(motions, i, k);
       for (Index j = 0; j < motions.model(i).num_cables(); ++j) {
         require(command[j] >= 0.0 && std::isfinite(command[j]), "tension of motion ", i + 1,
                 ", step ", k + 1, ", cable ", j + 1,
@@ -70,11 +68,15 @@ void check_commands(const Motions& motions, const RolloutOptions& options) {
   }
 }
 
-/// The rollout itself: `simulate` for each motion, and its rows where they belong.
+/// The rollout itself: `simulate` for each motion, or many in lanes where that gives the same.
 class Rollout {
  public:
   Rollout(const Motions& motions, const RolloutOptions& options, const RolloutRows& rows)
-      : motions_(motions), options_(options), rows_(rows), tolerances_(options.tolerances) {
+      : motions_(motions),
+        options_(options),
+        rows_(rows, options.rows(), motions.models.front()->num_coordinates(),
+              motions.models.front()->num_cables()),
+        tolerances_(options.tolerances) {
     tolerances_.step = options.step;
     if (options.method == Method::rk4 && !tolerances_.max_steps) {
       tolerances_.max_steps = std::numeric_limits<long>::max();  // as many as asked for
@@ -92,14 +94,21 @@ class Rollout {
 
   RolloutOutcome go(const RolloutProgress& progress) {
     const Index count = motions_.size();
-    for (Index i = 0; i < count; ++i) fill(i, 0, nullptr);
-    begun_.assign(static_cast<std::size_t>(count), false);
-    detail::for_each_task(
-        count, options_.threads,
-        [this](Index i, const detail::GoOn& go_on) { run_motion(i, go_on); }, progress);
+    for (Index i = 0; i < count; ++i) rows_.clear(i);
+    is_begun_.assign(static_cast<std::size_t>(count), 0);
+    const bool in_lanes = count > 0 && detail::fits_lanes(motions_, options_);
+    const Index block = in_lanes ? detail::lane_block(motions_) : 1;
+    const auto task = [&](Index i, const detail::GoOn& go_on) {
+      if (!in_lanes) return run_motion(i, go_on);
+      run_block(i * block, std::min(block, count - i * block), go_on);
+    };
+    const auto report = [&](Index ended) {
+      return !progress || progress(std::min(count, ended * block));
+    };
+    detail::for_each_task((count + block - 1) / block, options_.threads, task, report);
     for (Index i = 0; i < count; ++i) {
-      if (begun_[static_cast<std::size_t>(i)] != 0) continue;
-      outcome_.failures.push_back({i, Status::interrupted, "The rollout ended before it began."});
+      if (is_begun_[static_cast<std::size_t>(i)] != 0) continue;
+      fail(i, Status::interrupted, "The rollout ended before it began.");
     }
     std::sort(outcome_.failures.begin(), outcome_.failures.end(),
               [](const auto& a, const auto& b) { return a.motion < b.motion; });
@@ -108,16 +117,45 @@ class Rollout {
 
  private:
   void run_motion(Index i, const detail::GoOn& go_on) {
-    begun_[static_cast<std::size_t>(i)] = 1;
+    is_begun_[static_cast<std::size_t>(i)] = 1;
     const Trajectory run = simulated(i, [&](double /*t*/) { return go_on(); });
-    fill(i, run.t.size(), &run);
+    for (Index row = 0; row < run.t.size(); ++row) {
+      rows_.write(i, row, &run.q(row, 0), &run.qd(row, 0), run.command.row(row).data());
+    }
+    rows_.clear(i, run.t.size());
+    if (run.status != Status::ok) fail(i, run.status, run.message);
+    count_cost(run.stats);
+  }
+
+  /// So many motions in lanes; those that are lost there by themselves, which tells why.
+  void run_block(Index first, Index count, const detail::GoOn& go_on) {
+    std::fill_n(is_begun_.begin() + first, count, 1);
+    std::vector<Index> lost;
+    const bool done = detail::run_in_lanes(motions_, options_, first, rows_, go_on, lost);
+    for (Index i = first; i < first + count && !done; ++i) {
+      fail(i, Status::interrupted, "The rollout ended before it did.");
+    }
+    for (const Index i : lost) {
+      if (done) run_motion(i, go_on);
+    }
+    Stats cost;
+    cost.steps = done ? count * options_.steps : 0;
+    cost.evaluations = 4 * cost.steps;
+    count_cost(cost);
+  }
+
+  void fail(Index i, Status status, std::string message) {
     const std::lock_guard lock(mutex_);
-    if (run.status != Status::ok) outcome_.failures.push_back({i, run.status, run.message});
-    outcome_.stats.steps += run.stats.steps;
-    outcome_.stats.rejected += run.stats.rejected;
-    outcome_.stats.evaluations += run.stats.evaluations;
-    outcome_.stats.jacobians += run.stats.jacobians;
-    outcome_.stats.newton_failures += run.stats.newton_failures;
+    outcome_.failures.push_back({i, status, std::move(message)});
+  }
+
+  void count_cost(const Stats& cost) {
+    const std::lock_guard lock(mutex_);
+    outcome_.stats.steps += cost.steps;
+    outcome_.stats.rejected += cost.rejected;
+    outcome_.stats.evaluations += cost.evaluations;
+    outcome_.stats.jacobians += cost.jacobians;
+    outcome_.stats.newton_failures += cost.newton_failures;
   }
 
   Trajectory simulated(Index i, const Progress& progress) {
@@ -136,37 +174,22 @@ class Rollout {
   }
 
   CommandInput commands(Index i) const {
-    const RolloutCommands& given = motions_.commands;
     const Index cables = motions_.model(i).num_cables();
-    const double* first = given.data + i * given.between_motions;
-    if (given.between_steps == 0) {
+    const double* first = detail::command_of(motions_, i, 0);
+    if (motions_.commands.between_steps == 0) {
       return CommandInput::constant(Eigen::Map<const VectorXd>(first, cables));
     }
     const Eigen::Map<const RowMatrixXd, 0, Eigen::OuterStride<>> table(
-        first, step_times_.size(), cables, Eigen::OuterStride<>(given.between_steps));
+        first, step_times_.size(), cables, Eigen::OuterStride<>(motions_.commands.between_steps));
     return CommandInput::table(step_times_, table, CommandInput::Interpolation::previous);
-  }
-
-  /// The rows of a motion: of a run so many, NaN beyond.
-  void fill(Index i, Index reached, const Trajectory* run) {
-    const auto copy = [&](double* to, RowMatrixXd Trajectory::* rows, Index columns) {
-      if (to == nullptr) return;
-      Eigen::Map<RowMatrixXd> all(to + i * times_.size() * columns, times_.size(), columns);
-      if (run != nullptr) all.topRows(reached) = run->*rows;
-      all.bottomRows(times_.size() - reached).setConstant(none);
-    };
-    const Model& model = motions_.model(i);
-    copy(rows_.q, &Trajectory::q, model.num_coordinates());
-    copy(rows_.qd, &Trajectory::qd, model.num_coordinates());
-    copy(rows_.command, &Trajectory::command, model.num_cables());
   }
 
   const Motions& motions_;
   const RolloutOptions& options_;
-  RolloutRows rows_;
+  detail::RowWriter rows_;
   Options tolerances_;
   VectorXd times_, step_times_;  // of the rows, of the commands
-  std::vector<char> begun_;
+  std::vector<char> is_begun_;
   std::mutex mutex_;  // of the outcome
   RolloutOutcome outcome_;
 };

@@ -41,6 +41,7 @@ class Workers {
     };
     work(ask);
     wait_for(others.size(), ask);
+    guarded([&] { ask(); });  // of the last
     for (std::thread& other : others) other.join();
     if (thrown_) std::rethrow_exception(thrown_);
   }

@@ -7,12 +7,7 @@
 
 namespace cdcr::detail {
 
-template <int N>
-void read(const PolynomialTable<N>& table, double sigma, Eigen::Array<double, N, 1>& f) {
-  table(sigma, f);
-}
-
-/// The same on any scalar that has such a function.
+/// The table on any scalar that has such a function.
 template <class S>
 void read_arcs(const ArcTable& arcs, const S& sigma, ArcValues<S>& f) {
   read(arcs, sigma, f);

@@ -108,7 +108,7 @@ void RodPart<S>::turn(const ArcTable& arcs, const RodParameters& rod, const Step
   const Magnus<S> magnus(alpha[0], alpha[1], alpha[2]);
   const Vector3<S>& Omega = magnus.Omega;
   ArcValues<S> f;
-  read(arcs, S(Omega.squaredNorm()), f);
+  read_arcs(arcs, S(Omega.squaredNorm()), f);
   Matrix3<S> cross;
   cross << S(0.0), -Omega[2], Omega[1], Omega[2], S(0.0), -Omega[0], -Omega[1], Omega[0], S(0.0);
   const Matrix3<S> once = axes_ * cross, twice = once * cross;

@@ -81,7 +81,7 @@ class _Lockstep:
         several = len(batch.models) > 1
         part = replace(
             batch,
-            models=tuple(batch.models[i] for i in alive) if several else batch.models,
+            models=[batch.models[int(i)] for i in alive] if several else batch.models,
             q0=self.now[0][alive],
             qd0=self.now[1][alive],
             commands=command[alive, None, :],

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -15,6 +15,7 @@ from cdcr.base.check import Check, require_kind
 from cdcr.model.model import Model
 from cdcr.model.wrench import Wrench, loads
 from cdcr.runs.lockstep import BatchController, run_in_lockstep
+from cdcr.runs.parameters import Variation
 from cdcr.runs.rollout_result import Rollout, RolloutFailure
 from cdcr.runs.simulate import MethodName, integrator_options
 
@@ -25,7 +26,7 @@ RolloutController: TypeAlias = "_core.Pid | Sequence[_core.Controller] | BatchCo
 class Batch:
     """The arguments of a rollout, checked and of full size: what the core takes."""
 
-    models: tuple[Model, ...]
+    models: Sequence[_core.Model]  # one, or N
     q0: FloatArray  # (N, d)
     qd0: FloatArray
     commands: FloatArray | None  # (1 or N, 1 or steps, num_cables); None: of controllers
@@ -72,6 +73,7 @@ def rollout(
     controller: RolloutController | None = None,
     control_every: int = 1,
     wrenches: Wrench | Sequence[Wrench] = (),
+    parameters: Mapping[str, ArrayLike] | None = None,
     method: MethodName = "rk4",
     record_every: int = 1,
     threads: int = 0,
@@ -110,6 +112,9 @@ def rollout(
         Steps from one call of that function to the next.
     wrenches : Wrench or sequence of Wrench, optional
         Forces and moments on the robot, the same in all motions; their profiles are tables.
+    parameters : mapping of str to (N,) array_like, optional
+        Numbers of the robot that differ from motion to motion, by path as in `cdcr.sweep`:
+        ``{"sections.*.youngs_modulus": ..., "payload": ...}``. Sections and cables count from 1.
     method : {"rk4", "dopri5", "dop853", "bdf", "adams"}, optional
         As in `simulate`; rk4 has the given step.
     record_every : int, optional
@@ -179,6 +184,9 @@ def rollout(
         raise ValueError("give one of tension, command and controller")
     name, asked = ("tension", tension) if command is None else ("command", command)
     first = models[0]
+    variation = Variation(first, parameters or {})
+    if parameters and len(models) > 1:
+        raise ValueError("parameters are those of one model, give either them or several models")
     starts = [_start(first, "q0", q0), _start(first, "qd0", qd0)]
     commands = None
     if controller is None:
@@ -188,10 +196,12 @@ def rollout(
         got = type(controller).__name__
         raise TypeError(f"controller must be a cdcr.Pid, a list of them or a function, got {got}")
     drivers = controller if isinstance(controller, Sequence) else ()
-    motions = _count(models, q0=starts[0], qd0=starts[1], commands=commands, drivers=drivers)
+    motions = _count(
+        models, variation, q0=starts[0], qd0=starts[1], commands=commands, drivers=drivers
+    )
     d = first.num_coordinates
     batch = Batch(
-        models=models,
+        models=variation.models() if parameters else models,
         q0=np.broadcast_to(starts[0], (motions, d)),
         qd0=np.broadcast_to(starts[1], (motions, d)),
         commands=commands,
@@ -218,6 +228,7 @@ def rollout(
         told = np.broadcast_to(table, (motions, len(rows), first.num_cables))
     return Rollout(
         models=models,
+        parameters=variation.values,
         t=np.asarray(seconds * rows, dtype=np.float64),
         q=q,
         qd=qd,
@@ -268,6 +279,7 @@ def _commands(model: Model, name: str, given: ArrayLike | None, steps: int) -> F
 
 def _count(
     models: Sequence[Model],
+    variation: Variation,
     *,
     q0: FloatArray,
     qd0: FloatArray,
@@ -278,6 +290,8 @@ def _count(
     sizes = {"q0": len(q0), "qd0": len(qd0)}
     if len(models) > 1:
         sizes["model"] = len(models)
+    if variation.values:
+        sizes["parameters"] = len(variation)
     if commands is not None:
         sizes["tension"] = len(commands)
     if len(drivers) > 0:

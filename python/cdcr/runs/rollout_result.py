@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
-from dataclasses import asdict, dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -16,6 +16,7 @@ from cdcr.base.arrays import FloatArray, ReadOnlyArrays, read_only
 from cdcr.base.check import count
 from cdcr.base.extras import require
 from cdcr.model.model import Model
+from cdcr.runs.parameters import Variation
 from cdcr.runs.stats import STATS, make_stats
 from cdcr.runs.trajectory import Trajectory
 
@@ -55,6 +56,8 @@ class Rollout(ReadOnlyArrays):
         What all of them cost together.
     method : str
         The integration method.
+    parameters : dict of str to ndarray, shape (N,)
+        Numbers of the robot that differ from motion to motion, by path.
     """
 
     models: tuple[Model, ...]
@@ -65,6 +68,7 @@ class Rollout(ReadOnlyArrays):
     failures: tuple[RolloutFailure, ...]
     stats: Stats
     method: str
+    parameters: Mapping[str, FloatArray] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Keep others from writing to the arrays."""
@@ -75,6 +79,12 @@ class Rollout(ReadOnlyArrays):
     def model(self) -> Model:
         """The robot, or the first of them."""
         return self.models[0]
+
+    def model_of(self, motion: int) -> Model:
+        """Return the model of one motion."""
+        if self.parameters:
+            return Variation(self.model, self.parameters).model_of(motion)
+        return self.models[motion if len(self.models) > 1 else 0]
 
     @property
     def num_motions(self) -> int:
@@ -103,7 +113,8 @@ class Rollout(ReadOnlyArrays):
         """Say what a person wants to know first."""
         parts = [count(self.num_motions, "motion"), f"{count(len(self.t), 'row')} each"]
         parts.append(f"t = {self.t[0]:g} to {self.t[-1]:g} s")
-        parts += [count(len(self.models), "robot"), self.method]
+        robots = self.num_motions if self.parameters else len(self.models)
+        parts += [count(robots, "robot"), self.method]
         failed = f"{len(self.failures)} failed" if self.failures else "all ok"
         return f"<Rollout: {', '.join(parts)}, {failed}>"
 
@@ -124,7 +135,7 @@ class Rollout(ReadOnlyArrays):
         if not -self.num_motions <= motion < self.num_motions:
             raise IndexError(f"there are {count(self.num_motions, 'motion')}, got index {motion}")
         i = motion % self.num_motions
-        model = self.models[i if len(self.models) > 1 else 0]
+        model = self.model_of(i)
         reached = int(np.isfinite(self.q[i]).all(axis=1).sum())
         q, qd, command = (rows[i, :reached] for rows in (self.q, self.qd, self.command))
         failed = [failure for failure in self.failures if failure.motion == i]
@@ -147,7 +158,7 @@ class Rollout(ReadOnlyArrays):
         Dimensions and labels are those of `Trajectory.to_xarray`, and before them ``motion``, from
         0. Variables: ``q`` [rad], ``qd`` [rad/s] (motion, time, section, component), where sections
         are more than arcs (motion, time, ``coordinate``); ``command`` (motion, time, cable) [N] or
-        [m]; ``status`` (motion), its name.
+        [m]; ``status`` (motion), its name; and each of `parameters` (motion), by its path.
 
         Returns
         -------
@@ -166,6 +177,8 @@ class Rollout(ReadOnlyArrays):
             shaped = values.reshape(*values.shape[:2], -1, 2) if len(dims) == 2 else values
             about = {"units": units, "long_name": what}
             data[name] = (("motion", "time", *dims), shaped, about)
+        for path, numbers in self.parameters.items():
+            data[path] = (("motion",), numbers, {"long_name": "number of the robot"})
         names = np.array([one.name for one in self.status], dtype=str)
         data["status"] = (("motion",), names, {"long_name": "how the motion ended"})
         labels = export.coordinates(self.model, self.t)
