@@ -3,6 +3,7 @@
 
 #include "arrays.hpp"
 #include "bind.hpp"
+#include "cdcr/pid.hpp"
 #include "cdcr/rollout.hpp"
 #include "controllers.hpp"
 #include "docs.hpp"

@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "cdcr/pid.hpp"
+#include "cdcr/controller.hpp"
 
 namespace cdcr::python {
 
@@ -31,14 +31,6 @@ class PythonController final : public Controller {
 
   double period_;
   std::exception_ptr exception_;
-};
-
-/// A Pid that knows the model as Python has it.
-class PythonPid final : public Pid {
- public:
-  PythonPid(pybind11::object of, PidOptions options);
-
-  pybind11::object model;
 };
 
 /// Keeps a controller, which has a state, from driving two runs at once.

@@ -101,6 +101,23 @@ void check(const Model& model, Data& data, const Point& at) {
   CHECK(residual(A.bottomRightCorner(d, d), J.middleCols(d, d), rate) <= bound);
   if (c > 0) CHECK(residual(B.bottomRows(d), J.rightCols(c)) <= bound);
 
+  const auto w = static_cast<Index>(at.wrenches.size());
+  MatrixXd on_q(d, d), on_qd(d, d), on_command(d, c), on_wrenches(d, 6 * w);
+  acceleration_derivatives(model, data, at.q, at.qd, at.command, at.wrenches, on_q, on_qd,
+                           on_command, on_wrenches);
+  CHECK(residual(on_q, A.bottomLeftCorner(d, d)) <= tolerance::rounding);
+  CHECK(residual(on_qd, A.bottomRightCorner(d, d)) <= tolerance::rounding);
+  CHECK(residual(on_command, B.bottomRows(d)) <= tolerance::rounding);
+  if (w > 0) {  // they are linear in the wrenches
+    VectorXd components(6 * w), with(d), without(d);
+    for (Index i = 0; i < w; ++i)
+      components.segment<6>(6 * i) << at.wrenches[i].force, at.wrenches[i].moment;
+    forward_dynamics(model, data, at.q, at.qd, at.command, at.wrenches, with);
+    forward_dynamics(model, data, at.q, at.qd, at.command, without);
+    CHECK(residual(VectorXd(on_wrenches * components), VectorXd(with - without),
+                   largest(with) + largest(without)) <= bound);
+  }
+
   static_stiffness(model, data, at.q, VectorXd::Zero(c), at.wrenches, K);
   if (model.has_plain_cables()) {
     CHECK(residual(K, gradients_on_duals<Section>(model, at)) <= tolerance::recursion);
@@ -108,6 +125,17 @@ void check(const Model& model, Data& data, const Point& at) {
 }
 
 TEST_SUITE_BEGIN("derivatives");
+
+TEST_CASE("one section in closed form") {
+  Random random;
+  for_each_case(1.7 * pi, [&](const Model& model, Data& data, const State& state) {
+    for (const int num_wrenches : {0, 1}) {
+      check<detail::ConstantCurvature<Dual>>(
+          model, data,
+          {state.q, state.qd, state.tension, random_wrenches(model, num_wrenches, random)});
+    }
+  });
+}
 
 TEST_CASE("arcs: those of the whole chain on dual numbers") {
   Random random;

@@ -18,6 +18,7 @@ FUNCTIONS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "forward_dynamics": (("q", "qd", "tension"), ("d",)),
     "inverse_dynamics": (("q", "qd", "qdd"), ("d",)),
     "linearize": (("q", "qd", "tension"), ("ss", "sm")),
+    "derivatives": (("q", "qd", "tension"), ("dd", "dd", "dm", "d16")),
     "kinetic_energy": (("q", "qd"), ("",)),
     "potential_energy": (("q",), ("",)),
     "potential_gradient": (("q",), ("d",)),
@@ -38,6 +39,7 @@ FUNCTIONS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "wrench_force": (("q",), ("d",)),
 }
 MORE: dict[str, Any] = {
+    "derivatives": (cdcr.Wrench(section=0, force=(0.1, 0.2, 0.0), frame="local"),),
     "pose": (0, 0.3),
     "jacobian": (0, 0.3),
     "wrench_force": (cdcr.Wrench(section=0, force=(0.1, 0.2, 0.0)),),
@@ -79,7 +81,9 @@ def answers(model: cdcr.Model, name: str, arguments: list[Any]) -> tuple[Any, ..
 
 def core_shape(model: cdcr.Model, letters: str) -> tuple[int, ...]:
     d, n, m = model.num_coordinates, model.num_sections, model.num_cables
-    return tuple({"d": d, "n": n + 1, "m": m, "s": 2 * d, "3": 3, "6": 6}[c] for c in letters)
+    return tuple(
+        {"d": d, "n": n + 1, "m": m, "s": 2 * d, "1": 1, "3": 3, "6": 6}[c] for c in letters
+    )
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)

@@ -138,7 +138,7 @@ class Data {
     return parts_ == model.parts();
   }
 
-  /// What is kept; private to the library.
+  /// What is kept; private to the library. None where the closed form is all that is asked.
   class Kept;
   [[nodiscard]] Kept* kept() noexcept { return kept_.get(); }
 

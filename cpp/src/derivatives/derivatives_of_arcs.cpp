@@ -1,5 +1,4 @@
 #include "derivatives/differentiate_motion.hpp"
-#include "derivatives/weight_hessian.hpp"
 
 namespace cdcr::detail {
 

@@ -1,5 +1,5 @@
 #include "derivatives/differentiate_motion.hpp"
-#include "derivatives/weight_hessian.hpp"
+#include "section/rod_body.hpp"
 
 namespace cdcr::detail {
 

@@ -2,6 +2,7 @@
 
 #include "chain/functions.hpp"
 #include "derivatives/motion_derivatives.hpp"
+#include "derivatives/weight_hessian.hpp"
 #include "section/width.hpp"
 
 // The functions of MotionDerivatives, for the two files that make them of their kind of section.
@@ -212,7 +213,7 @@ void MotionDerivatives<Kind>::differentiate_section(const Chain& chain, const Se
       for (int c = 0; c < 3; ++c) turn[c][lane] = section.J_omega(c, first + lane);
     }
     seed(1.0);
-    dual.update_position(fixed, in.base, in.q.data());
+    place(dual, fixed, in.base, in.q.data());
     dual.template update_velocity<turns>(fixed, constant(omega), in.qd.data());
     seed(0.0);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "chain/chain.hpp"
@@ -33,6 +34,11 @@ class MotionDerivatives {
               const double* qd, const double* force) noexcept;
   /// Multiplies by M^-1 the first `width` quads of all rows.
   void solve(Index width) noexcept;
+
+  /// Multiplies a vector by M^-1.
+  void solve(double* x) const noexcept { mass_.solve(x); }
+  /// Sets all rows to zero.
+  void clear() noexcept { std::fill(rows.begin(), rows.end(), Quad(0.0)); }
 
   /// What stands in a lane of a row.
   [[nodiscard]] double operator()(Index row, Index lane) const noexcept {

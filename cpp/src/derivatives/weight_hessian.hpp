@@ -2,16 +2,22 @@
 
 #include "chain/chain.hpp"
 #include "derivatives/dual.hpp"
+#include "section/width.hpp"
 
 // NOLINTBEGIN(readability-identifier-naming): letters of the equations
 
 namespace cdcr::detail {
 
-/// Second derivatives (d, d) of the potential energy, cpp/derivatives.md eqs. (79), (80): O(d^2).
-/// `state` needs its position alone; `dual` is room for one section.
+/// A section on dual numbers at a position. Compiled once for those who call it.
+template <class DualSection>
+[[gnu::noinline]] void place(DualSection& dual, const SectionParameters& fixed,
+                             const FrameState<Dual>& base, const Dual* q) noexcept {
+  with_fma<double>([&] { dual.update_position(fixed, base, q); });
+}
+
 template <class Section, class DualSection>
-void weight_hessian(const Chain& chain, const ChainState<Section>& state, const double* q,
-                    DualSection& dual, MatrixRef H) noexcept {
+void add_up_weight_hessian(const Chain& chain, const ChainState<Section>& state, const double* q,
+                           DualSection& dual, MatrixRef& H) {
   using Matrix3m = typename Section::Matrix3m;
   const Vector3d& g = chain.gravity;
   double mass = chain.payload.mass;  // of all beyond this tip
@@ -29,7 +35,7 @@ void weight_hessian(const Chain& chain, const ChainState<Section>& state, const 
     for (Index first = 0; first < size; first += Quad::count) {
       const int count = static_cast<int>(std::min<Index>(Quad::count, size - first));
       for (int lane = 0; lane < count; ++lane) x[first + lane].slopes[lane] = 1.0;
-      dual.update_position(fixed, base, x.data());
+      place(dual, fixed, base, x.data());
       const typename DualSection::Vectorm force =
           DualSection::elastic_force(fixed, x.data()) -
           dual.linear_coupling().transpose().lazyProduct(g) -
@@ -60,6 +66,14 @@ void weight_hessian(const Chain& chain, const ChainState<Section>& state, const 
     h += mass * section.r + section.first_moment();
     mass += fixed.mass;
   }
+}
+
+/// Second derivatives (d, d) of the potential energy, cpp/derivatives.md eqs. (79), (80): O(d^2).
+/// `state` needs its position alone; `dual` is room for one section.
+template <class Section, class DualSection>
+void weight_hessian(const Chain& chain, const ChainState<Section>& state, const double* q,
+                    DualSection& dual, MatrixRef H) noexcept {
+  with_fma<double>([&] { add_up_weight_hessian(chain, state, q, dual, H); });
 }
 
 extern template void weight_hessian(const Chain&, const ArcChainState<double>&, const double*,

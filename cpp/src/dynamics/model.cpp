@@ -189,9 +189,12 @@ void require_inertia(const Model& model) {
 Data::Data(const Model& model)
     : force(VectorXd::Zero(model.num_coordinates())),
       parts_(model.parts()),
-      kept_(std::make_unique<Kept>(model)) {}
+      kept_(model.has_closed_form() && model.has_plain_cables() ? nullptr
+                                                                : std::make_unique<Kept>(model)) {}
 Data::Data(const Data& other)
-    : force(other.force), parts_(other.parts_), kept_(std::make_unique<Kept>(*other.kept_)) {}
+    : force(other.force),
+      parts_(other.parts_),
+      kept_(other.kept_ ? std::make_unique<Kept>(*other.kept_) : nullptr) {}
 Data::Data(Data&& other) noexcept = default;
 Data& Data::operator=(const Data& other) {
   if (this != &other) *this = Data(other);

@@ -2,6 +2,7 @@
 
 #include "loads/cable_force.hpp"
 #include "loads/wrench_derivatives.hpp"
+#include "section/width.hpp"
 
 namespace cdcr::detail {
 namespace {
@@ -100,7 +101,7 @@ void add_force_derivatives(const Model& model, ForceDuals& duals, const ConstVec
       duals.qd[i] = Dual(qd[i]);
     }
     for (Index j = 0; j < command.size(); ++j) duals.command[j] = Dual(command[j]);
-    add_cable_columns(model, duals, lanes, rows);
+    with_fma<double>([&] { add_cable_columns(model, duals, lanes, rows); });
   }
   for (const Wrench& wrench : wrenches) {
     differentiate_wrench(chain_of(model), q.data(), wrench,

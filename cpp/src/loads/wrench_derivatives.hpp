@@ -17,8 +17,8 @@ struct OnDuals<Kind<double>> {
   static constexpr Index max_m = Kind<double>::max_m;
 };
 
-/// add(row, coordinate, slope) for each derivative of J^T w with respect to q, eqs. (81) to (83): each
-/// section by itself on dual numbers, what it carries turned as one piece.
+/// add(row, coordinate, slope) for each derivative of J^T w with respect to q, eqs. (81) to (83):
+/// each section by itself on dual numbers, what it carries turned as one piece.
 template <class Add>
 void differentiate_wrench(const Chain& chain, const double* q, const Wrench& wrench,
                           const Add& add) {
