@@ -11,6 +11,7 @@ namespace cdcr::detail {
 /// (batch/lanes.hpp): how such a number is passed by value depends on that, so that everything here
 /// is inlined.
 template <int W>
+// NOLINTNEXTLINE(cppcoreguidelines-special-member-functions): copies by the register, below
 struct alignas(8 * W) Pack {
   static constexpr int size = W;
   typedef double Native __attribute__((vector_size(8 * W)));  // NOLINT(modernize-use-using)
@@ -65,6 +66,7 @@ void set_lane(Pack<W>& pack, Index lane, double value) {
 
 /// Two packs side by side, for what would wait for its own last result: a scalar to Eigen too.
 template <int W>
+// NOLINTNEXTLINE(cppcoreguidelines-special-member-functions): as of Pack
 struct Twin {
   static constexpr int size = 2 * W;
   Pack<W> a, b;

@@ -23,9 +23,10 @@ template <int W>
 /// Whether all lanes of both lie within their piece, but for its end.
 template <int W>
 [[gnu::always_inline]] inline bool all_inside(const Pack<W>& t, const Pack<W>& u) {
+  // NOLINTNEXTLINE(bugprone-signed-bitwise): masks of lanes
   const auto inside = (t.lanes >= -1.0) & (t.lanes < 1.0) & (u.lanes >= -1.0) & (u.lanes < 1.0);
   auto all = inside[0];
-  for (int i = 1; i < W; ++i) all &= inside[i];
+  for (int i = 1; i < W; ++i) all &= inside[i];  // NOLINT(bugprone-signed-bitwise)
   return all != 0;
 }
 
