@@ -20,7 +20,7 @@ TARGETS = {
     "forward_dynamics, 3 sections": 1.5,
     "forward_dynamics, 10 sections": 6.0,
     "forward_dynamics, 20 sections over 10": 2.3,
-    "forward_dynamics of many, 1 section": 8.0,
+    "rollout by rk4, a step, 1 section": 32.0,
     "forward_dynamics of many, 3 sections": 400.0,
     "forward_dynamics of many, 10 sections": 1350.0,
     "Simulator.step": 300.0,
