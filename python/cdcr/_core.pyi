@@ -283,8 +283,6 @@ class Controller(metaclass=_Bound):
 class ReferencePath(metaclass=_Bound):
     """A motion that a controller follows."""
 
-    def __init__(self, *args: Any, **kwargs: Any) -> None: ...
-
     @staticmethod
     def constant(value: ArrayLike) -> ReferencePath: ...
     @staticmethod
