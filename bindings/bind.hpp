@@ -70,5 +70,6 @@ void bind_controllers(pybind11::module_& m);     ///< called by bind_control
 void bind_loop(pybind11::module_& m);
 void bind_simulate(pybind11::module_& m);
 void bind_simulator(pybind11::module_& m);
+void bind_rollout(pybind11::module_& m);
 
 }  // namespace cdcr::python

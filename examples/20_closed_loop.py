@@ -6,8 +6,8 @@ Computed torque along a circle, with motors that lag, sensors that are late and 
 that closes all of it in C++: ``cdcr.Loop``. The controller knows how late its commands are, and
 reckons so far ahead.
 
-Look at the errors: ideal motors and sensors leave less than a microradian; real ones cost a
-hundredfold more where the controller does not know of them than where it does.
+Look at the errors: ideal motors and sensors leave less than a microradian; late ones cost more, and
+thirty times more again where the controller does not know of them.
 """
 
 import sys

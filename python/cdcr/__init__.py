@@ -28,6 +28,7 @@ from cdcr._core import (
     taylor_range,
 )
 from cdcr.model.coordinates import bending, polar
+from cdcr.model.derivatives import Derivatives
 from cdcr.model.inverse_kinematics import InverseKinematics
 from cdcr.model.model import Model
 from cdcr.model.modes import Modes
@@ -47,6 +48,9 @@ from cdcr.runs.controllers import ComputedTorque, StateFeedback, TaskSpace
 from cdcr.runs.events import SlackEvent
 from cdcr.runs.loop import Actuator, Loop, LoopRun, Sensor, Winch
 from cdcr.runs.pid import Pid
+from cdcr.runs.rollout import rollout
+from cdcr.runs.rollout_result import Rollout, RolloutFailure
+from cdcr.runs.rollout_store import rollout_to_zarr
 from cdcr.runs.simulate import simulate
 from cdcr.runs.trajectory import Trajectory
 
@@ -66,6 +70,7 @@ __all__ = [
     "ComputedTorque",
     "Controller",
     "ConvergenceError",
+    "Derivatives",
     "Equilibrium",
     "InfeasibleError",
     "InverseKinematics",
@@ -79,6 +84,8 @@ __all__ = [
     "Reference",
     "ReferencePath",
     "Robot",
+    "Rollout",
+    "RolloutFailure",
     "Section",
     "Sensor",
     "Simulator",
@@ -104,6 +111,8 @@ __all__ = [
     "paper",
     "polar",
     "robots",
+    "rollout",
+    "rollout_to_zarr",
     "scenarios",
     "simulate",
     "stable_step",

@@ -68,6 +68,8 @@ class Model(metaclass=_Bound):
     @overload
     def __init__(self, robot: Robot, formulation: Formulation) -> None: ...
     @overload
+    def __init__(self, robot: Robot, like: Model) -> None: ...
+    @overload
     def __init__(self, model: Model, gravity: ArrayLike) -> None: ...
     @property
     def num_sections(self) -> int: ...
@@ -128,6 +130,13 @@ class Model(metaclass=_Bound):
         tension: ArrayLike,
         wrenches: Wrench | Sequence[Wrench] = (),
     ) -> tuple[_FloatArray, _FloatArray]: ...
+    def _derivatives(
+        self,
+        q: ArrayLike,
+        qd: ArrayLike,
+        tension: ArrayLike,
+        wrenches: Wrench | Sequence[Wrench],
+    ) -> tuple[_FloatArray, _FloatArray, _FloatArray, _FloatArray]: ...
     def wrench_force(self, q: ArrayLike, wrenches: Wrench | Sequence[Wrench]) -> _FloatArray: ...
     def cable_tensions(self, q: ArrayLike, qd: ArrayLike, tension: ArrayLike) -> _FloatArray: ...
     def tensions_along(self, q: ArrayLike, qd: ArrayLike, tension: ArrayLike) -> _FloatArray: ...
@@ -271,6 +280,22 @@ def simulate_controlled(
     loads: Loads,
     events: Sequence[tuple[Callable[..., object], int, int]],
 ) -> Trajectory: ...
+def rollout(
+    models: Sequence[Model],
+    q0: ArrayLike,
+    qd0: ArrayLike,
+    commands: ArrayLike | None,
+    controllers: Controller | Sequence[Controller] | None,
+    loads: Loads,
+    method: Method,
+    options: Options,
+    step: float,
+    steps: int,
+    record_every: int,
+    start: float,
+    threads: int,
+    progress: Callable[[int], object] | None,
+) -> tuple[_FloatArray, _FloatArray, _FloatArray | None, list[tuple[int, Status, str]], Stats]: ...
 
 class Controller(metaclass=_Bound):
     """Turns the measured state into commands, each period."""

@@ -32,6 +32,17 @@ BEAM = 1e-6
 # review of the paper, to the digits given there.
 FIRST = {1: 25.0, 2: 4.75, 3: 2.05, 4: 1.14, 5: 0.73, 8: 0.28}
 SECOND = {4: 8.7, 8: 2.0}
+# By order of bending and parts, as published with the design of rods: excess of the first and the
+# second [%], and the highest frequency of the model [rad/s], to the digits given there.
+RODS = {
+    (0, 16): (0.071, 0.50, 8889.0),
+    (0, 8): (0.28, 2.0, 1525.0),
+    (1, 1): (0.36, 48.0, 68.0),
+    (1, 2): (0.037, 0.75, 398.0),
+    (2, 1): (0.023, 0.52, 215.0),
+    (3, 1): (0.0003, 0.41, 480.0),
+}
+DIGITS = 0.006  # absolute, and relative of what is above 1
 
 
 def robot(disk_diameter: float) -> cdcr.Robot:
@@ -138,3 +149,14 @@ def test_frequencies_converge_with_the_square_of_the_number_of_parts(whole: cdcr
     orders = np.log2(errors[:-1] / errors[1:])
     print("\norders of the first three frequencies, 8 to 16 to 32 parts:\n", np.round(orders, 3))
     assert np.all(np.abs(orders - 2.0) < [0.05, 0.1, 0.25])
+
+
+@pytest.mark.parametrize(("order", "parts"), RODS)
+def test_orders_give_in_few_coordinates_what_takes_many_parts(order: int, parts: int) -> None:
+    section = dataclasses.replace(POINT_DISKS.sections[0], bending_order=order)
+    whole = dataclasses.replace(POINT_DISKS, sections=(section,))
+    found, beam = model_frequencies(whole, parts), np.array(beam_frequencies(POINT_DISKS))
+    errors = 100.0 * (found[:2] / beam[:2] - 1.0)
+    print(f"\norder {order} in {parts} parts: {errors} %, highest {found[-1]:.0f} rad/s")
+    assert [*errors, found[-1]] == pytest.approx(RODS[order, parts], abs=DIGITS, rel=DIGITS)
+    assert np.all(errors > 0.0)

@@ -340,3 +340,15 @@ def test_dask_sweep(example: Example) -> None:
     squares = np.square([1 * 0.03, 4 * 0.01, 1 * 0.02, 0.0])
     shares = names["indices"].total_order.sel(metric="final_theta")
     np.testing.assert_allclose(shares, squares / squares.sum(), atol=0.1)
+
+
+def test_domain_randomisation(example: Example) -> None:
+    found = example(19)
+    numbers, section = found["robots"], found["section"]
+    # The angle of rest is F r L/(E I); what swings most has not quite come to rest.
+    radius = numbers["sections.1.cable_radius"] / section.cable_radius
+    modulus = numbers["sections.1.youngs_modulus"] / section.youngs_modulus
+    np.testing.assert_allclose(30.0 + found["apart"], 30.0 * radius / modulus, rtol=0.02)
+    assert found["loose"].success
+    assert found["held"].success
+    assert found["left"][:, -1].max() < 1e-9

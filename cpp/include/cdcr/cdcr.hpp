@@ -22,6 +22,7 @@
 #include "cdcr/pid.hpp"
 #include "cdcr/reference_path.hpp"
 #include "cdcr/robot.hpp"
+#include "cdcr/rollout.hpp"
 #include "cdcr/sensor.hpp"
 #include "cdcr/signal.hpp"
 #include "cdcr/simulate.hpp"

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from cdcr.plotting.style import BLACK, COLORS, StyledFigure, style
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.figures.drawing import legend_below, new_figure, note, share_time
-from cdcr.scenarios.studies.motor_limits import FASTEST, STRONGEST, TARGET, runs
+from cdcr.scenarios.studies.motor_limits import FASTEST, NAMES, STRONGEST, TARGET, runs
 
 if TYPE_CHECKING:
     from cdcr.scenarios.scenario import Scenario
@@ -24,8 +24,12 @@ def plot(scenario: Scenario, run: Trajectory) -> StyledFigure:
         figure = new_figure(scenario.title, SIZE)
         angle, tension = figure.subplots(2, 1, sharex=True)
         for color, (name, one) in zip(COLORS, runs(float(run.t[-1])).items(), strict=False):
-            angle.plot(one.t, np.rad2deg(one.theta[:, 0]), color=color, label=name)
-            tension.plot(one.t, one.tension[:, 0], color=color)
+            # Two run alike until the limits are reached: the first is seen through the second.
+            look: dict[str, Any] = {"color": color} | (
+                {"linewidth": 4.0} if name == NAMES[0] else {}
+            )
+            angle.plot(one.t, np.rad2deg(one.theta[:, 0]), label=name, **look)
+            tension.plot(one.t, one.tension[:, 0], **look)
         angle.axhline(TARGET, color=BLACK, linewidth=0.9, linestyle=":")
         angle.set_ylabel(r"bending angle $\theta$ [deg]")
         tension.axhline(STRONGEST, color=BLACK, linewidth=0.9, linestyle=":")
