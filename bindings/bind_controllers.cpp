@@ -60,6 +60,7 @@ ComputedTorqueOptions read_torque(const Model& model, const py::dict& given) {
   options.kd = read_gain(given, "kd");
   options.period = read_option<double>(given, "period");
   if (!given["lead"].is_none()) options.lead = read_option<double>(given, "lead");
+  options.delay = read_option<double>(given, "delay");
   options.limits = read_limits(model, given);
   return options;
 }
@@ -84,6 +85,8 @@ TaskSpaceOptions read_task(const Model& model, const py::dict& given) {
   options.posture = read_vector(given, "posture", model.num_coordinates(), of_coordinates(model));
   options.damping = read_option<double>(given, "damping");
   options.period = read_option<double>(given, "period");
+  if (!given["lead"].is_none()) options.lead = read_option<double>(given, "lead");
+  options.delay = read_option<double>(given, "delay");
   options.limits = read_limits(model, given);
   return options;
 }

@@ -159,11 +159,13 @@ TEST_CASE("an estimator's word is what the controller is told") {
 }
 
 TEST_CASE("steps and updates allocate nothing, for hours if need be") {
-  // CDCR_TEST_COUNT=100000 makes all periods of the promise; short in everyday runs.
-  const long periods = test_count() >= 1000 ? 100000 : 300;
+  // CDCR_TEST_COUNT=1000 makes all periods of the promise; short in everyday runs.
+  const long many = test_count() >= 1000 ? 100000 : 300;
   for (const NamedRobot& sample : controlled_robots()) {
     CAPTURE(sample.name);
     const Model model(sample.robot);
+    // Rods are stiff: their steps are short, and fewer periods are made.
+    const long periods = model.has_rods() ? many / 50 : many;
     for (const double strongest : {20.0, 0.2}) {  // enough, and saturated at all times
       ComputedTorqueOptions torque;
       torque.limits.tension.max_tension = strongest;
@@ -182,6 +184,7 @@ TEST_CASE("steps and updates allocate nothing, for hours if need be") {
            std::initializer_list<TrackingController*>{&first, &second, &third}) {
         if (controller != &third) controller->set_path(swing(model));
         LoopOptions how;
+        how.substeps = model.has_rods() ? 40 : 1;
         how.actuators.assign(1, {0.0, 2e-3, 0.005, 1e3, 0.0, 100.0, {}});
         how.sensors.resize(1);
         how.sensors[0].noise = 1e-4;
@@ -191,7 +194,7 @@ TEST_CASE("steps and updates allocate nothing, for hours if need be") {
         CHECK(allocations_of([&] {
                 for (long k = 0; k < periods; ++k) status = loop.step();
               }) == 0);
-        CHECK((status == Status::ok || loop.status() == status));
+        CHECK(status == Status::ok);
       }
     }
   }

@@ -149,6 +149,30 @@ def test_pid(example: Example) -> None:
     np.testing.assert_allclose(found["runs"]["kp, ki, kd"].q[-1], goal, rtol=0, atol=1e-6)
 
 
+def test_closed_loop(example: Example) -> None:
+    found = example(20)
+    errors = {name: error.max() for name, error in found["errors"].items()}
+    assert errors["ideal"] < 2e-6
+    assert errors["late, and known to be"] < 0.2 * errors["late"]
+    # The same loop by hand: a lag, a delay, a controller asked each millisecond.
+    model, circle = found["model"], found["circle"]
+    simulator = cdcr.Simulator(model, step=1e-3)
+    simulator.reset([0.3, 0], [0, 0])
+    controller = cdcr.ComputedTorque(model, kp=64.0, kd=16.0, min_tension=1.0)
+    controller.path = circle
+    seen, value = (simulator.q, simulator.qd), found["hold"]
+    worst, share = 0.0, 1.0 - np.exp(-0.5)
+    for _ in range(4000):
+        command = controller.update(simulator.time, *seen)
+        seen = simulator.q, simulator.qd
+        after = value + share * (command - value)
+        simulator.step((value + after) / 2.0)
+        value = after
+        error = simulator.q - circle.evaluate(simulator.time)[0]
+        worst = max(worst, float(np.linalg.norm(error)))
+    assert worst == pytest.approx(errors["late"], rel=1e-3)
+
+
 def test_lqr(example: Example) -> None:
     pytest.importorskip("control", reason="the extra control")
     found = example(7)

@@ -16,8 +16,9 @@ struct ComputedTorqueOptions {
   double period = 1e-3;  ///< [s], > 0
   CommandLimits limits;
   /// How far ahead it reckons [s], >= 0, since commands are held: half a period unless given, and
-  /// more where actuators or sensors are late.
+  /// more where actuators are late.
   std::optional<double> lead;
+  double delay = 0.0;  ///< how old measurements are [s], >= 0
 };
 
 /// Inverse dynamics and PD, Q = M (qdd_ref + kd e' + kp e) + h with e = ref - q, cpp/control.md

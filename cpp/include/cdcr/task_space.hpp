@@ -19,6 +19,8 @@ struct TaskSpaceOptions {
   double damping = 1e-2;     ///< of the inverse, over the robot's length [1/rad], > 0
   double period = 1e-3;      ///< [s], > 0
   CommandLimits limits;
+  std::optional<double> lead;  ///< how far ahead it reckons [s], as ComputedTorqueOptions::lead
+  double delay = 0.0;          ///< how old measurements are [s], >= 0
 };
 
 /// Moves the tip along a reference (3) [m] in the base frame: accelerations by the damped inverse
@@ -35,15 +37,20 @@ class TaskSpace : public TrackingController {
                  const Setpoint& wanted) noexcept override;
 
  private:
+  void set_acceleration(const Setpoint& wanted, const ConstVectorRef& q,
+                        const ConstVectorRef& qd) noexcept;
+  void set_force(const ConstVectorRef& q, const ConstVectorRef& qd) noexcept;
   void set_velocity_terms(const ConstVectorRef& q, const ConstVectorRef& qd) noexcept;
   void set_inverse() noexcept;
 
   Data data_;
   TaskSpaceOptions options_;
+  double lead_;
   double damping_ = 0.0;  // [m/rad]
-  VectorXd posture_, q_, qdd_, free_, force_;
+  Setpoint ahead_at_;
+  VectorXd posture_, q_, qd_, near_, qdd_, free_, force_;
   VectorXd error_, task_, bias_, solved_;  // (3)
-  MatrixXd J_, ahead_, M_;
+  MatrixXd J_, near_J_, M_;
   Matrix3d inverse_ = Matrix3d::Zero();
 };
 

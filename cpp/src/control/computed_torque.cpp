@@ -17,6 +17,7 @@ ComputedTorque::ComputedTorque(const Model& model, ComputedTorqueOptions options
   options_.kp.require("kp", d, "1/s^2");
   options_.kd.require("kd", d, "1/s");
   detail::require_not_negative("lead", lead_, "s");
+  detail::require_not_negative("delay", options_.delay, "s");
   q_ = qd_ = qdd_ = error_ = force_ = VectorXd::Zero(d);
   M_ = MatrixXd::Zero(d, d);
 }
@@ -40,17 +41,23 @@ void ComputedTorque::set_force(const ConstVectorRef& q, const ConstVectorRef& qd
 
 Status ComputedTorque::control(double t, const ConstVectorRef& q, const ConstVectorRef& qd,
                                const Setpoint& wanted) noexcept {
-  set_acceleration(wanted, q, qd);
+  const double delay = options_.delay, horizon = delay + lead_;
+  if (delay > 0.0) {
+    path().evaluate(t - delay, ahead_);
+    set_acceleration(ahead_, q, qd);
+  } else {
+    set_acceleration(wanted, q, qd);
+  }
   note_error(error_.norm());
   q_ = q;
   qd_ = qd;
-  if (lead_ > 0.0) {  // where the robot is in the middle of the period, eq. (106)
+  if (horizon > 0.0) {  // where the robot is in the middle of the period, eq. (106)
     if (!drive().is_fully_actuated()) {
       set_force(q, qd);
       forward_dynamics_force(model(), data_, q, qd, force_, qdd_);
     }
-    q_ += lead_ * qd + (lead_ * lead_ / 2.0) * qdd_;
-    qd_ += lead_ * qdd_;
+    q_ += horizon * qd + (horizon * horizon / 2.0) * qdd_;
+    qd_ += horizon * qdd_;
     path().evaluate(t + lead_, ahead_);
     set_acceleration(ahead_, q_, qd_);
   }

@@ -117,6 +117,7 @@ LoopRun run(Loop& loop, double duration, Index record_every, const Wrenches& wre
     ++row;
   }
   out.stats.steps = static_cast<long>(loop.plant().periods()) * loop.options().substeps;
+  out.stats.evaluations = 4 * out.stats.steps;
   if (out.status != Status::ok) {
     out.message = detail::sentence("stopped at t = ", loop.time(), " s: ", message(out.status));
   }

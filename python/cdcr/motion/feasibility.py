@@ -144,7 +144,7 @@ def _first(t: FloatArray, wrong: FloatArray, sentence: str) -> list[str]:
 
 
 def _of_tip(model: Model, t: FloatArray, places: FloatArray) -> tuple[FloatArray, list[str]]:
-    """Return coordinates for places of the tip, each near those before, and what is out of reach."""
+    """Return coordinates for places of the tip, and the first that is out of reach."""
     q = np.zeros((t.size, model.num_coordinates))
     for i, place in enumerate(places):
         found = model.inverse_kinematics(place, q0=q[i - 1] if i else None)

@@ -36,8 +36,9 @@ class ComputedTorque(_core.ComputedTorque):
     period : float, optional
         Sampling period [s].
     lead : float, optional
-        How far ahead it reckons [s]: half a period unless given, more where actuators or sensors
-        are late.
+        How far ahead it reckons [s]: half a period unless given, more where actuators are late.
+    delay : float, optional
+        How old measurements are [s], >= 0.
     min_tension, max_tension, cables, pretension, max_rate : optional
         Limits of the cables, as in `Pid`.
 
@@ -70,13 +71,14 @@ class ComputedTorque(_core.ComputedTorque):
         kd: ArrayLike = 20.0,
         period: float = 1e-3,
         lead: float | None = None,
+        delay: float = 0.0,
         min_tension: float = 0.0,
         max_tension: float = math.inf,
         cables: Sequence[int] | None = None,
         pretension: ArrayLike | None = None,
         max_rate: float = math.inf,
     ) -> None:
-        numbers = {"period": period, **_limits(min_tension, max_tension, max_rate)}
+        numbers = {"period": period, "delay": delay, **_limits(min_tension, max_tension, max_rate)}
         if lead is not None:
             numbers["lead"] = lead
         options = checked(
@@ -172,6 +174,10 @@ class TaskSpace(_core.TaskSpace):
         Of the inverse, over the robot's length, > 0 [1/rad].
     period : float, optional
         Sampling period [s].
+    lead : float, optional
+        How far ahead it reckons [s], as in `ComputedTorque`.
+    delay : float, optional
+        How old measurements are [s], >= 0.
     min_tension, max_tension, cables, pretension, max_rate : optional
         Limits of the cables, as in `Pid`.
 
@@ -210,17 +216,22 @@ class TaskSpace(_core.TaskSpace):
         posture_kd: float = 10.0,
         damping: float = 1e-2,
         period: float = 1e-3,
+        lead: float | None = None,
+        delay: float = 0.0,
         min_tension: float = 0.0,
         max_tension: float = math.inf,
         cables: Sequence[int] | None = None,
         pretension: ArrayLike | None = None,
         max_rate: float = math.inf,
     ) -> None:
+        numbers = {} if lead is None else {"lead": lead}
         options = checked(
             {
+                **numbers,
                 "posture_kp": posture_kp,
                 "posture_kd": posture_kd,
                 "damping": damping,
+                "delay": delay,
                 "period": period,
                 **_limits(min_tension, max_tension, max_rate),
             },
@@ -229,4 +240,4 @@ class TaskSpace(_core.TaskSpace):
             cables=cables,
         )
         require_kind("model", model, Model)
-        super().__init__(model, options)
+        super().__init__(model, {"lead": None} | options)
