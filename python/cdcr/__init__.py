@@ -32,17 +32,13 @@ from cdcr.model.model import Model
 from cdcr.model.modes import Modes
 from cdcr.model.stability import stable_step
 from cdcr.model.statics import ConvergenceError, InfeasibleError
-from cdcr.model.subdivision import subdivide_wrench
 from cdcr.model.wrench import Wrench
-from cdcr.motion.inverse import InverseRun, inverse_run
-from cdcr.motion.reference import Reference
 from cdcr.robot.cable import Cable
 from cdcr.robot.robot import Robot
 from cdcr.robot.section import Section
 from cdcr.robot.states import merge_state, subdivide_state
 from cdcr.runs.command import TensionTable
 from cdcr.runs.events import SlackEvent
-from cdcr.runs.pid import Pid
 from cdcr.runs.simulate import simulate
 from cdcr.runs.trajectory import Trajectory
 
@@ -51,6 +47,10 @@ if TYPE_CHECKING:
     from cdcr import gym as gym
     from cdcr import plotting as plotting
     from cdcr.identification import identify
+    from cdcr.model.subdivision import subdivide_wrench
+    from cdcr.motion.inverse import InverseRun, inverse_run
+    from cdcr.motion.reference import Reference
+    from cdcr.runs.pid import Pid
     from cdcr.sweeps import sweep
 
 __version__: str = _core.__version__
@@ -103,16 +103,23 @@ __all__ = [
 _ROOMS = frozenset({
     "control", "export", "gym", "identification", "paper", "plotting", "scenarios", "sweeps",
 })  # fmt: skip
+_LATER = {
+    "InverseRun": "motion.inverse",
+    "Pid": "runs.pid",
+    "Reference": "motion.reference",
+    "identify": "identification",
+    "inverse_run": "motion.inverse",
+    "subdivide_wrench": "model.subdivision",
+    "sweep": "sweeps",
+}
 
 
 def __getattr__(name: str) -> Any:
-    """Load what few programs need when it is asked for."""
+    """Load what few programs need when it is asked for: rooms, and names of their modules."""
     if name in _ROOMS:
         return import_module(f"cdcr.{name}")
-    if name == "identify":
-        return import_module("cdcr.identification").identify
-    if name == "sweep":
-        return import_module("cdcr.sweeps").sweep
+    if name in _LATER:
+        return getattr(import_module(f"cdcr.{_LATER[name]}"), name)
     hint = {"load_robot": "; use cdcr.Robot.load"}.get(name, "")
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}{hint}")
 
