@@ -23,7 +23,7 @@ TIMES = np.linspace(0.0, 10.0, 101)
 GRAVITY = (0.0, 0.0, -9.81)
 METHODS = ("bdf", "adams", "dopri5", "dop853")
 EXPONENTS = (6, 7, 8, 9, 10)
-TURNS = 5
+TURNS = 3
 BENT = [0.5, 0.1, -0.3, 0.4, 0.2, -0.6]
 
 

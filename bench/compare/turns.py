@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 
-LEAST = 0.02  # processor time of one sample [s]
+LEAST = 0.01  # processor time of one sample [s]
 
 
 @dataclass
@@ -34,7 +34,6 @@ class Entry:
 def measure(entries: Sequence[Entry], turns: int) -> None:
     """Time every entry once a turn, after a first time that says how many runs a sample takes."""
     for entry in entries:
-        entry.run()
         entry.calls = max(1, math.ceil(LEAST / max(entry.sample(), 1e-6)))
     for _ in range(turns):
         for entry in entries:

@@ -34,23 +34,13 @@ from cdcr.model.model import Model
 from cdcr.model.modes import Modes
 from cdcr.model.stability import stable_step
 from cdcr.model.statics import ConvergenceError, InfeasibleError
-from cdcr.model.subdivision import subdivide_wrench
 from cdcr.model.wrench import Wrench
-from cdcr.motion.feasibility import PathReport, check_path
-from cdcr.motion.inverse import InverseRun, inverse_run
-from cdcr.motion.reference import Reference
 from cdcr.robot.cable import Cable
 from cdcr.robot.robot import Robot
 from cdcr.robot.section import Section
 from cdcr.robot.states import merge_state, subdivide_state
 from cdcr.runs.command import TensionTable
-from cdcr.runs.controllers import ComputedTorque, StateFeedback, TaskSpace
 from cdcr.runs.events import SlackEvent
-from cdcr.runs.loop import Actuator, Loop, LoopRun, Sensor, Winch
-from cdcr.runs.pid import Pid
-from cdcr.runs.rollout import rollout
-from cdcr.runs.rollout_result import Rollout, RolloutFailure
-from cdcr.runs.rollout_store import rollout_to_zarr
 from cdcr.runs.simulate import simulate
 from cdcr.runs.trajectory import Trajectory
 
@@ -59,6 +49,16 @@ if TYPE_CHECKING:
     from cdcr import gym as gym
     from cdcr import plotting as plotting
     from cdcr.identification import identify
+    from cdcr.model.subdivision import subdivide_wrench
+    from cdcr.motion.feasibility import PathReport, check_path
+    from cdcr.motion.inverse import InverseRun, inverse_run
+    from cdcr.motion.reference import Reference
+    from cdcr.runs.controllers import ComputedTorque, StateFeedback, TaskSpace
+    from cdcr.runs.loop import Actuator, Loop, LoopRun, Sensor, Winch
+    from cdcr.runs.pid import Pid
+    from cdcr.runs.rollout import rollout
+    from cdcr.runs.rollout_result import Rollout, RolloutFailure
+    from cdcr.runs.rollout_store import rollout_to_zarr
     from cdcr.sweeps import sweep
 
 __version__: str = _core.__version__
@@ -127,16 +127,37 @@ __all__ = [
 _ROOMS = frozenset({
     "control", "export", "gym", "identification", "paper", "plotting", "scenarios", "sweeps",
 })  # fmt: skip
+_LATER = {
+    "Actuator": "runs.loop",
+    "ComputedTorque": "runs.controllers",
+    "InverseRun": "motion.inverse",
+    "Loop": "runs.loop",
+    "LoopRun": "runs.loop",
+    "PathReport": "motion.feasibility",
+    "Pid": "runs.pid",
+    "Reference": "motion.reference",
+    "Rollout": "runs.rollout_result",
+    "RolloutFailure": "runs.rollout_result",
+    "Sensor": "runs.loop",
+    "StateFeedback": "runs.controllers",
+    "TaskSpace": "runs.controllers",
+    "Winch": "runs.loop",
+    "check_path": "motion.feasibility",
+    "identify": "identification",
+    "inverse_run": "motion.inverse",
+    "rollout": "runs.rollout",
+    "rollout_to_zarr": "runs.rollout_store",
+    "subdivide_wrench": "model.subdivision",
+    "sweep": "sweeps",
+}
 
 
 def __getattr__(name: str) -> Any:
-    """Load what few programs need when it is asked for."""
+    """Load what few programs need when it is asked for: rooms, and names of their modules."""
     if name in _ROOMS:
         return import_module(f"cdcr.{name}")
-    if name == "identify":
-        return import_module("cdcr.identification").identify
-    if name == "sweep":
-        return import_module("cdcr.sweeps").sweep
+    if name in _LATER:
+        return getattr(import_module(f"cdcr.{_LATER[name]}"), name)
     hint = {"load_robot": "; use cdcr.Robot.load"}.get(name, "")
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}{hint}")
 

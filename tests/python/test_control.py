@@ -216,6 +216,15 @@ def test_a_slack_cable_has_no_gain() -> None:
     assert np.all(np.max(np.abs(K[:2]), axis=1) > 0.0)
 
 
+def test_a_shape_that_is_no_rest_is_told_of() -> None:
+    away = np.array([0.05, -0.02])
+    q = ONE.equilibrium(PULL) + away
+    with pytest.warns(
+        UserWarning, match=r"does not rest at q under tension.* q\[0\] is some 0\.05"
+    ):
+        cdcr.control.lqr(ONE, q, PULL, 1.0, 1.0)
+
+
 @pytest.mark.parametrize(
     ("given", "sentence"),
     [

@@ -1,7 +1,6 @@
 """Optional dependencies: imported when used, with an error that says how to get them."""
 
 import importlib
-import shutil
 from contextlib import suppress
 from types import ModuleType
 
@@ -36,6 +35,8 @@ def require(module: str, extra: str) -> ModuleType:
 
 def find_ffmpeg() -> str | None:
     """Return the program ffmpeg: that on the PATH, or that of the package imageio-ffmpeg."""
+    import shutil  # slow to load
+
     found = shutil.which("ffmpeg")
     if found is None:
         with suppress(ImportError, RuntimeError):  # not installed, or without its program

@@ -27,7 +27,18 @@ from cdcr.cli import (
     view,
     watch,
 )
-from cdcr.cli.plain import AsJson, Overwrite, Quiet, Robot, Size, print_json, told_plainly, whole
+from cdcr.cli.plain import (
+    AsJson,
+    Jobs,
+    Overwrite,
+    Quiet,
+    Robot,
+    Scenario,
+    Size,
+    print_json,
+    told_plainly,
+    whole,
+)
 
 app = typer.Typer(
     help="Dynamics of cable-driven continuum robots.",
@@ -85,14 +96,7 @@ def info_command(
 
 @app.command("run", short_help="Run a scenario; write picture and data; print a summary.")
 def run_command(
-    scenario: Annotated[
-        str,
-        typer.Argument(
-            metavar="NAME|FILE.toml",
-            help="A scenario from `cdcr list` or a file of your own.",
-            autocompletion=complete.scenarios,
-        ),
-    ],
+    scenario: Scenario,
     out: Annotated[
         Path, typer.Option(help="Folder for the picture and the data; made where missing.")
     ] = Path("out"),
@@ -257,14 +261,7 @@ def figures_command(
     ),
     overwrite: Overwrite = False,
     size: Size = None,
-    jobs: Annotated[
-        int | None,
-        typer.Option(
-            metavar="NUMBER",
-            min=1,
-            help="Processes that draw; by default as many as there are processors to use.",
-        ),
-    ] = None,
+    jobs: Jobs = None,
     quiet: Quiet = False,
 ) -> None:
     """Redraw all figures of the origin paper (.png, .svg); write index.html, which shows them.

@@ -25,12 +25,28 @@ Size = Annotated[
         autocompletion=complete.sizes,
     ),
 ]
+Scenario = Annotated[
+    str,
+    typer.Argument(
+        metavar="NAME|FILE.toml",
+        help="A scenario from `cdcr list` or a file of your own.",
+        autocompletion=complete.scenarios,
+    ),
+]
 Robot = Annotated[
     str,
     typer.Argument(
         metavar="ROBOT|FILE.toml",
         help="A name from `cdcr list` or a file.",
         autocompletion=complete.robots,
+    ),
+]
+Jobs = Annotated[
+    int | None,
+    typer.Option(
+        metavar="NUMBER",
+        min=1,
+        help="Processes of this machine; by default as many as there are processors to use.",
     ),
 ]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but errors.")]

@@ -18,8 +18,10 @@ from cdcr.cli import complete
 from cdcr.cli.plain import (
     INTERRUPTED,
     AsJson,
+    Jobs,
     Overwrite,
     Quiet,
+    Scenario,
     Size,
     end,
     print_json,
@@ -42,14 +44,7 @@ REPLACE = "give --overwrite to replace, or another file with --out"
 
 @commands.command("sweep", short_help="Run a scenario for many values of its parameters.")
 def sweep_command(
-    scenario: Annotated[
-        str,
-        typer.Argument(
-            metavar="NAME|FILE.toml",
-            help="A scenario from `cdcr list` or a file of your own.",
-            autocompletion=complete.scenarios,
-        ),
-    ],
+    scenario: Scenario,
     parameters: Annotated[
         list[str] | None,
         typer.Option(
@@ -98,13 +93,7 @@ def sweep_command(
             autocompletion=complete.schedulers,
         ),
     ] = None,
-    jobs: Annotated[
-        int | None,
-        typer.Option(
-            metavar="NUMBER",
-            help="Processes of this machine; by default as many as there are processors to use.",
-        ),
-    ] = None,
+    jobs: Jobs = None,
     picture: Annotated[bool, typer.Option(help="Draw the picture.")] = True,
     size: Size = None,
     overwrite: Overwrite = False,

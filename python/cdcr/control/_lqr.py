@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from cdcr.model.model import Model
 
 SYMMETRY = 1e-9  # largest difference across the diagonal, over the largest entry
 DEFINITE = 1e-12  # smallest eigenvalue of a definite matrix, over the largest
+REST = 1e-3  # how far from rest is still rest [rad, m]
 DECAY = 1e-9  # smallest damping ratio that is none of rounding
 NO_GAIN = (
     "no gain makes all motions decay: a motion without damping is reached by no cable, or Q does "
@@ -39,7 +41,7 @@ def lqr(
     tensions of 0 N half of it is lost, so choose `tension` with a pull that all cables of a section
     share; that changes no shape where they are evenly spaced. A cable driven by length that hangs
     slack there has no effect, and a row of zeros. Where the robot does not rest at `q` under
-    `tension`, it comes to rest beside it.
+    `tension`, it comes to rest beside it; a warning says how far its rest is from there.
 
     Parameters
     ----------
@@ -105,7 +107,23 @@ def lqr(
         K = None
     if K is None:
         raise ValueError(_no_gain(A, period))
+    _warn_without_rest(model, shape, tension, A)
     return np.asarray(K, dtype=np.float64)
+
+
+def _warn_without_rest(model: Model, q: FloatArray, tension: ArrayLike, A: FloatArray) -> None:
+    """Warn where the robot would not stay at q, and say how far off its rest is."""
+    d = model.num_coordinates
+    qdd = model.forward_dynamics(q, np.zeros(d), tension)
+    off = np.abs(np.linalg.lstsq(A[d:, :d], qdd, rcond=None)[0])
+    k = int(np.argmax(off))
+    if off[k] > REST:
+        warnings.warn(
+            f"the robot does not rest at q under tension, so the regulator will not hold it there: "
+            f"q[{k}] is some {off[k]:.2g} from its rest, model.equilibrium(tension)",
+            UserWarning,
+            stacklevel=3,
+        )
 
 
 def _gain(

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 import re
 from collections.abc import Sequence
-from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from cdcr.files.text import read_text
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 FloatRows = list[list[float]]
 RUN_TIME = "t [s]"  # the column of times in the files of runs
@@ -62,6 +62,9 @@ def read_numbers(
 
 def read_rows(path: Path, what: str) -> tuple[list[str], list[tuple[str, list[str]]]]:
     """Return the header, and the cells of each row beside where it stands: file and line."""
+    import csv  # few programs read files
+    import io
+
     reader = csv.reader(io.StringIO(read_text(path, what), newline=""), strict=True)
     try:
         header = [name.strip() for name in next(reader, [])]

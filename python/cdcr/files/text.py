@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 MAX_MEGABYTES = 1000
 _HDF5 = b"\x89HDF\r\n\x1a\n"  # with which files of netCDF-4 begin

@@ -6,7 +6,6 @@ import inspect
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from os import PathLike
-from pathlib import Path
 from typing import Any, Literal, TypeAlias, cast
 
 import numpy as np
@@ -129,6 +128,8 @@ class TensionTable:
         ...     cdcr.TensionTable.load(file, model)
         <TensionTable: 2 x 3 commands, linear>
         """
+        from pathlib import Path
+
         from cdcr.runs.export import by_length, columns_of
 
         require_kind("model", model, Model)

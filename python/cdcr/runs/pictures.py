@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import base64
-import html
 from typing import TYPE_CHECKING, cast
 
 if TYPE_CHECKING:
@@ -29,6 +27,9 @@ class Pictures:
         return cast("Trajectory", self)
 
     def _repr_html_(self) -> str:
+        import base64  # of notebooks alone
+        import html
+
         words = f"<div>{html.escape(repr(self))}</div>"
         try:
             png = cast("Any", self.plot())._repr_png_()
