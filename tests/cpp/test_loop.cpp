@@ -83,7 +83,7 @@ TEST_CASE("the same loop gives the same bits, noise and all, and run samples it"
   options.kd = 0.05;
   Pid pid(model, options);
   LoopOptions how;
-  how.actuators = {{0.01, 2e-3, 0.01, 100.0, 0.0, 50.0, {}}};
+  how.actuators.assign(1, {0.01, 2e-3, 0.01, 100.0, 0.0, 50.0, {}});
   how.sensors.resize(2);
   how.sensors[0] = {Sensor::Kind::coordinates, 2e-3, 1e-3, 1e-3, 1e-3, {}, 7};
   how.sensors[1] = {Sensor::Kind::tip, 0.0, 0.0, 1e-4, 0.0, {}, 8};
@@ -185,7 +185,7 @@ TEST_CASE("steps and updates allocate nothing, for hours if need be") {
         if (controller != &third) controller->set_path(swing(model));
         LoopOptions how;
         how.substeps = model.has_rods() ? 40 : 1;
-        how.actuators = {{0.0, 2e-3, 0.005, 1e3, 0.0, 100.0, {}}};
+        how.actuators.assign(1, {0.0, 2e-3, 0.005, 1e3, 0.0, 100.0, {}});
         how.sensors.resize(1);
         how.sensors[0].noise = 1e-4;
         Loop loop(model, *controller, how);
