@@ -66,11 +66,11 @@ struct Batch {
 
 /// A call is a step of a motion.
 void measure_steps(const Harness& harness, const Model& model, double step) {
-  constexpr Index count = 512;
-  constexpr long steps = 64;
+  constexpr Index count = 128;
+  constexpr long steps = 512;
   Batch batch(model, count, step, steps, Method::rk4);
   harness.run(
-      {"rollout by rk4, a step, " + of(model.num_sections()), "ns", count * steps, 30}, [] {},
+      {"rollout by rk4, a step, " + of(model.num_sections()), "ns", count * steps, 20}, [] {},
       [&](long i) {
         if (i == 0) batch.run();
       });

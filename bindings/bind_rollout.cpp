@@ -139,8 +139,7 @@ void bind_rollout(py::module_& m) {
         Doc("Many motions at once; see cdcr.rollout.",
             {"models : sequence of Model\n    One for all motions, or one for each.\n",
              "q0, qd0 : (N, d) array_like\n    Where they start [rad], [rad/s].\n",
-             "commands : (1 or N, 1 or steps, num_cables) array_like\n"
-             "    Tensions [N], lengths [m] of cables driven by length.\n",
+             "commands : (1 or N, 1 or steps, num_cables)\n    Tensions [N], or lengths [m].\n",
              "controllers : Pid, sequence of Controller or None\n    In place of commands.\n",
              "loads : Loads\n    Wrenches over time.\n", "method : Method\n    How to integrate.\n",
              "options : Options\n    Tolerances and limits.\n",

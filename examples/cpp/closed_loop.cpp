@@ -1,5 +1,5 @@
 // A closed loop at 1 kHz with motors and sensors that are not ideal, as a controller's author tries
-// a law before the robot is there: what examples/20_closed_loop.py does in Python.
+// a law before the robot is there: what examples/21_closed_loop.py does in Python.
 #include <cdcr/cdcr.hpp>
 #include <cmath>
 #include <cstdio>

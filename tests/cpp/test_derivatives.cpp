@@ -169,7 +169,8 @@ TEST_CASE("arcs with cables that rub or are driven by length") {
 TEST_CASE("rods, mixed with arcs, under cables of every kind") {
   Random random;
   Robot many = rod_robot();  // sections of few and of many coordinates
-  many.sections = {rod_section(1, 0, locked), rod_section(0, locked, locked), rod_section(4, 3, 2),
+  many.sections = {rod_section(1, 0, locked), rod_section(0, locked, locked),
+                   rod_section(locked, locked, locked), rod_section(4, 3, 2),
                    rod_section(2, locked, 0)};
   many.cables.clear();
   many.payload_position = {0.01, 0.02, 0.03};

@@ -352,3 +352,13 @@ def test_domain_randomisation(example: Example) -> None:
     assert found["loose"].success
     assert found["held"].success
     assert found["left"][:, -1].max() < 1e-9
+
+
+def test_feel_a_push(example: Example) -> None:
+    found = example(20)
+    assert found["error"][1:-1].max() < 0.01 * np.linalg.norm(found["size"])
+    # The same from the mass matrix and the Jacobian of the tip, at one of the states.
+    model, run, i = found["model"], found["run"], 1000
+    J = model.jacobian(run.q[i], 2, 1.0)[:3]
+    by_hand = np.linalg.solve(model.mass_matrix(run.q[i]), J.T)
+    np.testing.assert_allclose(found["by_force"][i], by_hand, rtol=1e-9)

@@ -17,6 +17,7 @@ from gymnasium.utils.env_checker import check_env
 from gymnasium.vector import AutoresetMode
 
 from cdcr.gym import RobotEnv, RobotVectorEnv
+from cdcr.gym._randomization import draw_robot
 
 NAMES = ["Reach-v0", "Track-v0", "ReachThreeSections-v0", "TrackThreeSections-v0"]
 STEPS = 1e-3  # of the fixed step that an environment takes, tensions; error of q [rad]
@@ -293,3 +294,33 @@ def test_a_window_without_a_screen_is_a_warning(monkeypatch: pytest.MonkeyPatch)
         assert pyplot.get_fignums() == []
     finally:
         pyplot.switch_backend(before)
+
+
+def test_every_strain_of_a_rod_is_drawn() -> None:
+    rod = cdcr.Section(
+        length=0.3,
+        backbone_mass=0.02,
+        backbone_diameter=0.006,
+        youngs_modulus=2e8,
+        shear_modulus=7e7,
+        bending_stiffness=0.01,
+        bending_order=1,
+        twist_order=0,
+        stretch_order=0,
+        damping=1e-3,
+        twist_damping=1e-4,
+        material_damping=0.01,
+    )
+    robot = cdcr.Robot(sections=[rod])
+    factors = {"stiffness": 1.3, "damping": 0.6, "mass": 0.9}
+    ranges = {name: (factor, factor) for name, factor in factors.items()}
+    drawn = draw_robot(robot, ranges, np.random.default_rng(0))
+    q, qd = np.array([0.3, 0.1, 0.05, -0.02, 0.1, 1e-3]), np.ones(6)
+
+    def parts(of: cdcr.Robot) -> list[np.ndarray]:
+        model = cdcr.Model(of)
+        damping = model.bias(q, qd) - model.bias(q, -qd)
+        return [model.static_stiffness(q, []), damping, model.mass_matrix(q)]
+
+    for found, plain, factor in zip(parts(drawn), parts(robot), factors.values(), strict=True):
+        assert np.abs(found - factor * plain).max() <= 1e-12 * np.abs(found).max()

@@ -145,7 +145,9 @@ def test_linearize_matches_differences(model: cdcr.Model, q: list[float]) -> Non
 
 
 def test_derivatives_are_those_of_linearize_and_of_wrenches(model: cdcr.Model) -> None:
-    wrench = cdcr.Wrench(0, 0.6, (0.1, 0.2, -0.3), (0.01, 0.02, 0.03), frame="local")
+    wrench = cdcr.Wrench(
+        section=0, fraction=0.6, force=(0.1, 0.2, -0.3), moment=(0.01, 0.02, 0.03), frame="local"
+    )
     found = model.derivatives(Q, QD, TENSION, wrench)
     A, B = model.linearize(Q, QD, TENSION, wrench)
     np.testing.assert_allclose(np.hstack([found.dqdd_dq, found.dqdd_dqd]), A[2:], rtol=ROUNDING)

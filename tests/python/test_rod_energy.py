@@ -40,6 +40,7 @@ def test_energy_does_not_drift(bending: int, twist: int, stretch: int | None) ->
         method="dopri5",
         rtol=1e-12,
         atol=1e-14,
+        max_steps=10**9,
         throw=True,
     )
     drift = np.abs(run.energy - run.energy[0]).max() / np.abs(run.energy).max()

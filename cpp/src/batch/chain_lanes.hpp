@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "batch/pack.hpp"
+#include "batch/pack_tables.hpp"
 #include "chain/chain.hpp"
 
 namespace cdcr::detail {

@@ -6,12 +6,12 @@ namespace cdcr {
 namespace {
 
 /// The states of some rows in the lanes of packs, the last again where there are too few.
-template <int W>
+template <class P>
 [[gnu::always_inline]] inline void gather(const StateRows& rows, Index first, Index last,
-                                          Index size, detail::Pack<W>* to) {
-  for (int lane = 0; lane < W; ++lane) {
+                                          Index size, P* to) {
+  for (int lane = 0; lane < P::size; ++lane) {
     const double* from = rows.data + std::min(first + lane, last) * rows.apart;
-    for (Index i = 0; i < size; ++i) to[i].lanes[lane] = from[i];
+    for (Index i = 0; i < size; ++i) set_lane(to[i], lane, from[i]);
   }
 }
 
@@ -19,19 +19,19 @@ template <int W, bool closed>
 void accelerate_all(const Model& model, Index count, const StateRows& q, const StateRows& qd,
                     const StateRows& tension, double* qdd) {
   const Index d = closed ? 2 : model.num_coordinates(), cables = model.num_cables();
+  using P = typename detail::MotionLanes<W, closed>::Scalar;
   detail::MotionLanes<W, closed> lanes(model);
-  std::vector<detail::Pack<W>> room(static_cast<std::size_t>(4 * d + cables));
-  detail::Pack<W>*at = room.data(), *rate = at + d, *force = rate + d, *found = force + d,
-  *pull = found + d;
+  std::vector<P> room(static_cast<std::size_t>(4 * d + cables));
+  P *at = room.data(), *rate = at + d, *force = rate + d, *found = force + d, *pull = found + d;
   detail::in_lanes_of(std::integral_constant<int, W>(), [&](auto /*width*/) {
-    for (Index first = 0; first < count; first += W) {
+    for (Index first = 0; first < count; first += P::size) {
       gather(q, first, count - 1, d, at);
       gather(qd, first, count - 1, d, rate);
       gather(tension, first, count - 1, cables, pull);
       detail::actuation_force(model, pull, force);
       lanes.accelerate(at, rate, force, found);
-      for (int lane = 0; lane < W && first + lane < count; ++lane) {
-        for (Index i = 0; i < d; ++i) qdd[(first + lane) * d + i] = found[i].lanes[lane];
+      for (int lane = 0; lane < P::size && first + lane < count; ++lane) {
+        for (Index i = 0; i < d; ++i) qdd[(first + lane) * d + i] = get_lane(found[i], lane);
       }
     }
   });

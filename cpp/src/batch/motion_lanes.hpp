@@ -15,15 +15,18 @@ namespace cdcr::detail {
   return !model.has_rods() && model.has_plain_cables();
 }
 
-/// Accelerations of W states of such a model, in closed form where that applies.
+/// Accelerations of some states of such a model, in registers of W, in closed form where that
+/// applies: of twice as many then.
 template <int W, bool closed>
 class MotionLanes {
  public:
+  using Scalar = std::conditional_t<closed, Twin<W>, Pack<W>>;
+
   explicit MotionLanes(const Model& model) : model_(model), chain_(chain_of(model)) {}
 
   /// To be called where it is compiled for registers of this width.
-  [[gnu::always_inline]] void accelerate(const Pack<W>* q, const Pack<W>* qd, const Pack<W>* force,
-                                         Pack<W>* qdd) noexcept {
+  [[gnu::always_inline]] void accelerate(const Scalar* q, const Scalar* qd, const Scalar* force,
+                                         Scalar* qdd) noexcept {
     if constexpr (closed) {
       closed_form::forward_dynamics(single_of(model_), q, qd, force, qdd);
     } else {

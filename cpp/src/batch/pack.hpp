@@ -1,9 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
 
-#include "section/polynomial_table.hpp"
+#include "cdcr/types.hpp"
 
 namespace cdcr::detail {
 
@@ -12,7 +11,9 @@ namespace cdcr::detail {
 /// (batch/lanes.hpp): how such a number is passed by value depends on that, so that everything here
 /// is inlined.
 template <int W>
+// NOLINTNEXTLINE(cppcoreguidelines-special-member-functions): copies by the register, below
 struct alignas(8 * W) Pack {
+  static constexpr int size = W;
   typedef double Native __attribute__((vector_size(8 * W)));  // NOLINT(modernize-use-using)
   Native lanes;
 
@@ -54,58 +55,56 @@ struct alignas(8 * W) Pack {
   [[gnu::always_inline]] friend Pack operator-(const Pack& a) { return Pack(-a.lanes); }
 };
 
-/// values[f] = sum_k c(k, f) t^k; even and odd powers apart, for short chains of dependency.
-template <int N, int W, class Coefficient>
-[[gnu::always_inline]] inline void sum_powers(const Pack<W>& t, const Coefficient& c,
-                                              Pack<W>* values) {
-  constexpr int together = 4;  // functions, whose sums stay in registers
-  const Pack<W> u = t * t;
-  for (int first = 0; first < N; first += together) {
-    const int count = N - first < together ? N - first : together;
-    Pack<W> odd[together], even[together];
-    for (int f = 0; f < count; ++f) {
-      odd[f] = c(num_powers - 1, first + f);
-      even[f] = c(num_powers - 2, first + f);
-    }
-    for (int k = num_powers - 3; k > 0; k -= 2) {
-      for (int f = 0; f < count; ++f) {
-        odd[f] = odd[f] * u + c(k, first + f);
-        even[f] = even[f] * u + c(k - 1, first + f);
-      }
-    }
-    for (int f = 0; f < count; ++f) values[first + f] = even[f] + t * odd[f];
-  }
+template <int W>
+[[nodiscard]] double get_lane(const Pack<W>& pack, Index lane) {
+  return pack.lanes[lane];
+}
+template <int W>
+void set_lane(Pack<W>& pack, Index lane, double value) {
+  pack.lanes[lane] = value;
 }
 
-/// The functions of a table in all lanes; NaN in those beyond the largest bending angle.
-template <int N, int W>
-[[gnu::always_inline]] inline void read(const PolynomialTable<N>& table, const Pack<W>& sigma,
-                                        Eigen::Array<Pack<W>, N, 1>& f) {
-  // Mostly all lanes lie in the piece of the first.
-  double place = 0.0;
-  const double first = sigma.lanes[0];
-  const int piece = first <= sigma_limit ? find_piece(first, place) : 0;
-  Pack<W> t = 2.0 * (sigma * Pack<W>(1.0 / piece_width) - Pack<W>(piece)) - Pack<W>(1.0);
-  const auto inside = (t.lanes >= -1.0) & (t.lanes < 1.0);
-  auto all_inside = inside[0];
-  for (int i = 1; i < W; ++i) all_inside &= inside[i];
-  if (all_inside != 0) {
-    const double* row = table.piece(piece);
-    sum_powers<N>(t, [row](int k, int j) { return Pack<W>(row[k * N + j]); }, f.data());
-    return;
+/// Two packs side by side, for what would wait for its own last result: a scalar to Eigen too.
+template <int W>
+// NOLINTNEXTLINE(cppcoreguidelines-special-member-functions): as of Pack
+struct Twin {
+  static constexpr int size = 2 * W;
+  Pack<W> a, b;
+
+  Twin() = default;
+  // NOLINTNEXTLINE(google-explicit-constructor)
+  [[gnu::always_inline]] Twin(double value) : a(value), b(value) {}
+  [[gnu::always_inline]] Twin(const Pack<W>& first, const Pack<W>& second) : a(first), b(second) {}
+  [[gnu::always_inline]] Twin(const Twin& t) : a(t.a), b(t.b) {}
+  [[gnu::always_inline]] Twin& operator=(const Twin& t) {
+    a = t.a;
+    b = t.b;
+    return *this;
   }
-  const double* rows[W];
-  for (int i = 0; i < W; ++i) {
-    place = std::numeric_limits<double>::quiet_NaN();
-    rows[i] = table.piece(sigma.lanes[i] <= sigma_limit ? find_piece(sigma.lanes[i], place) : 0);
-    t.lanes[i] = place;
+
+  [[gnu::always_inline]] Twin& operator+=(const Twin& t) { return *this = *this + t; }
+  [[gnu::always_inline]] Twin& operator-=(const Twin& t) { return *this = *this - t; }
+  [[gnu::always_inline]] friend Twin operator+(const Twin& s, const Twin& t) {
+    return Twin(s.a + t.a, s.b + t.b);
   }
-  const auto gather = [&rows](int k, int j) {
-    Pack<W> c;
-    for (int i = 0; i < W; ++i) c.lanes[i] = rows[i][k * N + j];
-    return c;
-  };
-  sum_powers<N>(t, gather, f.data());
+  [[gnu::always_inline]] friend Twin operator-(const Twin& s, const Twin& t) {
+    return Twin(s.a - t.a, s.b - t.b);
+  }
+  [[gnu::always_inline]] friend Twin operator*(const Twin& s, const Twin& t) {
+    return Twin(s.a * t.a, s.b * t.b);
+  }
+  [[gnu::always_inline]] friend Twin operator/(const Twin& s, const Twin& t) {
+    return Twin(s.a / t.a, s.b / t.b);
+  }
+};
+
+template <int W>
+[[nodiscard]] double get_lane(const Twin<W>& twin, Index lane) {
+  return get_lane(lane < W ? twin.a : twin.b, lane % W);
+}
+template <int W>
+void set_lane(Twin<W>& twin, Index lane, double value) {
+  set_lane(lane < W ? twin.a : twin.b, lane % W, value);
 }
 
 }  // namespace cdcr::detail
@@ -124,6 +123,8 @@ struct NumTraits<cdcr::detail::Pack<W>> : GenericNumTraits<cdcr::detail::Pack<W>
     MulCost = 1
   };  // NOLINTEND(readability-identifier-naming)
 };
+template <int W>
+struct NumTraits<cdcr::detail::Twin<W>> : NumTraits<cdcr::detail::Pack<W>> {};
 template <int W, class Operation>
 struct ScalarBinaryOpTraits<cdcr::detail::Pack<W>, double, Operation> {
   using ReturnType = cdcr::detail::Pack<W>;
@@ -139,6 +140,9 @@ template <int W, int Size>
 struct compute_default_alignment<cdcr::detail::Pack<W>, Size> {
   enum { value = 0 };  // NOLINT(readability-identifier-naming): a name of Eigen
 };
+template <int W, int Size>
+struct compute_default_alignment<cdcr::detail::Twin<W>, Size>
+    : compute_default_alignment<cdcr::detail::Pack<W>, Size> {};
 }  // namespace internal
 
 }  // namespace Eigen

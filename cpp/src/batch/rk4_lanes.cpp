@@ -8,11 +8,11 @@ namespace {
 template <int W, bool closed>
 class Rk4Of final : public Rk4Lanes {
  public:
-  using P = Pack<W>;
+  using P = typename MotionLanes<W, closed>::Scalar;
 
   Rk4Of(const Model& model, Index motions)
       : d_(model.num_coordinates()),
-        packs_(std::clamp<Index>((motions + W - 1) / W, 1, most)),
+        packs_(std::clamp<Index>((motions + P::size - 1) / P::size, 1, most)),
         lanes_(model) {
     const auto size = static_cast<std::size_t>(d_), packs = static_cast<std::size_t>(packs_);
     for (std::vector<P>* v : {&y_, &slope_, &sum_}) v->assign(2 * size * packs, P(0.0));
@@ -20,19 +20,19 @@ class Rk4Of final : public Rk4Lanes {
     force_.assign(size * packs, P(0.0));
   }
 
-  [[nodiscard]] Index size() const noexcept override { return W * packs_; }
+  [[nodiscard]] Index size() const noexcept override { return P::size * packs_; }
 
   void set_state(Index motion, const VectorXd& y) noexcept override {
-    P* to = y_.data() + motion / W * 2 * d_;
-    for (Index i = 0; i < 2 * d_; ++i) to[i].lanes[motion % W] = y[i];
+    P* to = y_.data() + motion / P::size * 2 * d_;
+    for (Index i = 0; i < 2 * d_; ++i) set_lane(to[i], motion % P::size, y[i]);
   }
   void get_state(Index motion, VectorXd& y) const noexcept override {
-    const P* from = y_.data() + motion / W * 2 * d_;
-    for (Index i = 0; i < 2 * d_; ++i) y[i] = from[i].lanes[motion % W];
+    const P* from = y_.data() + motion / P::size * 2 * d_;
+    for (Index i = 0; i < 2 * d_; ++i) y[i] = get_lane(from[i], motion % P::size);
   }
   void set_force(Index motion, const VectorXd& force) noexcept override {
-    P* to = force_.data() + motion / W * d_;
-    for (Index i = 0; i < d_; ++i) to[i].lanes[motion % W] = force[i];
+    P* to = force_.data() + motion / P::size * d_;
+    for (Index i = 0; i < d_; ++i) set_lane(to[i], motion % P::size, force[i]);
   }
 
   void step(double h) noexcept override {
@@ -47,7 +47,7 @@ class Rk4Of final : public Rk4Lanes {
 
  private:
   // Of one section several at once, since each waits for its own last result.
-  static constexpr Index most = closed ? 8 : 1;
+  static constexpr Index most = closed ? 4 : 1;
 
   /// Slopes at y + share slope, which are added to the sum by their weight.
   template <class First>

@@ -58,7 +58,8 @@ template <class S>
   section_bias<S>(section, v, x, y, qd[0], qd[1], h_x, h_y);
   const S r_x = force[0] - h_x, r_y = force[1] - h_y;
   // M^-1 r = (r - b/(a + b sigma) (q.r) q)/a, eq. (12), with one division for both quotients.
-  const S a = v[0], b = v[1], along = a + b * sigma;
+  const S &a = v[0], &b = v[1];
+  const S along = a + b * sigma;
   const S inverse = 1.0 / (a * along);
   const S q_r = b * (x * r_x + y * r_y);
   qdd[0] = (along * r_x - q_r * x) * inverse;

@@ -2,6 +2,7 @@
 
 #include "chain/functions.hpp"
 #include "derivatives/motion_derivatives.hpp"
+#include "derivatives/rod_rates.hpp"
 #include "derivatives/weight_hessian.hpp"
 #include "section/width.hpp"
 
@@ -25,9 +26,6 @@ template <class Columns>
 }
 [[nodiscard]] inline Vector3<Quad> slopes_of(const Vector3<Dual>& v) {
   return {v[0].slopes, v[1].slopes, v[2].slopes};
-}
-[[nodiscard]] inline Vector3d values_of(const Vector3<Dual>& v) {
-  return {v[0].value(), v[1].value(), v[2].value()};
 }
 [[nodiscard]] inline Vector3<Quad> in_lanes(const Vector3d& v) {
   return v.cast<Quad>();
@@ -139,16 +137,13 @@ void MotionDerivatives<Kind>::differentiate_inwards(const Chain& chain,
   for (Index i = chain.num_sections() - 1; i >= 0; --i) {
     const Section& section = state.sections[i];
     carry_loads(chain, section, i);
-    if (i == 0) {
-      OwnInertia own;
-      differentiate_section<false>(chain, section, i, q, qd, outboard, own);
-      return;
-    }
+    Matrix3d J_own = Matrix3d::Zero();
+    if (i == 0) return differentiate_section<false>(chain, section, i, q, qd, outboard, J_own);
     set_gyros(section, outboard, i, chain.first[i], size_of(chain, i));
-    OwnInertia own;
-    differentiate_section<true>(chain, section, i, q, qd, outboard, own);
+    differentiate_section<true>(chain, section, i, q, qd, outboard, J_own);
     outboard.shift(section.r, bodies_[i].moving);
-    outboard.add(chain.sections[i].mass, section, part_of<Vectorm>(chain, i, qd), own);
+    outboard.add(chain.sections[i].mass, section, part_of<Vectorm>(chain, i, qd),
+                 part_of<Vectorm>(chain, i, qdd.data()), bodies_[i].alpha, bodies_[i].a, J_own);
   }
 }
 
@@ -186,7 +181,7 @@ template <template <class> class Kind>
 template <bool turns>
 void MotionDerivatives<Kind>::differentiate_section(const Chain& chain, const Section& section,
                                                     Index i, const double* q, const double* qd,
-                                                    const Outboard& outboard, OwnInertia& own) {
+                                                    const Outboard& outboard, Matrix3d& J_own) {
   const SectionParameters& fixed = chain.sections[i];
   const Index at = chain.first[i], m = size_of(chain, i);
   const Body& body = bodies_[i];
@@ -202,8 +197,9 @@ void MotionDerivatives<Kind>::differentiate_section(const Chain& chain, const Se
   }
   for (Index g = lanes.first_quad(i), first = 0; g < lanes.first_quad(i + 1);
        ++g, first += Quad::count) {
+    const Index num_seeds = std::min<Index>(Quad::count, (rates_apart ? m : 2 * m) - first);
     const auto seed = [&](double slope) {
-      for (int lane = 0; lane < Quad::count && first + lane < 2 * m; ++lane) {
+      for (int lane = 0; lane < num_seeds; ++lane) {
         const Index k = first + lane;
         (k < m ? in.q[k] : in.qd[k - m]).slopes[lane] = slope;
       }
@@ -212,65 +208,104 @@ void MotionDerivatives<Kind>::differentiate_section(const Chain& chain, const Se
     for (int lane = 0; lane < Quad::count && first + lane < m; ++lane) {
       for (int c = 0; c < 3; ++c) turn[c][lane] = section.J_omega(c, first + lane);
     }
-    seed(1.0);
-    place(dual, fixed, in.base, in.q.data());
-    dual.template update_velocity<turns>(fixed, constant(omega), in.qd.data());
-    seed(0.0);
-
-    const typename DualSection::Matrix3m H = dual.linear_coupling();
-    typename DualSection::Vectorm force =
-        dual.bias + dual.own_mass().lazyProduct(acceleration) + H.transpose().lazyProduct(body.a);
-    const Vector3<Dual> tip_alpha = dual.J_omega.lazyProduct(acceleration) + dual.tip_angular_bias;
-    Vector3<Dual> tip_a = dual.J_v.lazyProduct(acceleration) + dual.tip_linear_bias;
-    Load& load = loads_[g];
-    if constexpr (turns) {
-      const typename DualSection::Matrix3m N = dual.angular_coupling();
-      const Matrix3<Dual> J = dual.second_moment();
-      const Vector3<Dual> h = dual.first_moment();
-      force += N.transpose().lazyProduct(body.alpha);
-      tip_a += body.alpha.cross(dual.r);
-      const Vector3<Dual> push = dual.force + H.lazyProduct(acceleration) + body.alpha.cross(h);
-      const Vector3<Dual> twist =
-          dual.moment + N.lazyProduct(acceleration) + J.lazyProduct(body.alpha) + h.cross(body.a);
-      load = {slopes_of(push), slopes_of(twist)};
-      own.force = values_of(push) + fixed.mass * body.a;
-      own.moment = values_of(twist);
-      const Vector3<Dual> momentum = J.lazyProduct(omega) + N.lazyProduct(rate);
-      for (int lane = 0; lane < Quad::count && first + lane < m; ++lane) {
-        const Index k = first + lane;
-        for (int c = 0; c < 3; ++c) {
-          gyros_(c, at + k) -= momentum[c].slopes[lane];
-          for (Index l = 0; l < m; ++l) gyros_(c, at + l) += N(c, l).slopes[lane] * rate[k];
-          for (int l = 0; l < 3; ++l) own.J_rate(c, l) += J(c, l).slopes[lane] * rate[k];
+    OwnSlopes slopes;
+    slopes.clear();
+    if (num_seeds > 0) {
+      seed(1.0);
+      place(dual, fixed, in.base, in.q.data());
+      dual.template update_velocity<turns>(fixed, constant(omega), in.qd.data());
+      seed(0.0);
+      const typename DualSection::Matrix3m H = dual.linear_coupling();
+      typename DualSection::Vectorm force =
+          dual.bias + dual.own_mass().lazyProduct(acceleration) + H.transpose().lazyProduct(body.a);
+      Vector3<Dual> tip_a = dual.J_v.lazyProduct(acceleration) + dual.tip_linear_bias;
+      if constexpr (turns) {
+        const typename DualSection::Matrix3m N = dual.angular_coupling();
+        const Matrix3<Dual> J = dual.second_moment();
+        const Vector3<Dual> h = dual.first_moment();
+        force += N.transpose().lazyProduct(body.alpha);
+        tip_a += body.alpha.cross(dual.r);
+        const Vector3<Dual> push = dual.force + H.lazyProduct(acceleration) + body.alpha.cross(h);
+        const Vector3<Dual> twist =
+            dual.moment + N.lazyProduct(acceleration) + J.lazyProduct(body.alpha) + h.cross(body.a);
+        slopes.push = slopes_of(push);
+        slopes.twist = slopes_of(twist);
+        const Vector3<Dual> momentum = J.lazyProduct(omega) + N.lazyProduct(rate);
+        for (int lane = 0; lane < Quad::count && first + lane < m; ++lane) {
+          const Index k = first + lane;
+          for (int c = 0; c < 3; ++c) {
+            gyros_(c, at + k) -= momentum[c].slopes[lane];
+            for (Index l = 0; l < m; ++l) gyros_(c, at + l) += N(c, l).slopes[lane] * rate[k];
+            for (int l = 0; l < 3; ++l) J_own(c, l) += J(c, l).slopes[lane] * rate[k];
+          }
         }
+      }
+      for (Index c = 0; c < m; ++c) slopes.force[c] = force[c].slopes;
+      slopes.tip_alpha = slopes_of(dual.J_omega.lazyProduct(acceleration) + dual.tip_angular_bias);
+      slopes.tip_a = slopes_of(tip_a);
+      slopes.tip_omega = slopes_of(dual.turning_rate());
+    }
+    if constexpr (rates_apart) {
+      for (Index lane = std::max<Index>(0, m - first); lane < Quad::count && first + lane < 2 * m;
+           ++lane) {
+        differentiate_by_rate<turns>(fixed, section, rate, first + lane - m, static_cast<int>(lane),
+                                     slopes);
       }
     }
 
     // What is carried: turned as it is, and accelerated otherwise, eqs. (73) to (76).
     const Vector3<Quad> tip_omega = in_lanes(body.tip_omega);
     Motion& motion = motions_[g];
-    motion.w = slopes_of(dual.turning_rate()) - turn.cross(tip_omega);
-    motion.e =
-        slopes_of(tip_alpha) - turn.cross(in_lanes(body.tip_alpha)) + tip_omega.cross(motion.w);
-    motion.b = slopes_of(tip_a) - turn.cross(in_lanes(body.tip_a));
+    motion.w = slopes.tip_omega - turn.cross(tip_omega);
+    motion.e = slopes.tip_alpha - turn.cross(in_lanes(body.tip_alpha)) + tip_omega.cross(motion.w);
+    motion.b = slopes.tip_a - turn.cross(in_lanes(body.tip_a));
     const Vector3<Quad> F = turn.cross(in_lanes(outboard.F)) + outboard.force_of(motion);
     const Vector3<Quad> T = turn.cross(in_lanes(outboard.T)) + outboard.moment_of(motion);
     for (Index c = 0; c < m; ++c) {
-      Quad row = force[c].slopes + dot(section.J_omega, c, T) + dot(section.J_v, c, F);
-      for (int l = 0; l < 3; ++l) {
+      Quad row = slopes.force[c] + dot(section.J_omega, c, T) + dot(section.J_v, c, F);
+      for (int l = 0; num_seeds > 0 && l < 3; ++l) {
         row += dual.J_omega(l, c).slopes * outboard.T[l] + dual.J_v(l, c).slopes * outboard.F[l];
       }
       rows[(at + c) * lanes.width() + g] = -row;
     }
     if constexpr (turns) {
-      load.F += F;
-      load.T += T + slopes_of(dual.r).cross(in_lanes(outboard.F)) + in_lanes(section.r).cross(F);
+      loads_[g] = {slopes.push + F, slopes.twist + T + in_lanes(section.r).cross(F)};
+      if (num_seeds > 0) loads_[g].T += slopes_of(dual.r).cross(in_lanes(outboard.F));
     }
   }
   if constexpr (turns) {
     const Matrix3m N = section.angular_coupling();
     for (Index c = 0; c < m; ++c) gyros_.col(at + c) += omega.cross(N.col(c));
   }
+}
+
+/// Slopes with respect to one rate. Terms from velocities alone are of second degree in these once
+/// the elastic force is left out, so their central difference has no error but rounding.
+template <template <class> class Kind>
+template <bool turns>
+void MotionDerivatives<Kind>::differentiate_by_rate(const SectionParameters& fixed,
+                                                    const Section& section, const Vectorm& qd,
+                                                    Index k, int lane, OwnSlopes& slopes) {
+  const Vector3d& omega = section.base.omega;
+  if (k == 0) {
+    moved_ = section;
+    moved_.elastic.setZero();
+  }
+  const double step = std::max({1.0, qd.cwiseAbs().maxCoeff(), omega.norm()});
+  Vectorm rates = qd;
+  for (const double side : {1.0, -1.0}) {
+    rates[k] = qd[k] + side * step;
+    update_rates(moved_, fixed, omega, rates.data(), turns);
+    const double share = side / (2.0 * step);
+    for (Index c = 0; c < qd.size(); ++c) slopes.force[c][lane] += share * moved_.bias[c];
+    for (int c = 0; c < 3; ++c) {
+      slopes.tip_alpha[c][lane] += share * moved_.tip_angular_bias[c];
+      slopes.tip_a[c][lane] += share * moved_.tip_linear_bias[c];
+      if (turns) slopes.push[c][lane] += share * moved_.force[c];
+      if (turns) slopes.twist[c][lane] += share * moved_.moment[c];
+    }
+  }
+  for (int c = 0; c < 3; ++c) slopes.tip_omega[c][lane] += section.J_omega(c, k);
 }
 
 /// Rows of sections for the lanes of those that carry them, whose motions move to their tips.

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
 #include "chain/chain.hpp"
@@ -69,6 +71,19 @@ class MotionDerivatives {
     FrameState<Dual> base;
     std::array<Dual, Section::max_m> q, qd;
   };
+  /// Slopes, in the lanes of one quad, of the force on q, of force and moment on the base, and of
+  /// what the tip does.
+  struct OwnSlopes {
+    std::array<Quad, Section::max_m> force;
+    Vector3<Quad> push, twist, tip_alpha, tip_a, tip_omega;
+
+    void clear() {
+      force.fill(Quad(0.0));
+      for (Vector3<Quad>* v : {&push, &twist, &tip_alpha, &tip_a, &tip_omega}) v->setZero();
+    }
+  };
+  // Whether rates are not differentiated on dual numbers: many coordinates cost many of these.
+  static constexpr bool rates_apart = Section::m == Eigen::Dynamic;
 
   void add_up_mass(const Chain& chain, const ChainState<Section>& state);
   void accelerate(const Chain& chain, const ChainState<Section>& state, const double* qd);
@@ -79,11 +94,15 @@ class MotionDerivatives {
                  Index size);
   template <bool turns>
   void differentiate_section(const Chain& chain, const Section& section, Index i, const double* q,
-                             const double* qd, const Outboard& outboard, OwnInertia& own);
+                             const double* qd, const Outboard& outboard, Matrix3d& J_own);
+  template <bool turns>
+  void differentiate_by_rate(const SectionParameters& fixed, const Section& section,
+                             const Vectorm& qd, Index k, int lane, OwnSlopes& slopes);
   void differentiate_outwards(const Chain& chain, const ChainState<Section>& state);
   void clear_commands();
 
   Cholesky mass_;
+  std::conditional_t<rates_apart, Section, std::monostate> moved_;  // at other rates
   std::vector<Body> bodies_;
   // What accelerations of a coordinate, and turning rates beside it, ask of its section's base,
   // eqs. (77), (78).

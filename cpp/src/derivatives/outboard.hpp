@@ -5,13 +5,6 @@
 
 namespace cdcr::detail {
 
-/// Of one section about its base: force and moment that move it, and the rate at which its second
-/// moment changes with its own coordinates.
-struct OwnInertia {
-  Vector3d force = Vector3d::Zero(), moment = Vector3d::Zero();
-  Matrix3d J_rate = Matrix3d::Zero();
-};
-
 /// Variation of the motion that carries what lies beyond a tip, material: of the tip's acceleration
 /// b, its turning rate w and, with what w adds to it, its turning acceleration e, eq. (74).
 struct Motion {
@@ -59,20 +52,23 @@ struct Outboard {
     T += r.cross(F);
   }
 
-  template <class Section, class Rate>
-  void add(double mass_of_section, const Section& section, const Rate& rate,
-           const OwnInertia& own) {
+  /// Adds a section, whose base accelerates at alpha and a. J_own is the rate at which its second
+  /// moment changes with its own coordinates.
+  template <class Section, class Vectorm>
+  void add(double mass_of_section, const Section& section, const Vectorm& qd, const Vectorm& qdd,
+           const Vector3d& alpha, const Vector3d& a, const Matrix3d& J_own) {
     const Vector3d& omega = section.base.omega;
     const Vector3d first = section.first_moment();
     const Matrix3d second = section.second_moment();
+    const typename Section::Matrix3m H = section.linear_coupling(), N = section.angular_coupling();
     mass += mass_of_section;
     h += first;
-    P += omega.cross(first) + section.linear_coupling().lazyProduct(rate);
+    P += omega.cross(first) + H.lazyProduct(qd);
     J += second;
-    J_rate += own.J_rate + turned(second, omega);
-    L += second.lazyProduct(omega) + section.angular_coupling().lazyProduct(rate);
-    F += own.force;
-    T += own.moment;
+    J_rate += J_own + turned(second, omega);
+    L += second.lazyProduct(omega) + N.lazyProduct(qd);
+    F += section.force + mass_of_section * a + alpha.cross(first) + H.lazyProduct(qdd);
+    T += section.moment + second.lazyProduct(alpha) + first.cross(a) + N.lazyProduct(qdd);
   }
 
   /// Force and moment of a variation of the motion that carries it, eq. (75).

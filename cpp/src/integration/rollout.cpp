@@ -173,7 +173,7 @@ class Rollout {
     }
   }
 
-  CommandInput commands(Index i) const {
+  [[nodiscard]] CommandInput commands(Index i) const {
     const Index cables = motions_.model(i).num_cables();
     const double* first = detail::command_of(motions_, i, 0);
     if (motions_.commands.between_steps == 0) {

@@ -11,7 +11,12 @@ double& lane(const LaneMap& lanes, Quad* rows, Index row, Index at) {
   return rows[row * lanes.width() + at / Quad::count][static_cast<int>(at % Quad::count)];
 }
 
-/// Without friction, where B is constant: springs pull with it.
+/// Whether cables and their springs pull with the same B at all states.
+bool pulls_constantly(const Model& model) {
+  return model.has_constant_actuation() && !model.has_friction();
+}
+
+/// Of such cables.
 void add_constant_columns(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
                           const ConstVectorRef& command, const LaneMap& lanes, Quad* rows) {
   const MatrixXd& B = model.actuation_matrix();
@@ -84,16 +89,18 @@ void add_cable_columns(const Model& model, ForceDuals& duals, const LaneMap& lan
 
 }  // namespace
 
-ForceDuals::ForceDuals(const Model& model)
-    : q(static_cast<std::size_t>(model.num_coordinates())),
-      qd(q.size()),
-      command(static_cast<std::size_t>(model.num_cables())),
-      force(q.size()) {}
+ForceDuals::ForceDuals(const Model& model) {
+  if (pulls_constantly(model)) return;
+  q.resize(static_cast<std::size_t>(model.num_coordinates()));
+  qd.resize(q.size());
+  force.resize(q.size());
+  command.resize(static_cast<std::size_t>(model.num_cables()));
+}
 
 void add_force_derivatives(const Model& model, ForceDuals& duals, const ConstVectorRef& q,
                            const ConstVectorRef& qd, const ConstVectorRef& command,
                            const Wrenches& wrenches, const LaneMap& lanes, Quad* rows) noexcept {
-  if (model.has_constant_actuation() && !model.has_friction()) {
+  if (pulls_constantly(model)) {
     add_constant_columns(model, q, qd, command, lanes, rows);
   } else {
     for (Index i = 0; i < q.size(); ++i) {

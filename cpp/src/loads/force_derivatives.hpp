@@ -9,7 +9,8 @@
 
 namespace cdcr::detail {
 
-/// Room for dual numbers of a state, of commands and of a generalised force.
+/// Room for dual numbers of a state, of commands and of a generalised force; empty where no cable
+/// needs it.
 struct ForceDuals {
   explicit ForceDuals(const Model& model);
   std::vector<Dual> q, qd, command, force;

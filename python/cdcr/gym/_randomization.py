@@ -4,15 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
 from cdcr.base.check import Check, format_value, known_name
 from cdcr.robot.robot import Robot
+from cdcr.robot.section import Section
 
 Ranges = Mapping[str, Sequence[float]]
 
 RANDOM = ("stiffness", "damping", "mass", "payload")
+# Fields of a section that a factor multiplies, where they are given.
+_STIFFNESS = (
+    *("youngs_modulus", "shear_modulus"),
+    *("bending_stiffness", "twist_stiffness", "stretch_stiffness"),
+)
+_DAMPING = ("damping", "twist_damping", "stretch_damping")
+_MASS = ("backbone_mass", "disk_mass")
 
 
 def checked_ranges(ranges: Ranges | None) -> dict[str, tuple[float, float]]:
@@ -46,16 +55,20 @@ def draw_robot(
     """Return the robot with stiffness, damping, mass and payload drawn evenly from their ranges."""
     drawn = {name: float(rng.uniform(*ranges[name])) for name in RANDOM if name in ranges}
     stiffness, damping, mass = (drawn.get(name, 1.0) for name in RANDOM[:3])
-    sections = [
-        replace(
-            one,
-            youngs_modulus=stiffness * one.youngs_modulus,
-            damping=damping * one.damping,
-            backbone_mass=mass * one.backbone_mass,
-            disk_mass=mass * one.disk_mass,
-            disk_masses=tuple(mass * disk for disk in one.disk_masses),
-        )
-        for one in robot.sections
-    ]
+    sections = [_multiplied(one, stiffness, damping, mass) for one in robot.sections]
     payload = drawn.get("payload", robot.payload)
     return replace(robot, sections=tuple(sections), payload=payload)
+
+
+def _multiplied(section: Section, stiffness: float, damping: float, mass: float) -> Section:
+    factors = dict.fromkeys(_STIFFNESS, stiffness)
+    factors |= dict.fromkeys(_DAMPING, damping) | dict.fromkeys(_MASS, mass)
+    factors["material_damping"] = damping / stiffness  # the damping is this times the stiffness
+    changed: dict[str, Any] = {
+        name: factor * value
+        for name, factor in factors.items()
+        if (value := getattr(section, name)) is not None
+    }
+    return replace(
+        section, **changed, disk_masses=tuple(mass * disk for disk in section.disk_masses)
+    )
