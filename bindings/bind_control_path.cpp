@@ -58,7 +58,7 @@ void bind_reference_path(py::module_& m) {
       "A motion that a controller follows: coordinates (d,) [rad] or the tip's position (3,) "
       "[m].\n\n"
       "Values over time with their first two derivatives; it stands still before its start and "
-      "after\nits end. Made by its class methods; cpp/control.md eqs. (101), (102).\n\n"
+      "after\nits end. Made by its class methods; cpp/control.md eqs. (84), (85).\n\n"
       "Examples\n--------\n"
       ">>> import cdcr\n"
       ">>> path = cdcr.ReferencePath.spline([0.0, 1.0, 2.0], [[0.0, 0.0], [0.3, 0.1], [0.0, "

@@ -18,6 +18,7 @@ PAPERS = {
     "cpp/several-sections.md": ":doc:`several sections </explanation/several-sections>`",
     "cpp/rods.md": ":doc:`rods </explanation/rods>`",
     "cpp/derivatives.md": ":doc:`derivatives </explanation/derivatives>`",
+    "cpp/control.md": ":doc:`control </explanation/control>`",
 }
 FILE = Path(__file__).parents[1] / "reference" / "examples.txt"
 

@@ -282,52 +282,42 @@ TEST_CASE("task space: the tip follows a circle, and the posture goes where the 
   CHECK((near_bent - bent).norm() < 0.7 * (near_start - bent).norm());
 }
 
-TEST_CASE("what does not fit is refused in a sentence") {
-  const Model model(upright(1));
-  PidOptions pid;
-  pid.kp = Vector3d(1.0, 2.0, 3.0);
-  CHECK_THROWS_SENTENCE(Pid(model, pid),
-                        "kp must be a number, 2 numbers or a matrix of 2 by 2, got 3 by 1");
-  pid.kp = Eigen::Vector2d(1.0, -1.0);
-  CHECK_THROWS_SENTENCE(Pid(model, pid), "kp must be >= 0 N m/rad and finite, got -1");
-  pid.kp = Eigen::Matrix2d::Constant(nan);
-  CHECK_THROWS_SENTENCE(Pid(model, pid), "kp must be finite");
-  ComputedTorqueOptions torque;
-  torque.period = 0.0;
-  CHECK_THROWS_SENTENCE(ComputedTorque(model, torque), "period must be > 0 s and finite, got 0");
-  torque.period = 1e-3;
-  torque.limits.max_rate = 0.0;
-  CHECK_THROWS_SENTENCE(ComputedTorque(model, torque),
-                        "max_rate must be > 0 N/s (m/s of lengths), got 0");
-  torque.limits = from_pretension(2.0);
-  torque.limits.tension.max_tension = 1.0;
-  CHECK_THROWS_SENTENCE(ComputedTorque(model, torque),
-                        "tension limits must satisfy min_tension <= max_tension, got min_tension 2 "
-                        "N and max_tension 1 N");
-  torque.limits = {};
-  torque.limits.tension.pretension = Eigen::Vector2d(1.0, 1.0);
-  CHECK_THROWS_SENTENCE(ComputedTorque(model, torque),
-                        "pretension must have one value for each of the 3 cables, got 2");
-  StateFeedbackOptions feedback;
-  feedback.gain = MatrixXd::Zero(3, 3);
-  CHECK_THROWS_SENTENCE(StateFeedback(model, feedback),
-                        "gain must be 3 by 4 finite values, got 3 by 3");
-  TaskSpaceOptions task;
-  task.damping = 0.0;
-  CHECK_THROWS_SENTENCE(TaskSpace(model, task), "damping must be > 0 1/rad and finite, got 0");
-  TaskSpace tip_controller(model, {});
-  CHECK_THROWS_SENTENCE(tip_controller.set_reference(Eigen::Vector2d(0.0, 0.1)),
-                        "reference must be 3 finite values [m], got [  0 0.1]");
-  ComputedTorque fine(model);
-  const Model other(by_length(1));
-  const VectorXd zero = VectorXd::Zero(2);
-  CHECK_THROWS_SENTENCE(simulate(other, zero, zero, even_times(0.0, 1.0, 2), fine),
-                        "the controller drives cables by tension, but cable 1 of the robot is "
-                        "driven by length (its stiffness is not 0)");
-  ComputedTorque lengths(other);
-  CHECK_THROWS_SENTENCE(simulate(model, zero, zero, even_times(0.0, 1.0, 2), lengths),
-                        "the controller drives cables by length, but cable 1 of the robot is "
-                        "driven by tension (its stiffness is 0)");
+/// A law of one's own: a spring towards the reference, in twenty lines.
+class Spring final : public TrackingController {
+ public:
+  Spring(const Model& model, double gain)
+      : TrackingController(model, 1e-2, from_pretension(0.2)),
+        gain_(gain),
+        force_(model.num_coordinates()) {}
+
+ private:
+  Status control(double /*t*/, const ConstVectorRef& q, const ConstVectorRef& qd,
+                 const Setpoint& wanted) noexcept override {
+    force_ = gain_ * (wanted.value - q);
+    note_error(force_.norm() / gain_);
+    (void)give(q, qd, force_);
+    return Status::ok;
+  }
+
+  double gain_;
+  VectorXd force_;
+};
+
+TEST_CASE("a law of one's own has reference, limits and diagnostics from its base") {
+  const Model model(upright(1, 0.1));
+  Spring spring(model, 3.0);
+  spring.set_reference(Eigen::Vector2d(0.2, 0.1));
+  const Trajectory found = run(model, spring, Eigen::Vector2d(0.0, 0.0), 20.0, 3);
+  REQUIRE(found.status == Status::ok);
+  CHECK(found.tension.minCoeff() >= 0.2);
+  // At rest the spring balances backbone and weight.
+  Data data(model);
+  VectorXd gradient(2);
+  const VectorXd rest = found.q.row(2).transpose();
+  potential_gradient(model, data, rest, gradient);
+  CHECK(residual(3.0 * (Eigen::Vector2d(0.2, 0.1) - rest), gradient, 1.0) <= 1e-9);
+  CHECK(spring.diagnostics().updates >= 2000);
+  CHECK(residual(spring.diagnostics().error, (Eigen::Vector2d(0.2, 0.1) - rest).norm()) <= 1e-9);
 }
 
 TEST_SUITE_END();

@@ -150,7 +150,7 @@ def test_pid(example: Example) -> None:
 
 
 def test_closed_loop(example: Example) -> None:
-    found = example(20)
+    found = example(21)
     errors = {name: error.max() for name, error in found["errors"].items()}
     assert errors["ideal"] < 2e-6
     assert errors["late, and known to be"] < 0.2 * errors["late"]

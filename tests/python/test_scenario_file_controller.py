@@ -219,6 +219,18 @@ def test_a_loop_runs_as_the_same_loop_in_python(tmp_path: Path) -> None:
     np.testing.assert_array_equal(run.q, loop.run(2.0, record_every=10).trajectory.q)
 
 
+def test_a_motion_of_a_file_is_the_spline_through_its_points(tmp_path: Path) -> None:
+    (tmp_path / "path.csv").write_text("t,q1_x,q1_y\n0,0,0\n1,0.2,0.1\n2,0.1,0.3\n")
+    motion = '[controller.motion]\nshape = "file"\nfile = "path.csv"\n'
+    scenario = closed(tmp_path, LOOP + '[controller]\ntype = "computed-torque"\n' + motion)
+    run = scenario.simulate()
+    path = cdcr.ReferencePath.spline([0, 1, 2], [[0, 0], [0.2, 0.1], [0.1, 0.3]])
+    wanted = np.array([path.evaluate(t)[0] for t in run.t])
+    np.testing.assert_allclose(run.q, wanted, atol=1e-4)
+    with pytest.raises(FileNotFoundError, match="file of a motion"):
+        closed(tmp_path, LOOP + "[controller]\n" + PID + motion.replace("path", "no"))
+
+
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
@@ -237,8 +249,8 @@ def test_a_loop_runs_as_the_same_loop_in_python(tmp_path: Path) -> None:
         ),
         (
             LOOP + "[controller]\n" + PID + CIRCLE.replace("circle", "round"),
-            'controller.motion.shape must be one of "circle", "helix", "polygon", "spline", got '
-            "'round' (string)",
+            'controller.motion.shape must be one of "circle", "helix", "polygon", "spline", '
+            "\"file\", got 'round' (string)",
         ),
         (
             LOOP.replace("0.001", "0.0007") + "[controller]\n" + PID,

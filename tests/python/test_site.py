@@ -225,7 +225,9 @@ def test_what_has_no_meaning_is_refused() -> None:
         typeset.formula("(a + b")
 
 
-@pytest.mark.parametrize("name", ["README.md", "several-sections.md", "rods.md", "derivatives.md"])
+@pytest.mark.parametrize(
+    "name", ["README.md", "several-sections.md", "rods.md", "derivatives.md", "control.md"]
+)
 def test_all_numbered_equations_are_set(name: str) -> None:
     text = (ROOT / "cpp" / name).read_text(encoding="utf-8")
     numbers = re.findall(r" \((\d+)\)$", "".join(typeset.FENCED.findall(text)), re.MULTILINE)

@@ -36,7 +36,7 @@ class CableDrive {
   /// Brings a force to the nearest that the cables can give at q without limits, B B^+ Q. Where
   /// they can give any, it stays as it is.
   void project(const ConstVectorRef& q, VectorRef force) noexcept;
-  /// The same, nearest in the accelerations it makes: (B F - Q)^T M^-1 (B F - Q) least, eq. (105).
+  /// The same, nearest in the accelerations it makes: (B F - Q)^T M^-1 (B F - Q) least, eq. (88).
   void project(const ConstVectorRef& q, const MatrixXd& M, VectorRef force) noexcept;
   /// Whether the cables can give any force.
   [[nodiscard]] bool is_fully_actuated() const noexcept { return fully_actuated_; }

@@ -22,7 +22,7 @@ struct ComputedTorqueOptions {
 };
 
 /// Inverse dynamics and PD, Q = M (qdd_ref + kd e' + kp e) + h with e = ref - q, cpp/control.md
-/// eqs. (105), (106): where cables can give any force and the model is true, the error of each
+/// eqs. (88), (89): where cables can give any force and the model is true, the error of each
 /// coordinate obeys a linear equation. Where they are fewer than the coordinates, that is true of
 /// what they move, B^T q, where B is constant.
 class ComputedTorque : public TrackingController {

@@ -24,7 +24,7 @@ struct PidOptions {
 };
 
 /// Q = dU/dq(ref) + kp (ref - q) + ki int (ref - q) dt + kd (rate of ref - qd), allocated to the
-/// cables, cpp/control.md eq. (103).
+/// cables, cpp/control.md eq. (86).
 class Pid : public TrackingController {
  public:
   /// The reference is the shape at rest until set. Throws std::invalid_argument.

@@ -22,7 +22,7 @@ class ReferencePath {
   [[nodiscard]] static ReferencePath constant(const VectorXd& value);
   /// The smoothest way through points (N, size) at given times (N) [s], from rest to rest: of all
   /// it has the least integral of the squared jerk. Quintics whose first four derivatives are
-  /// continuous; for two points the minimum-jerk motion, cpp/control.md eq. (101).
+  /// continuous; for two points the minimum-jerk motion, cpp/control.md eq. (84).
   [[nodiscard]] static ReferencePath spline(const VectorXd& times, const MatrixXd& points);
   /// Quintics through values, rates and accelerations (N, size) at given times.
   [[nodiscard]] static ReferencePath hermite(const VectorXd& times, const MatrixXd& values,

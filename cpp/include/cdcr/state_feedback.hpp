@@ -15,7 +15,7 @@ struct StateFeedbackOptions {
 };
 
 /// State feedback, with a gain such as that of a linear quadratic regulator. Commands beyond the
-/// limits are replaced by the nearest tensions within them that bend the robot alike, eq. (107).
+/// limits are replaced by the nearest tensions within them that bend the robot alike, eq. (90).
 class StateFeedback : public TrackingController {
  public:
   /// The reference is the shape at rest until set. Throws std::invalid_argument.

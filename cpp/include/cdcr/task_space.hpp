@@ -24,8 +24,8 @@ struct TaskSpaceOptions {
 };
 
 /// Moves the tip along a reference (3) [m] in the base frame: accelerations by the damped inverse
-/// of its Jacobian, a posture in the null space, inverse dynamics, cpp/control.md eqs. (108),
-/// (109).
+/// of its Jacobian, a posture in the null space, inverse dynamics, cpp/control.md eqs. (91),
+/// (92).
 class TaskSpace : public TrackingController {
  public:
   /// The reference is the tip of the shape at rest until set. Throws std::invalid_argument.

@@ -76,7 +76,7 @@ double Actuators::delayed(Index cable, double command) noexcept {
                (now_ + late_.cols() - delay_[static_cast<std::size_t>(cable)]) % late_.cols());
 }
 
-/// Mass times acceleration of the length let out is tension less motor force, eq. (110).
+/// Mass times acceleration of the length let out is tension less motor force, eq. (93).
 void Actuators::move_winch(Index cable, const Winch& winch, double command,
                            double tension) noexcept {
   double& length = value_[cable];

@@ -51,7 +51,7 @@ Status ComputedTorque::control(double t, const ConstVectorRef& q, const ConstVec
   note_error(error_.norm());
   q_ = q;
   qd_ = qd;
-  if (horizon > 0.0) {  // where the robot is in the middle of the period, eq. (106)
+  if (horizon > 0.0) {  // where the robot is in the middle of the period, eq. (89)
     if (!drive().is_fully_actuated()) {
       set_force(q, qd);
       forward_dynamics_force(model(), data_, q, qd, force_, qdd_);

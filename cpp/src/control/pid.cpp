@@ -41,7 +41,7 @@ void Pid::filter(const ConstVectorRef& q, const ConstVectorRef& qd) noexcept {
     return;
   }
   if (filters_) {
-    // Backward Euler of filter rate' + rate = q', eq. (104).
+    // Backward Euler of filter rate' + rate = q', eq. (87).
     rate_ = (options_.filter * rate_ + (q - last_q_)) / (options_.filter + period());
   } else {
     rate_.setZero();

@@ -29,7 +29,7 @@ void set_quintic(double h, const MatrixXd& from, const MatrixXd& to, Eigen::Ref<
 }
 
 /// What the third and the fourth derivative at the begin of a quintic owe to (rate, acceleration)
-/// at its two ends and to its step, eq. (102). At its end they are the same with the ends exchanged
+/// at its two ends and to its step, eq. (85). At its end they are the same with the ends exchanged
 /// and the signs of those odd in time reversed.
 struct Jerk {
   explicit Jerk(double h) {

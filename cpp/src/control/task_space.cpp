@@ -56,7 +56,7 @@ void TaskSpace::set_velocity_terms(const ConstVectorRef& q, const ConstVectorRef
   }
 }
 
-/// inverse_: of J J^T, its eigenvalues not below the squared damping, eq. (108).
+/// inverse_: of J J^T, its eigenvalues not below the squared damping, eq. (91).
 void TaskSpace::set_inverse() noexcept {
   const Matrix3d normal = J_.topRows<3>() * J_.topRows<3>().transpose();
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(normal);
@@ -108,7 +108,7 @@ Status TaskSpace::control(double t, const ConstVectorRef& q, const ConstVectorRe
   note_error(error_.norm());
   q_ = q;
   qd_ = qd;
-  if (horizon > 0.0) {  // as in computed torque, eq. (106)
+  if (horizon > 0.0) {  // as in computed torque, eq. (89)
     if (!drive().is_fully_actuated()) {
       set_force(q, qd);
       forward_dynamics_force(model(), data_, q, qd, force_, qdd_);

@@ -194,6 +194,19 @@ class SplineMotion(BaseModel):
     )
 
 
+class FileMotion(BaseModel):
+    """The [controller.motion] table of shape "file"."""
+
+    model_config = STRICT
+
+    shape: Literal["file"] = needed('"file"', "kind of motion")
+    file: str = needed(
+        "the name of a CSV file with the columns t, then the names of the coordinates, or x, y, z "
+        "of the tip",
+        "points that it goes through, from rest to rest; found from the folder of this file",
+    )
+
+
 class WinchTable(BaseModel):
     """The table winch of an actuator."""
 
@@ -274,4 +287,5 @@ MOTIONS: dict[str, type[BaseModel]] = {
     "helix": HelixMotion,
     "polygon": PolygonMotion,
     "spline": SplineMotion,
+    "file": FileMotion,
 }

@@ -157,7 +157,8 @@ def _path(table: dict[str, Any], model: Model, file: Path) -> ReferencePath:
 
     of_tip = table["type"] == "task-space"
     if "motion" in table:
-        return read_path(table["motion"], 3 if of_tip else model.num_coordinates, file)
+        names = ("x", "y", "z") if of_tip else tuple(model.coordinate_names)
+        return read_path(table["motion"], names, file)
     if of_tip:
         return ReferencePath.constant(table.get("tip", TaskSpace(model).reference))
     reference, at = table.get("reference", {}), f"{AT}.reference"

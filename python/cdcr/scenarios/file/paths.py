@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from cdcr._core import ReferencePath
+from cdcr.files.number_csv import Layout, read_numbers
 from cdcr.files.toml import refuse
 from cdcr.scenarios.file.trajectory import kind_errors
 from cdcr.scenarios.file.values import error_prefix
@@ -16,11 +17,18 @@ AT = "controller.motion"
 _SIZED = ("center", "x", "y", "climb", "corners", "points")
 
 
-def read_path(table: dict[str, Any], size: int, file: Path) -> ReferencePath:
-    """Return the path of a motion of so many values, or refuse it with file, key and value."""
+def read_path(table: dict[str, Any], names: tuple[str, ...], file: Path) -> ReferencePath:
+    """Return the path of a motion of values of these names, or refuse it by file and key."""
     from cdcr.scenarios.file.control_schema import MOTIONS
 
     refuse(str(file), kind_errors(MOTIONS, table, AT, "shape"))
+    if table["shape"] == "file":
+        source = file.parent / table["file"]
+        layout = Layout(names, "a number")
+        _, times, points = read_numbers(source, "file of a motion", [layout])
+        with error_prefix(str(source)):
+            return ReferencePath.spline(times, points)
+    size = len(names)
     for key in _SIZED:
         rows = np.atleast_1d(np.array(table.get(key, np.zeros(size)), dtype=object))
         if rows.shape[-1] != size or rows.ndim > 2:
