@@ -10,7 +10,7 @@ IN_VENV := PATH="$(CURDIR)/$(VENV)/bin:$$PATH"
 SPHINX := python -m sphinx -W --keep-going -q
 
 .NOTPARALLEL:
-.PHONY: help demo test lint format validate bench bench-smoke view-test wheel docs docs-links asan tsan fuzz builds lock audit clean setup setup-dev setup-docs test-cpp types test-python
+.PHONY: help demo test lint format validate bench bench-smoke compare view-test wheel docs docs-links asan tsan fuzz builds lock audit clean setup setup-dev setup-docs test-cpp types test-python
 
 help: ## list the commands
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -40,6 +40,10 @@ bench: setup-dev ## build and run the benchmarks
 	@$(IN_VENV) cmake --preset bench
 	@$(IN_VENV) cmake --build --preset bench
 	@$(IN_VENV) python bench/run.py --build-dir build/bench
+
+compare: setup ## set cdcr beside other software, in build/compare (1.5 GB); the figure goes to out/
+	@mkdir -p out
+	@VENV="$(VENV)" tools/compare.sh --figure out/compare.svg
 
 bench-smoke: setup-dev
 	@$(IN_VENV) cmake --preset bench

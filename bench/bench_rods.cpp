@@ -83,6 +83,28 @@ void measure(const Harness& harness, const Plan& plan, int num_sections,
       });
 }
 
+/// The derivatives of so many rods of order 2 with twist, under the cables of Table 1 on each.
+void measure_derivatives(const Harness& harness, const Plan& plan, int num_sections) {
+  Robot robot = bench::robot(true);
+  Section& section = robot.sections[0];
+  section.bending_order = 2;
+  section.twist_order = 0;
+  section.shear_modulus = section.youngs_modulus / 2.6;
+  robot.sections.assign(static_cast<std::size_t>(num_sections), Section(section));
+  const Model model(robot);
+  Data data(model);
+  const Index d = model.num_coordinates();
+  const VectorXd q = VectorXd::Constant(d, 0.2), qd = VectorXd::Constant(d, 0.5),
+                 tension = VectorXd::Ones(model.num_cables());
+  MatrixXd A(2 * d, 2 * d), B(2 * d, model.num_cables());
+  harness.run(
+      plan, [] {},
+      [&](long /*i*/) {
+        linearize(model, data, q, qd, tension, A, B);
+        keep(A);
+      });
+}
+
 }  // namespace
 }  // namespace cdcr::bench
 
@@ -97,4 +119,6 @@ int main(int argc, char** argv) {
           described(section, 3, 0, 0));
   measure(harness, plan("forward_dynamics, 3 rods of order 2 with twist"), 3,
           described(section, 2, 0, -1));
+  measure_derivatives(harness, {"linearize, rod of order 2 with twist", "us", 10, 1000}, 1);
+  measure_derivatives(harness, {"linearize, 3 rods of order 2 with twist", "us", 10, 1000}, 3);
 }

@@ -34,7 +34,7 @@ void measure_functions(const Harness& harness, Index n) {
   const VectorXd tension = VectorXd::Ones(model.num_cables()), qdd = VectorXd::Ones(m);
   Data data(model);
   VectorXd out(m);
-  MatrixXd M(m, m), A(2 * m, 2 * m);
+  MatrixXd M(m, m), A(2 * m, 2 * m), B(2 * m, model.num_cables());
   const auto nothing = [] {};
   const auto plan = [&suffix](const char* name, long calls) {
     return Plan{name + suffix, "us", calls, 1000};
@@ -54,6 +54,15 @@ void measure_functions(const Harness& harness, Index n) {
   harness.run(plan("state_jacobian", 10), nothing, [&](long i) {
     state_jacobian(model, data, state(i).q, state(i).qd, tension, no_wrenches(), A);
     keep(A);
+  });
+  harness.run(plan("linearize", 10), nothing, [&](long i) {
+    linearize(model, data, state(i).q, state(i).qd, tension, A, B);
+    keep(A);
+    keep(B);
+  });
+  harness.run(plan("potential_hessian", 10), nothing, [&](long i) {
+    potential_hessian(model, data, state(i).q, M);
+    keep(M);
   });
 }
 

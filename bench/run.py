@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 EXECUTABLES = (
     "dynamics",
     "sections",
+    "batch",
     "rods",
     "step",
     "statics",

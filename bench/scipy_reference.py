@@ -54,7 +54,16 @@ def inertia(section: cdcr.Section, sigma: float) -> tuple[float, float]:
 class RightHandSide:
     """y' = f(t, y) of y = (q, qd) for one section without gravity and tension."""
 
-    def __init__(self, section: cdcr.Section) -> None:
+    def __init__(self, table: Array, stiffness: float, damping: float = 0.0) -> None:
+        self.table = table  # of a, b and their slopes: a row of coefficients each, constant first
+        self.powers = np.arange(table.shape[1])
+        self.stiffness = stiffness
+        self.damping = damping
+
+    @classmethod
+    def of(cls, section: cdcr.Section) -> RightHandSide:
+        """Make the table of a section."""
+
         def interpolated(value: int) -> Polynomial:
             function = np.vectorize(lambda sigma: inertia(section, sigma)[value])
             fit = Chebyshev.interpolate(function, DEGREE, domain=[0.0, LARGEST_SIGMA])
@@ -64,12 +73,10 @@ class RightHandSide:
         a = interpolated(1)
         # b = (M11 - a)/sigma: both agree at 0, so the coefficient dropped is rounding.
         b = Polynomial((interpolated(0) - a).coef[1:])
-        self.powers = np.arange(DEGREE + 1)
-        self.table = np.zeros((4, DEGREE + 1))
-        for row, polynomial in zip(self.table, (a, b, a.deriv(), b.deriv()), strict=True):
+        table = np.zeros((4, DEGREE + 1))
+        for row, polynomial in zip(table, (a, b, a.deriv(), b.deriv()), strict=True):
             row[: polynomial.coef.size] = polynomial.coef
-        self.stiffness = section.stiffness
-        self.damping = section.damping
+        return cls(table, section.stiffness, section.damping)
 
     def __call__(self, t: float, state: Array) -> tuple[float, float, float, float]:
         """Plain floats around one matrix product: quicker than small NumPy vectors."""
@@ -87,7 +94,7 @@ class RightHandSide:
 def solve(section: cdcr.Section, q0: Array, times: Array, method: str, rtol: float) -> Array:
     """Bending vectors (N, 2) of a free run from rest at q0; atol is rtol/100, as cdcr's."""
     answer = solve_ivp(
-        RightHandSide(section),
+        RightHandSide.of(section),
         (times[0], times[-1]),
         np.concatenate((q0, np.zeros(2))),
         method=method,

@@ -68,7 +68,7 @@ def check() -> Row:
 
 def right_hand_side() -> Row:
     """Time one evaluation of the NumPy equations of motion."""
-    equations = scipy_reference.RightHandSide(SECTION)
+    equations = scipy_reference.RightHandSide.of(SECTION)
     state = np.array([*Q0, 0.1, 0.2])
     times = Timed(lambda: [equations(0.0, state) for _ in range(1000)], 20, 1e-3)
     return times.row("NumPy right-hand side", "us", calls_per_block=1000)

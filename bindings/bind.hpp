@@ -4,12 +4,23 @@
 
 #include "cdcr/allocation.hpp"
 #include "cdcr/controller.hpp"
+#include "cdcr/reference_path.hpp"
 #include "cdcr/simulate.hpp"
 #include "cdcr/statics.hpp"
 #include "initialised.hpp"
 
+namespace cdcr {
+class ComputedTorque;
+class Pid;
+class StateFeedback;
+class TaskSpace;
+class TrackingController;
+}  // namespace cdcr
+
 namespace cdcr::python {
-class PythonPid;
+template <class Law>
+class Tracking;
+class PythonLoop;
 class PythonSimulator;
 }  // namespace cdcr::python
 
@@ -21,12 +32,18 @@ CDCR_BOUND_CLASS(cdcr::Controller);
 CDCR_BOUND_CLASS(cdcr::Equilibrium);
 CDCR_BOUND_CLASS(cdcr::Model);
 CDCR_BOUND_CLASS(cdcr::Options);
-CDCR_BOUND_CLASS(cdcr::python::PythonPid);
+CDCR_BOUND_CLASS(cdcr::python::Tracking<cdcr::ComputedTorque>);
+CDCR_BOUND_CLASS(cdcr::python::Tracking<cdcr::Pid>);
+CDCR_BOUND_CLASS(cdcr::python::Tracking<cdcr::StateFeedback>);
+CDCR_BOUND_CLASS(cdcr::python::Tracking<cdcr::TaskSpace>);
+CDCR_BOUND_CLASS(cdcr::python::PythonLoop);
 CDCR_BOUND_CLASS(cdcr::python::PythonSimulator);
+CDCR_BOUND_CLASS(cdcr::ReferencePath);
 CDCR_BOUND_CLASS(cdcr::Robot);
 CDCR_BOUND_CLASS(cdcr::Section);
 CDCR_BOUND_CLASS(cdcr::Stats);
 CDCR_BOUND_CLASS(cdcr::Trajectory);
+CDCR_BOUND_CLASS(cdcr::TrackingController);
 CDCR_BOUND_CLASS(cdcr::Wrench);
 CDCR_BOUND_CLASS(cdcr::WrenchInput);
 
@@ -48,7 +65,11 @@ void bind_energy(PyModel& model);                         ///< called by bind_mo
 void bind_statics(pybind11::module_& m, PyModel& model);  ///< called by bind_model
 void bind_modes(PyModel& model);                          ///< called by bind_model
 void bind_control(pybind11::module_& m);
+void bind_reference_path(pybind11::module_& m);  ///< called by bind_control
+void bind_controllers(pybind11::module_& m);     ///< called by bind_control
+void bind_loop(pybind11::module_& m);
 void bind_simulate(pybind11::module_& m);
 void bind_simulator(pybind11::module_& m);
+void bind_rollout(pybind11::module_& m);
 
 }  // namespace cdcr::python

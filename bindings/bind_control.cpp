@@ -1,7 +1,4 @@
-#include <pybind11/stl.h>
-
 #include <cmath>
-#include <memory>
 #include <sstream>
 
 #include "arrays.hpp"
@@ -58,9 +55,6 @@ Status PythonController::guarded(Function&& function) noexcept {
   }
 }
 
-PythonPid::PythonPid(py::object of, PidOptions options)
-    : Pid(read_model(of), std::move(options)), model(std::move(of)) {}
-
 void PythonController::rethrow() {
   if (exception_) std::rethrow_exception(std::exchange(exception_, nullptr));
 }
@@ -110,86 +104,12 @@ void bind_controller(py::module_& m) {
       [](const py::tuple& state) { return new PythonController(state[0].cast<double>()); });
 }
 
-PythonPid* make_pid(const py::object& model, double kp, double ki, double kd, double period,
-                    bool feed_forward, bool anti_windup, double min_tension, double max_tension,
-                    std::vector<Index> cables) {
-  TensionLimits limits;
-  limits.min_tension = min_tension;
-  limits.max_tension = max_tension;
-  limits.cables = std::move(cables);
-  return new PythonPid(model, {kp, ki, kd, period, feed_forward, anti_windup, std::move(limits)});
-}
-
-py::tuple take_apart(const PythonPid& pid) {
-  const PidOptions& o = pid.options();
-  return py::make_tuple(pid.model, o.kp, o.ki, o.kd, o.period, o.feed_forward, o.anti_windup,
-                        o.limits.min_tension, o.limits.max_tension, o.limits.cables,
-                        to_array(pid.reference()), to_array(pid.integral()));
-}
-
-PythonPid* put_together(const py::tuple& state) {
-  auto pid = std::unique_ptr<PythonPid>(make_pid(
-      state[0], state[1].cast<double>(), state[2].cast<double>(), state[3].cast<double>(),
-      state[4].cast<double>(), state[5].cast<bool>(), state[6].cast<bool>(),
-      state[7].cast<double>(), state[8].cast<double>(), state[9].cast<std::vector<Index>>()));
-  pid->set_reference(to_vector(state[10]));
-  pid->set_integral(to_vector(state[11]));
-  return pid.release();
-}
-
-void bind_pid(py::module_& m) {
-  const PidOptions defaults;
-  py::class_<PythonPid, Controller> pid(m, "Pid", "PID loop on the bending vectors; see cdcr.Pid.");
-  pid.def(py::init(&make_pid), "model"_a, py::kw_only(), "kp"_a, "ki"_a = defaults.ki,
-          "kd"_a = defaults.kd, "period"_a = defaults.period,
-          "feed_forward"_a = defaults.feed_forward, "anti_windup"_a = defaults.anti_windup,
-          "min_tension"_a = defaults.limits.min_tension,
-          "max_tension"_a = defaults.limits.max_tension, "cables"_a = defaults.limits.cables,
-          Doc("Make a controller whose reference is the straight robot.",
-              {"model, kp, ki, kd, period, feed_forward, anti_windup, min_tension, max_tension, "
-               "cables\n    As in cdcr.Pid.\n"},
-              "", docs::bad_argument))
-      .def_readonly("model", &PythonPid::model, "The model whose forces it reckons with.")
-      .def_property(
-          "reference", [](const PythonPid& self) { return to_array(self.reference()); },
-          [](PythonPid& self, const py::object& q) {
-            self.set_reference(*VectorArgument(q, "reference", self.reference().size(),
-                                               of_coordinates(self.model.cast<const Model&>())));
-          },
-          "Bending vectors to reach and hold (d,) [rad]; straight until set.")
-      .def("__repr__",
-           [](const PythonPid& self) {
-             const PidOptions& options = self.options();
-             std::ostringstream text;
-             text << "<Pid: kp " << options.kp << ", ki " << options.ki << ", kd " << options.kd
-                  << ", period " << options.period << " s>";
-             return text.str();
-           })
-      .def_property_readonly(
-          "integral", [](const PythonPid& self) { return to_array(self.integral()); },
-          "Accumulated error (d,) [rad s].")
-      .def(
-          "update",
-          [](PythonPid& self, double t, const py::object& q, const py::object& qd) {
-            const Index n = self.reference().size();
-            VectorXd tension(self.num_cables());
-            const Entries entries = of_coordinates(self.model.cast<const Model&>());
-            const VectorArgument bending(q, "q", n, entries), rate(qd, "qd", n, entries);
-            (void)self.update(t, *bending, *rate, tension);  // finite, so it cannot fail
-            return to_array(tension);
-          },
-          "t"_a, "q"_a, "qd"_a,
-          Doc("Tensions for the state measured at one time.",
-              {"t : float\n    Time of the measurement [s].\n", docs::one_q, docs::one_qd},
-              "(num_cables,) array\n    Tensions [N].", docs::bad_argument));
-  make_picklable(pid, &take_apart, &put_together);
-}
-
 }  // namespace
 
 void bind_control(py::module_& m) {
   bind_controller(m);
-  bind_pid(m);
+  bind_reference_path(m);
+  bind_controllers(m);
 }
 
 }  // namespace cdcr::python

@@ -1,3 +1,5 @@
+#include <array>
+
 #include "bind.hpp"
 #include "cdcr/dynamics.hpp"
 #include "cdcr/linearization.hpp"
@@ -27,6 +29,49 @@ py::tuple linearize_states(const Model& self, const py::object& q, const py::obj
     Eigen::Map<RowMatrixXd>(b + i * B.size(), num_states, num_cables) = B;
   });
   return py::make_tuple(std::move(all_A), std::move(all_B));
+}
+
+py::array_t<double> accelerations(const Model& self, const py::object& q, const py::object& qd,
+                                  const py::object& tension, const Wrenches& loads) {
+  const Index d = self.num_coordinates();
+  const States states{read_bendings(self, q), read_rates(self, qd, "qd"),
+                      read_tensions(self, tension)};
+  if (!loads.empty() || !states.is_one_row()) {
+    return states.vectors(d, [&](auto& x, auto& xd, auto& command, auto& out) {
+      forward_dynamics(self, scratch(self), x, xd, command, loads, out);
+    });
+  }
+  py::array_t<double> all = states.output({d});
+  double* qdd = all.mutable_data();
+  states.blocks([&](Index first, Index count, const auto&... rows) {
+    forward_dynamics(self, scratch(self), count, rows..., qdd + first * d);
+  });
+  return all;
+}
+
+py::tuple differentiate_states(const Model& self, const py::object& q, const py::object& qd,
+                               const py::object& tension, const py::object& wrenches) {
+  require_inertia(self);
+  const Wrenches loads = read_wrenches(self, wrenches);
+  const States states{read_bendings(self, q), read_rates(self, qd, "qd"),
+                      read_tensions(self, tension)};
+  const Index d = self.num_coordinates(), num_cables = self.num_cables();
+  const auto num_wrenches = static_cast<Index>(loads.size());
+  std::array<py::array_t<double>, 4> outputs{states.output({d, d}), states.output({d, d}),
+                                             states.output({d, num_cables}),
+                                             states.output({d, num_wrenches, 6})};
+  std::array<MatrixXd, 4> slopes{MatrixXd(d, d), MatrixXd(d, d), MatrixXd(d, num_cables),
+                                 MatrixXd(d, 6 * num_wrenches)};
+  std::array<double*, 4> data{};
+  for (std::size_t k = 0; k < data.size(); ++k) data[k] = outputs[k].mutable_data();
+  states.each([&](Index i, const auto& x, const auto& xd, const auto& command) {
+    acceleration_derivatives(self, scratch(self), x, xd, command, loads, slopes[0], slopes[1],
+                             slopes[2], slopes[3]);
+    for (std::size_t k = 0; k < data.size(); ++k) {
+      Eigen::Map<RowMatrixXd>(data[k] + i * slopes[k].size(), d, slopes[k].cols()) = slopes[k];
+    }
+  });
+  return py::make_tuple(outputs[0], outputs[1], outputs[2], outputs[3]);
 }
 
 }  // namespace
@@ -60,12 +105,7 @@ void bind_dynamics(PyModel& model) {
           [](const Model& self, const py::object& q, const py::object& qd,
              const py::object& tension, const py::object& wrenches) {
             require_inertia(self);
-            const Wrenches loads = read_wrenches(self, wrenches);
-            return States{read_bendings(self, q), read_rates(self, qd, "qd"),
-                          read_tensions(self, tension)}
-                .vectors(self.num_coordinates(), [&](auto& x, auto& xd, auto& command, auto& out) {
-                  forward_dynamics(self, scratch(self), x, xd, command, loads, out);
-                });
+            return accelerations(self, q, qd, tension, read_wrenches(self, wrenches));
           },
           "q"_a, "qd"_a, "tension"_a, "wrenches"_a = py::tuple(),
           Doc("Accelerations under cables and wrenches: cpp/README.md eqs. (12), (16),\n"
@@ -102,6 +142,8 @@ void bind_dynamics(PyModel& model) {
               "B : (..., 2d, num_cables) array\n"
               "    By the command [N], or [m] for cables driven by length.",
               docs::bad_states))
+      .def("_derivatives", &differentiate_states, "q"_a, "qd"_a, "tension"_a, "wrenches"_a,
+           Doc("See cdcr.Model.derivatives."))
       .def(
           "wrench_force",
           [](const Model& self, const py::object& q, const py::object& wrenches) {

@@ -26,6 +26,12 @@ void bind_model(py::module_& m) {
                {"robot : Robot\n    The robot.\n",
                 "formulation : Formulation\n    Which inertia functions to use.\n"},
                "", docs::bad_argument))
+      .def(py::init<Robot, const Model&>(), "robot"_a, "like"_a,
+           Doc("A robot that differs from another in a few numbers.",
+               {"robot : Robot\n    The robot.\n",
+                "like : Model\n    Of the other, whose formulation it has, and whose tables it\n"
+                "    shares where sections have the same inertia.\n"},
+               "", docs::bad_argument))
       .def(py::init([](const Model& other, const py::object& gravity) {
              return other.with_gravity(*VectorArgument(gravity, "gravity", 3));
            }),

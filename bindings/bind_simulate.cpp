@@ -3,7 +3,6 @@
 
 #include <memory>
 #include <optional>
-#include <set>
 #include <tuple>
 #include <vector>
 
@@ -13,25 +12,14 @@
 #include "controllers.hpp"
 #include "docs.hpp"
 #include "gil.hpp"
+#include "methods.hpp"
 #include "pickling.hpp"
-
-#ifdef CDCR_WITH_CVODE
-#include "cdcr/cvode.hpp"
-#endif
 
 namespace cdcr::python {
 namespace {
 
 namespace py = pybind11;
 using namespace py::literals;
-
-#ifdef CDCR_WITH_CVODE
-constexpr bool with_cvode = true;
-constexpr auto* make_any_integrator = make_cvode_integrator;
-#else
-constexpr bool with_cvode = false;
-constexpr auto* make_any_integrator = make_integrator;
-#endif
 
 /// A Python callable as tension function: the slow path, one call of Python for each evaluation.
 CommandInput call_python(py::function function, Index num_cables,
@@ -92,26 +80,6 @@ Trajectory run(const Model& model, const py::object& q0, const py::object& qd0, 
   interruption.raise();
   return done;
 }
-
-/// Keeps a controller, which has a state, from driving two runs at once.
-class Driving {
- public:
-  explicit Driving(const Controller& controller) : controller_(&controller) {
-    if (all().insert(controller_).second) return;
-    throw py::value_error(
-        "the controller drives another run at this moment: make one for each run");
-  }
-  Driving(const Driving&) = delete;
-  Driving& operator=(const Driving&) = delete;
-  ~Driving() { all().erase(controller_); }
-
- private:
-  static std::set<const Controller*>& all() {  // Python's lock guards it
-    static std::set<const Controller*> controllers;
-    return controllers;
-  }
-  const Controller* controller_;
-};
 
 Trajectory run_controlled(const Model& model, const py::object& q0, const py::object& qd0,
                           const py::object& t, Controller& controller, Method method,

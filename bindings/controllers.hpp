@@ -3,9 +3,10 @@
 #include <pybind11/pybind11.h>
 
 #include <exception>
+#include <set>
 #include <utility>
 
-#include "cdcr/pid.hpp"
+#include "cdcr/controller.hpp"
 
 namespace cdcr::python {
 
@@ -32,12 +33,24 @@ class PythonController final : public Controller {
   std::exception_ptr exception_;
 };
 
-/// A Pid that knows the model as Python has it.
-class PythonPid final : public Pid {
+/// Keeps a controller, which has a state, from driving two runs at once.
+class Driving {
  public:
-  PythonPid(pybind11::object of, PidOptions options);
+  explicit Driving(const Controller& controller) : controller_(&controller) {
+    if (all().insert(controller_).second) return;
+    throw pybind11::value_error(
+        "the controller drives another run at this moment: make one for each run");
+  }
+  Driving(const Driving&) = delete;
+  Driving& operator=(const Driving&) = delete;
+  ~Driving() { all().erase(controller_); }
 
-  pybind11::object model;
+ private:
+  static std::set<const Controller*>& all() {  // Python's lock guards it
+    static std::set<const Controller*> controllers;
+    return controllers;
+  }
+  const Controller* controller_;
 };
 
 }  // namespace cdcr::python

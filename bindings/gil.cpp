@@ -81,4 +81,10 @@ void Interruption::raise() const {
   if (found_) throw py::error_already_set();
 }
 
+void Interruption::forgive() const {
+  if (!found_) return;
+  if (PyErr_ExceptionMatches(PyExc_KeyboardInterrupt) == 0) throw py::error_already_set();
+  PyErr_Clear();
+}
+
 }  // namespace cdcr::python

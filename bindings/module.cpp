@@ -22,6 +22,8 @@ PYBIND11_MODULE(_core, m) {
   cdcr::python::bind_control(m);
   cdcr::python::bind_simulate(m);
   cdcr::python::bind_simulator(m);
+  cdcr::python::bind_rollout(m);
+  cdcr::python::bind_loop(m);
   cdcr::python::show_constructors(m);
   cdcr::python::finish_pickling(m);
   cdcr::python::tell_calls_plainly(m);

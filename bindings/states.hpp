@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "arrays.hpp"
+#include "cdcr/dynamics.hpp"
 #include "gil.hpp"
 
 namespace cdcr::python {
@@ -71,6 +72,15 @@ class States {
     return py::array_t<double>(std::move(shape));
   }
 
+  /// Whether the states are many, counted by one dimension.
+  [[nodiscard]] bool is_one_row() const { return dimensions_.size() == 1; }
+
+  /// Where it is, f(first, count, rows..) of blocks of them, each argument as StateRows.
+  template <class F>
+  void blocks(F&& f) const {
+    blocks(std::forward<F>(f), std::make_index_sequence<N>());
+  }
+
   /// f(i, rows..) for each state: its number, and what each argument holds of it.
   template <class F>
   void each(F&& f) const {
@@ -116,6 +126,22 @@ class States {
 
   [[nodiscard]] Eigen::Map<const VectorXd> row(std::size_t k, Index offset) const {
     return {arguments_[k].array.data() + offset, arguments_[k].size};
+  }
+
+  template <class F, std::size_t... K>
+  void blocks(F&& f, std::index_sequence<K...>) const {
+    constexpr Index largest = 1024;
+    const Dimension& row = dimensions_.front();
+    Interruption interruption;
+    const auto run = [&] {
+      const Unlocked unlocked;
+      for (Index first = 0; first < row.size && !interruption(); first += largest) {
+        f(first, std::min(largest, row.size - first),
+          StateRows{arguments_[K].array.data() + first * row.stride[K], row.stride[K]}...);
+      }
+    };
+    run();
+    interruption.raise();
   }
 
   template <class F, std::size_t... K>

@@ -8,6 +8,8 @@ if(NOT Eigen3_FOUND)
   )
 endif()
 
+find_package(Threads REQUIRED)
+
 # From here on CDCR_WITH_CVODE is ON or OFF.
 if(CDCR_WITH_CVODE)
   set(SUNDIALS_NOT_FOUND_MESSAGE "find_package is told not to look")

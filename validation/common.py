@@ -96,14 +96,49 @@ def watch() -> Iterator[list[float]]:
     spent[0] = time.process_time() - start
 
 
-def read_columns(path: Path, names: Sequence[str] | None = None) -> FloatArray:
-    """Return columns of a CSV file, all of them where no names are given and there is no header."""
+def read_columns(path: Path, names: Sequence[str] | None = None, split: str = ",") -> FloatArray:
+    """Return columns of a CSV file, all of them where no names are given and there is no header.
+
+    Raises
+    ------
+    FileNotFoundError
+        Where there is no such file.
+    ValueError
+        With file, line and column of what is no finite number, or not there.
+    """
+    if not path.is_file():
+        raise FileNotFoundError(f"there is no file {path}")
     with path.open(newline="") as file:
-        rows = list(csv.reader(file))
-    if names is None:
-        return np.array([[float(cell) for cell in row] for row in rows])
-    places = [rows[0].index(name) for name in names]
-    return np.array([[float(row[k]) for k in places] for row in rows[1:]])
+        reader = csv.reader(file, delimiter=split)
+        lines = [(reader.line_num, row) for row in reader if any(cell.strip() for cell in row)]
+    header = [] if names is None else lines[0][1] if lines else []
+    for name in names or ():
+        if name not in header:
+            known = ", ".join(header) or "none"
+            raise ValueError(f"{path}, line 1: there is no column {name!r}; there are {known}")
+    lines = lines[names is not None :]
+    if not lines:
+        raise ValueError(f"{path} has no rows of numbers")
+    width = len(header) or len(lines[0][1])
+    for line, row in lines:
+        if len(row) != width:
+            raise ValueError(f"{path}, line {line}: must have {width} columns, got {len(row)}")
+    places = range(width) if names is None else [header.index(name) for name in names]
+    labels = header or [f"column {k + 1}" for k in range(width)]
+    return np.array([
+        [_number(row[k], f"{path}, line {line}: {labels[k]}") for k in places]
+        for line, row in lines
+    ])  # fmt: skip
+
+
+def _number(text: str, where: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = np.nan
+    if not np.isfinite(value):
+        raise ValueError(f"{where} must be a finite number, got {text!r}")
+    return value
 
 
 def script(rows: Callable[[], Sequence[Row]]) -> None:

@@ -93,8 +93,12 @@ def some(train: Path, chosen: np.ndarray) -> Poses:
     )  # fmt: skip
 
 
-def rows(train: Path, test: Path | None, out: Path | None = None) -> list[Row]:
+def rows(
+    train: Path, test: Path | None, out: Path | None = None, *, far: bool = False
+) -> list[Row]:
     """Return the row of the table."""
+    if far:
+        near_and_far(train)
     used = poses(train)
     with watch() as spent:
         found = fit(used)
@@ -122,9 +126,7 @@ def main() -> None:
     parser.add_argument("--far", action="store_true", help="predict large bends from small ones")
     parser.add_argument("--out", type=Path, help="a picture of the fit")
     given = parser.parse_args()
-    if given.far:
-        near_and_far(given.train)
-    script(lambda: rows(given.train, given.test, given.out))
+    script(lambda: rows(given.train, given.test, given.out, far=given.far))
 
 
 if __name__ == "__main__":

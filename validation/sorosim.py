@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from common import FloatArray, Row, rms, script, watch
+from common import FloatArray, Row, read_columns, rms, script, watch
 
 import cdcr
 
@@ -78,8 +78,9 @@ def axis_rotations(angle: FloatArray, axis: int) -> FloatArray:
 
 def read(path: Path, middle: tuple[int, float], last: int) -> Release:
     """Return a release; the wrenches at (section, fraction) and at the end of the last section."""
-    rows = np.array([[float(cell) for cell in line.split("\t")] for line in
-                     path.read_text().splitlines() if line.strip()])  # fmt: skip
+    rows = read_columns(path, split="\t")
+    if rows.shape[1] != 13 or len(rows) < 4:
+        raise ValueError(f"{path} must have 13 columns and 4 lines or more, got {rows.shape}")
     beta, gravity = rows[0, 0], TURN @ rows[0, 10:13]
     held = rows[1, 1:13].reshape(2, 2, 3) @ TURN.T
     wrenches = tuple(

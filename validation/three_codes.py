@@ -23,6 +23,7 @@ LINK, RADIUS, MODULUS, DENSITY, VISCOSITY = 0.3, 0.03, 1e6, 1000.0, 1e4  # SI
 NAME = "end_effector_position_tendon_driven_gvs_"
 # Their bending angles turn about the other axes: the first tendon pulls towards -x.
 AXES = np.array([-1.0, 1.0, 1.0])
+EVERY = 100  # of the 30001 times of SoRoSim
 
 
 def robot(parts: int, **kind: int) -> cdcr.Robot:
@@ -51,8 +52,12 @@ def theirs(folder: Path) -> dict[str, tuple[FloatArray, FloatArray]]:
     from scipy.io import loadmat  # type: ignore[import-untyped]
 
     table = read_columns(folder / f"{NAME}soromox.csv", ["t", "x", "y", "z"])
-    file = loadmat(folder / f"{NAME}sorosim.mat")
-    every = slice(None, None, 100)  # of 30001
+    path = folder / f"{NAME}sorosim.mat"
+    file = loadmat(path)
+    for name in ("t", "Pos_EE_all"):
+        if name not in file:
+            raise ValueError(f"{path}: there is no array {name!r}")
+    every = slice(None, None, EVERY)
     return {
         "SoRoMoX": (table[:, 0], AXES * table[:, 1:]),
         "SoRoSim": (file["t"][every, 0], AXES * file["Pos_EE_all"].T[every]),

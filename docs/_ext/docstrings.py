@@ -17,6 +17,7 @@ PAPERS = {
     "cpp/README.md": ":doc:`the model on paper </explanation/model>`",
     "cpp/several-sections.md": ":doc:`several sections </explanation/several-sections>`",
     "cpp/rods.md": ":doc:`rods </explanation/rods>`",
+    "cpp/derivatives.md": ":doc:`derivatives </explanation/derivatives>`",
 }
 FILE = Path(__file__).parents[1] / "reference" / "examples.txt"
 

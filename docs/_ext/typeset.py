@@ -11,14 +11,34 @@ from collections.abc import Iterator
 
 GREEK = (
     *("alpha", "beta", "gamma", "theta", "phi", "sigma", "omega", "rho", "mu", "lambda"),
-    *("zeta", "pi", "Pi", "Lambda"),
+    *("zeta", "pi", "Pi", "Lambda", "tau"),
 )
 FUNCTIONS = ("sin", "cos", "tanh", "coth", "exp", "min", "max")
 OPERATORS = ("atan2", "pinv", "null")
 RATES = {"q": "q", "theta": r"\theta", "phi": r"\phi", "V": "V", "l": "l", "x": "x"}
 DOTS = {"d": "dot", "dd": "ddot"}
 LETTERS = "zx"  # products that are written without a space
-VECTORS = {"omega", "z", "q", "r", "r_k", "h", "v"}  # after these, x is a cross product
+VECTORS = {  # after these, x is a cross product
+    *(
+        "omega",
+        "z",
+        "q",
+        "r",
+        "r_k",
+        "h",
+        "v",
+        "rho",
+        "rho_j",
+        "w",
+        "e",
+        "f",
+        "g",
+        "tau",
+        "L",
+        "dr",
+    ),
+    *("V_r", "J_v", "J_omega"),
+}
 SIGNS = {
     "<-": r"\leftarrow ",
     "<=": r"\le ",

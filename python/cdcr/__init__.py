@@ -20,6 +20,7 @@ from cdcr._core import (
     Allocation,
     Controller,
     Equilibrium,
+    ReferencePath,
     Simulator,
     Stats,
     Status,
@@ -27,6 +28,7 @@ from cdcr._core import (
     taylor_range,
 )
 from cdcr.model.coordinates import bending, polar
+from cdcr.model.derivatives import Derivatives
 from cdcr.model.inverse_kinematics import InverseKinematics
 from cdcr.model.model import Model
 from cdcr.model.modes import Modes
@@ -34,6 +36,7 @@ from cdcr.model.stability import stable_step
 from cdcr.model.statics import ConvergenceError, InfeasibleError
 from cdcr.model.subdivision import subdivide_wrench
 from cdcr.model.wrench import Wrench
+from cdcr.motion.feasibility import PathReport, check_path
 from cdcr.motion.inverse import InverseRun, inverse_run
 from cdcr.motion.reference import Reference
 from cdcr.robot.cable import Cable
@@ -41,8 +44,13 @@ from cdcr.robot.robot import Robot
 from cdcr.robot.section import Section
 from cdcr.robot.states import merge_state, subdivide_state
 from cdcr.runs.command import TensionTable
+from cdcr.runs.controllers import ComputedTorque, StateFeedback, TaskSpace
 from cdcr.runs.events import SlackEvent
+from cdcr.runs.loop import Actuator, Loop, LoopRun, Sensor, Winch
 from cdcr.runs.pid import Pid
+from cdcr.runs.rollout import rollout
+from cdcr.runs.rollout_result import Rollout, RolloutFailure
+from cdcr.runs.rollout_store import rollout_to_zarr
 from cdcr.runs.simulate import simulate
 from cdcr.runs.trajectory import Trajectory
 
@@ -56,29 +64,43 @@ if TYPE_CHECKING:
 __version__: str = _core.__version__
 
 __all__ = [
+    "Actuator",
     "Allocation",
     "Cable",
+    "ComputedTorque",
     "Controller",
     "ConvergenceError",
+    "Derivatives",
     "Equilibrium",
     "InfeasibleError",
     "InverseKinematics",
     "InverseRun",
+    "Loop",
+    "LoopRun",
     "Model",
     "Modes",
+    "PathReport",
     "Pid",
     "Reference",
+    "ReferencePath",
     "Robot",
+    "Rollout",
+    "RolloutFailure",
     "Section",
+    "Sensor",
     "Simulator",
     "SlackEvent",
+    "StateFeedback",
     "Stats",
     "Status",
+    "TaskSpace",
     "TensionTable",
     "Trajectory",
+    "Winch",
     "Wrench",
     "__version__",
     "bending",
+    "check_path",
     "control",
     "export",
     "identification",
@@ -89,6 +111,8 @@ __all__ = [
     "paper",
     "polar",
     "robots",
+    "rollout",
+    "rollout_to_zarr",
     "scenarios",
     "simulate",
     "stable_step",

@@ -85,17 +85,6 @@ TEST_CASE("the Jacobian of the motion is the A of the linearisation") {
   });
 }
 
-TEST_CASE("closed form and dual numbers agree") {
-  for_each_case(1.7 * pi, [](const Model& model, Data& data, const State& state) {
-    MatrixXd A(4, 4), dual(4, 4), B(4, model.num_cables()), B_dual(4, model.num_cables());
-    linearize(model, data, state.q, state.qd, state.tension, A, B);
-    const Wrenches nothing(1);  // a wrench of no size takes the general way
-    linearize(model, data, state.q, state.qd, state.tension, nothing, dual, B_dual);
-    CHECK(residual(dual, A) <= tolerance::cancelled);
-    CHECK(residual(B_dual, B) <= tolerance::cancelled);
-  });
-}
-
 TEST_CASE("the natural frequency of the robot of Table 1 is 9.096 rad/s") {
   const Model model(amouri2020());
   Data data(model);

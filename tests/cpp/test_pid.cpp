@@ -74,6 +74,25 @@ TEST_CASE("anti-windup stops only what the limits withhold") {
   }
 }
 
+TEST_CASE("a filtered derivative needs no measured rate") {
+  const Model model(amouri2020());
+  PidOptions options;
+  options.kd = 0.3;
+  options.filter = 4e-3;
+  options.feed_forward = false;
+  options.limits.min_tension = -1e3;
+  Pid pid(model, options);
+  // Under a ramp of q the rate comes up as 1 - (f/(f + T))^k.
+  VectorXd command(3);
+  const Eigen::Vector2d slope(0.5, -0.2), unused(77.0, 77.0);
+  for (int k = 0; k < 30; ++k) {
+    REQUIRE(pid.update(1e-3 * k, 1e-3 * k * slope, unused, command) == Status::ok);
+    const double share = 1.0 - std::pow(4.0 / 5.0, k);
+    const VectorXd expected = -0.3 * share * slope;
+    CHECK(residual(model.actuation_matrix() * command, expected, 0.1) <= 1e-11);
+  }
+}
+
 TEST_CASE("a state that is not a number is refused and leaves the controller as it was") {
   const Model model(amouri2020());
   Pid pid(model, gains(1.0, 1.0));

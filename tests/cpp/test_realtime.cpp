@@ -21,6 +21,7 @@ static_assert(is_noexcept<decltype(&potential_energy)>);
 static_assert(is_noexcept<decltype(&potential_gradient)>);
 static_assert(is_noexcept<decltype(&potential_hessian)>);
 static_assert(is_noexcept<decltype(&state_jacobian)>);
+static_assert(is_noexcept<decltype(&acceleration_derivatives)>);
 static_assert(is_noexcept<decltype(&pose)>);
 static_assert(is_noexcept<decltype(&tip)>);
 static_assert(is_noexcept<decltype(&jacobian)>);

@@ -87,6 +87,12 @@ TEST_CASE("dynamics of three sections under everything allocate nothing") {
     CHECK(allocations_of([&] { linearize(model, data, q, qd, command, wrenches, A, B); }) == 0);
     CHECK(allocations_of([&] { state_jacobian(model, data, q, qd, command, wrenches, A); }) == 0);
     CHECK(A.allFinite());
+    MatrixXd on_q(6, 6), on_qd(6, 6), on_command(6, model.num_cables()), on_wrenches(6, 18);
+    CHECK(allocations_of([&] {
+            acceleration_derivatives(model, data, q, qd, command, wrenches, on_q, on_qd, on_command,
+                                     on_wrenches);
+          }) == 0);
+    CHECK(on_wrenches.allFinite());
     CHECK(allocations_of([&] { static_stiffness(model, q, command, wrenches, M); }) == 0);
     CHECK(M.allFinite());
   });

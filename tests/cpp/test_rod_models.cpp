@@ -273,6 +273,11 @@ TEST_CASE("motion and derivatives of rods allocate nothing") {
   CHECK(allocations_of([&] { static_stiffness(model, data, s.q, s.command, wrenches, M); }) == 0);
   CHECK(allocations_of([&] { linearize(model, data, s.q, s.qd, s.command, wrenches, A, B); }) == 0);
   CHECK(allocations_of([&] { actuation_matrix(model, s.q, pull); }) == 0);
+  MatrixXd on_q(d, d), on_qd(d, d), on_wrenches(d, 6);
+  CHECK(allocations_of([&] {
+          acceleration_derivatives(model, data, s.q, s.qd, s.command, wrenches, on_q, on_qd, pull,
+                                   on_wrenches);
+        }) == 0);
   Simulator simulator(model, 1e-4, 1);
   simulator.reset(s.q, VectorXd::Zero(d));
   CHECK(allocations_of([&] { static_cast<void>(simulator.step(s.command)); }) == 0);

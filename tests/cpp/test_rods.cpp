@@ -6,12 +6,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "chain/dual.hpp"
 #include "chain/energy.hpp"
-#include "chain/forward.hpp"
-#include "chain/gradient.hpp"
-#include "chain/inverse.hpp"
-#include "chain/mass_matrix.hpp"
+#include "chain/functions.hpp"
+#include "derivatives/dual.hpp"
 #include "section/rod_cable.hpp"
 #include "support/allocations.hpp"
 #include "support/cases.hpp"
@@ -75,16 +72,16 @@ Errors errors_with(int num_nodes) {
     state->update(chain, q.data(), qd.data());
 
     VectorXd found(q.size());
-    detail::forward_dynamics(chain, *state, force.data(), found.data());
+    detail::forward_motion(chain, *state, force.data(), found.data());
     add(worst.acceleration, residual(found, qdd, qdd.norm()));
     MatrixXd M(q.size(), q.size());
-    detail::composite_mass(chain, *state, M);
+    detail::mass_matrix(chain, *state, M);
     add(worst.mass_matrix, residual(M, reference["mass_matrix"].matrix()));
-    detail::inverse_dynamics(chain, *state, qdd.data(), found.data());
+    detail::inverse_motion(chain, *state, qdd.data(), found.data());
     add(worst.force, residual(found, force, (M.cwiseAbs() * qdd.cwiseAbs()).maxCoeff()));
-    add(worst.energy, residual(detail::kinetic_energy_of(chain, *state, qd.data()),
+    add(worst.energy, residual(detail::kinetic_energy(chain, *state, qd.data()),
                                reference["kinetic_energy"].number()));
-    add(worst.energy, residual(detail::potential_energy_of(chain, *state, q.data()),
+    add(worst.energy, residual(detail::potential_energy(chain, *state, q.data()),
                                reference["potential_energy"].number()));
 
     Vector3d tip = Vector3d::Zero();
@@ -215,14 +212,13 @@ TEST_CASE("on dual numbers, the gradient of the potential energy is its derivati
     const VectorXd q = reference["q"].vector();
     state->update_position(chain, q.data());
     VectorXd gradient(q.size());
-    detail::potential_gradient<Rod<double>>(chain, *state, q.data(), gradient.data());
-    MatrixXd slope(1, q.size());
-    detail::differentiate(static_cast<int>(q.size()), 1, q.data(), slope,
-                          [&](const Dual* at, Dual* U) {
-                            duals->update_position(chain, at);
-                            U[0] = detail::potential_energy_of(chain, *duals, at);
-                          });
-    CHECK(residual(slope.transpose(), gradient) <= tolerance::recursion);
+    detail::weight_gradient(chain, *state, q.data(), gradient.data());
+    MatrixXd slope = MatrixXd::Zero(q.size(), q.size());
+    detail::differentiate(q.size(), q.data(), slope, 1.0, [&](const Dual* at, Dual* U) {
+      duals->update_position(chain, at);
+      U[0] = detail::potential_energy_of(chain, *duals, at);
+    });
+    CHECK(residual(slope.row(0).transpose(), gradient) <= tolerance::recursion);
   }
 }
 
@@ -274,10 +270,10 @@ TEST_CASE("motion of rods, and their cables, allocate nothing") {
     state->update_position(chain, q.data());  // takes room for the first time
     CHECK(allocations_of([&] { state->update(chain, q.data(), qd.data()); }) == 0);
     CHECK(allocations_of(
-              [&] { detail::forward_dynamics(chain, *state, force.data(), qdd.data()); }) == 0);
+              [&] { detail::forward_motion(chain, *state, force.data(), qdd.data()); }) == 0);
     CHECK(allocations_of(
-              [&] { detail::inverse_dynamics(chain, *state, qdd.data(), force.data()); }) == 0);
-    CHECK(allocations_of([&] { detail::composite_mass(chain, *state, M); }) == 0);
+              [&] { detail::inverse_motion(chain, *state, qdd.data(), force.data()); }) == 0);
+    CHECK(allocations_of([&] { detail::mass_matrix(chain, *state, M); }) == 0);
     CHECK(allocations_of([&] { cable.length(rod, q.data(), 1.0, force.data()); }) == 0);
   }
 }

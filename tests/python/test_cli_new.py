@@ -17,7 +17,7 @@ pytest.importorskip("matplotlib")
 pytest.importorskip("h5netcdf")
 
 from cdcr.cli.schema import comment
-from cdcr.scenarios.file import schema, shape_schema
+from cdcr.scenarios.file import control_schema, schema, shape_schema
 from cdcr.scenarios.file.template import template
 from command import cdcr_, everything_in, refused
 
@@ -73,7 +73,7 @@ def test_it_runs_with_each_comment_switched_on(tmp_path: Path, i: int) -> None:
 
 
 def test_there_are_blocks_to_switch_on() -> None:
-    assert len(SWITCHED_OFF) == 24
+    assert len(SWITCHED_OFF) == 27
     assert sum("[trajectory]" in BLOCKS[i] for i in SWITCHED_OFF) == 7
 
 
@@ -85,7 +85,11 @@ def test_every_key_is_shown() -> None:
         schema.RobotChanges,
         schema.IntegratorTable,
         schema.OutputTable,
-        schema.ControllerTable,
+        *control_schema.CONTROLLERS.values(),
+        *control_schema.MOTIONS.values(),
+        control_schema.LoopTable,
+        control_schema.ActuatorTable,
+        control_schema.SensorTable,
         schema.ReferenceTable,
         schema.TensionRows,
         schema.TensionHold,
@@ -181,7 +185,7 @@ def test_a_file_must_be_one_that_run_takes(tmp_path: Path) -> None:
 
 def file_scenarios() -> list[str]:
     found = [one for one in cdcr.scenarios.names() if cdcr.scenarios.get(one).has_run]
-    assert len(found) == 12
+    assert len(found) == 16
     return found
 
 

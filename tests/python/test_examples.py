@@ -149,6 +149,30 @@ def test_pid(example: Example) -> None:
     np.testing.assert_allclose(found["runs"]["kp, ki, kd"].q[-1], goal, rtol=0, atol=1e-6)
 
 
+def test_closed_loop(example: Example) -> None:
+    found = example(20)
+    errors = {name: error.max() for name, error in found["errors"].items()}
+    assert errors["ideal"] < 2e-6
+    assert errors["late, and known to be"] < 0.2 * errors["late"]
+    # The same loop by hand: a lag, a delay, a controller asked each millisecond.
+    model, circle = found["model"], found["circle"]
+    simulator = cdcr.Simulator(model, step=1e-3)
+    simulator.reset([0.3, 0], [0, 0])
+    controller = cdcr.ComputedTorque(model, kp=64.0, kd=16.0, min_tension=1.0)
+    controller.path = circle
+    seen, value = (simulator.q, simulator.qd), found["hold"]
+    worst, share = 0.0, 1.0 - np.exp(-0.5)
+    for _ in range(4000):
+        command = controller.update(simulator.time, *seen)
+        seen = simulator.q, simulator.qd
+        after = value + share * (command - value)
+        simulator.step((value + after) / 2.0)
+        value = after
+        error = simulator.q - circle.evaluate(simulator.time)[0]
+        worst = max(worst, float(np.linalg.norm(error)))
+    assert worst == pytest.approx(errors["late"], rel=1e-3)
+
+
 def test_lqr(example: Example) -> None:
     pytest.importorskip("control", reason="the extra control")
     found = example(7)
@@ -316,3 +340,25 @@ def test_dask_sweep(example: Example) -> None:
     squares = np.square([1 * 0.03, 4 * 0.01, 1 * 0.02, 0.0])
     shares = names["indices"].total_order.sel(metric="final_theta")
     np.testing.assert_allclose(shares, squares / squares.sum(), atol=0.1)
+
+
+def test_domain_randomisation(example: Example) -> None:
+    found = example(19)
+    numbers, section = found["robots"], found["section"]
+    # The angle of rest is F r L/(E I); what swings most has not quite come to rest.
+    radius = numbers["sections.1.cable_radius"] / section.cable_radius
+    modulus = numbers["sections.1.youngs_modulus"] / section.youngs_modulus
+    np.testing.assert_allclose(30.0 + found["apart"], 30.0 * radius / modulus, rtol=0.02)
+    assert found["loose"].success
+    assert found["held"].success
+    assert found["left"][:, -1].max() < 1e-9
+
+
+def test_feel_a_push(example: Example) -> None:
+    found = example(20)
+    assert found["error"][1:-1].max() < 0.01 * np.linalg.norm(found["size"])
+    # The same from the mass matrix and the Jacobian of the tip, at one of the states.
+    model, run, i = found["model"], found["run"], 1000
+    J = model.jacobian(run.q[i], 2, 1.0)[:3]
+    by_hand = np.linalg.solve(model.mass_matrix(run.q[i]), J.T)
+    np.testing.assert_allclose(found["by_force"][i], by_hand, rtol=1e-9)

@@ -144,6 +144,20 @@ def test_linearize_matches_differences(model: cdcr.Model, q: list[float]) -> Non
         )
 
 
+def test_derivatives_are_those_of_linearize_and_of_wrenches(model: cdcr.Model) -> None:
+    wrench = cdcr.Wrench(
+        section=0, fraction=0.6, force=(0.1, 0.2, -0.3), moment=(0.01, 0.02, 0.03), frame="local"
+    )
+    found = model.derivatives(Q, QD, TENSION, wrench)
+    A, B = model.linearize(Q, QD, TENSION, wrench)
+    np.testing.assert_allclose(np.hstack([found.dqdd_dq, found.dqdd_dqd]), A[2:], rtol=ROUNDING)
+    np.testing.assert_allclose(found.dqdd_dtension, B[2:], rtol=ROUNDING)
+    # The wrench acts linearly.
+    change = model.forward_dynamics(Q, QD, TENSION, wrench) - model.forward_dynamics(Q, QD, TENSION)
+    components = [*wrench.force, *wrench.moment]
+    np.testing.assert_allclose(found.dqdd_dwrench[:, 0] @ components, change, rtol=DIFFERENCES)
+
+
 def test_cable_lengths_of_the_straight_robot(model: cdcr.Model) -> None:
     np.testing.assert_allclose(model.cable_lengths([0.0, 0.0]), 0.802, rtol=ROUNDING)
 

@@ -83,9 +83,18 @@ def inverse_run() -> cdcr.InverseRun:
     return cdcr.inverse_run(MODEL, REFERENCE, infeasible="nearest")
 
 
+def loop_run() -> cdcr.LoopRun:
+    loop = cdcr.Loop(MODEL, pid(), step=0.01)
+    loop.reset(np.zeros(6), np.zeros(6))
+    return loop.run(0.05)
+
+
+WINCH = cdcr.Winch(drum_radius=0.01, inertia=1e-6, bandwidth=50.0)
+PATH = cdcr.ReferencePath.spline([0.0, 1.0], [np.zeros(6), np.full(6, 0.1)])
 REFERENCE = cdcr.Reference.from_functions(T, bent)
 RUN = cdcr.simulate(MODEL, np.full(6, 0.1), np.zeros(6), t=T[:3])
 PUBLIC: dict[str, Callable[[], Any]] = {
+    "Actuator": lambda: cdcr.Actuator(time_constant=0.1, winch=WINCH),
     "Cable": lambda: cdcr.Cable(radius=0.01, angle=0.0, end_section=0),
     "Controller": lambda: Bang(2.0),
     "ConvergenceError": convergence,
@@ -96,13 +105,24 @@ PUBLIC: dict[str, Callable[[], Any]] = {
     "InverseRun": inverse_run,
     "Model": lambda: MODEL,
     "Modes": lambda: MODEL.modes(np.zeros(6), np.zeros(9)),
+    "PathReport": lambda: cdcr.check_path(MODEL, PATH, num_samples=5),
     "Pid": pid,
+    "ComputedTorque": lambda: cdcr.ComputedTorque(MODEL, kp=np.ones(6), max_tension=20.0),
+    "StateFeedback": lambda: cdcr.StateFeedback(MODEL, gain=np.ones((9, 12))),
+    "TaskSpace": lambda: cdcr.TaskSpace(MODEL, pretension=np.ones(9)),
+    "ReferencePath": lambda: PATH,
+    "ReferencePath of a circle": lambda: cdcr.ReferencePath.circle([0.0], [1.0], [2.0], 1.0, 2.0),
+    "LoopRun": loop_run,
+    "Sensor": lambda: cdcr.Sensor(kind="curvature", places=[(0, 0.5)]),
+    "Winch": lambda: WINCH,
     "Reference of functions": lambda: REFERENCE,
     "Reference of angles": lambda: cdcr.Reference.from_angles(T, swing, turn),
     "Reference of a constant": lambda: cdcr.Reference.from_angles(T, 0.2, turn),
     "Reference of samples": lambda: cdcr.Reference.from_samples(T, REFERENCE.q),
     "Reference of derivatives": lambda: cdcr.Reference(T, REFERENCE.q, REFERENCE.qd, REFERENCE.qdd),
     "Robot": lambda: MODEL.robot,
+    "Rollout": lambda: cdcr.rollout(MODEL, np.zeros(6), np.zeros(6), step=0.001, steps=2),
+    "RolloutFailure": lambda: cdcr.RolloutFailure(3, cdcr.Status.bending_limit, "It bent."),
     "Section": lambda: MODEL.robot.sections[0],
     "Simulator": simulator,
     "Simulator not started": lambda: cdcr.Simulator(MODEL),
@@ -139,7 +159,7 @@ def content(thing: Any, depth: int = 3) -> Any:
 
 def test_every_public_class_is_here() -> None:
     classes = [name for name in cdcr.__all__ if isinstance(getattr(cdcr, name), type)]
-    assert set(classes) <= {name.split()[0] for name in PUBLIC}
+    assert set(classes) - {"Loop"} <= {name.split()[0] for name in PUBLIC}
 
 
 @pytest.mark.parametrize("way", WAYS)
@@ -186,7 +206,8 @@ def test_a_copied_pid_goes_on_alike() -> None:
 
 @pytest.mark.parametrize("way", WAYS)
 def test_what_the_core_keeps_to_itself_refuses_with_a_sentence(way: str) -> None:
-    for private in (_core.Loads(), _core.Options(), MODEL.robot._to_core()):
+    loop = cdcr.Loop(MODEL, pid(), step=0.01)  # its controller is in it
+    for private in (_core.Loads(), _core.Options(), MODEL.robot._to_core(), loop):
         with pytest.raises(TypeError) as caught:
             WAYS[way](private)
         assert str(caught.value) == (

@@ -94,12 +94,21 @@ def test_a_picture_shows_the_reference(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("controller", "sentence"),
     [
-        ('type = "pd"\nkp = 1\n', ": controller.type must be \"pid\", got 'pd' (string)"),
-        ("kp = 1\n", ': controller.type is missing; it must be "pid"'),
+        (
+            'type = "pd"\nkp = 1\n',
+            ': controller.type must be one of "pid", "computed-torque", "lqr", "task-space", got '
+            "'pd' (string). Did you mean 'pid'?",
+        ),
+        (
+            "kp = 1\n",
+            ': controller.type is missing; it must be one of "pid", "computed-torque", "lqr", '
+            '"task-space"',
+        ),
         (
             PID + "kpp = 1\n",
-            ": controller.kpp is not a known key. Did you mean 'kp'? Known keys: type, kp, ki, "
-            "kd, period, feed_forward, anti_windup, min_tension, max_tension, cables, reference",
+            ": controller.kpp is not a known key. Did you mean 'kp'? Known keys: period, "
+            "min_tension, max_tension, max_rate, pretension, cables, motion, reference, type, kp, "
+            "ki, kd, feed_forward, anti_windup, filter",
         ),
         (
             PID.replace("2.0", "-2"),
@@ -151,3 +160,101 @@ def test_what_the_core_refuses_names_file_and_table(tmp_path: Path, wrong: str) 
         match=r"loop\.toml, line \d+(, \[controller\]: |: controller\.reference\.q must)",
     ):
         load(tmp_path, PID + wrong)
+
+
+CIRCLE = (
+    '[controller.motion]\nshape = "circle"\ncenter = [0, 0]\nx = [0.2, 0]\ny = [0, 0.2]\n'
+    "turns = 1\nduration = 2\n"
+)
+LOOP = HEAD.replace('integrator.method = "dopri5"\n', "") + "[loop]\nstep = 0.001\n"
+
+
+def closed(folder: Path, text: str) -> Scenario:
+    path = folder / "loop.toml"
+    path.write_text(text, encoding="utf-8")
+    return load_scenario(path)
+
+
+@pytest.mark.parametrize(
+    "controller",
+    [
+        'type = "computed-torque"\nkp = 400\nkd = 40\n',
+        'type = "lqr"\nstate_weight = 1000\nrate_weight = 1\ncommand_weight = 0.01\n'
+        "min_tension = 2\n",
+        'type = "pid"\nkp = 5\nkd = 0.5\npretension = [1, 1, 1]\n',
+    ],
+)
+def test_every_controller_follows_a_motion_with_or_without_a_loop(
+    tmp_path: Path, controller: str
+) -> None:
+    path = cdcr.ReferencePath.circle([0, 0], [0.2, 0], [0, 0.2], 1.0, 2.0)
+    start = "[initial]\nq = [0.2, 0]\n"
+    for head in (HEAD, LOOP):
+        scenario = closed(tmp_path, f"{head}{start}[controller]\n{controller}{CIRCLE}")
+        run = scenario.simulate()
+        wanted = np.array([path.evaluate(t)[0] for t in run.t])
+        assert np.abs(run.q - wanted).max() < 0.02
+        found = {one.key: one.value for one in scenario.summary(run)}
+        assert found["error_max_deg"] == pytest.approx(
+            math.degrees(np.linalg.norm(run.q - wanted, axis=1).max())
+        )
+
+
+def test_a_loop_runs_as_the_same_loop_in_python(tmp_path: Path) -> None:
+    text = (
+        LOOP + '[[loop.actuators]]\ntime_constant = 0.01\n[[loop.sensors]]\nkind = "coordinates"\n'
+        "noise = 0.001\nseed = 4\n[controller]\n" + PID + BENT
+    )
+    run = closed(tmp_path, text).simulate()
+    model = cdcr.Model(cdcr.robots.amouri2020())
+    pid = cdcr.Pid(model, kp=2.0, ki=0.5, kd=0.3)
+    pid.reference = cdcr.bending(math.radians(15), math.radians(60))
+    loop = cdcr.Loop(
+        model,
+        pid,
+        actuators=cdcr.Actuator(time_constant=0.01),
+        sensors=cdcr.Sensor(kind="coordinates", noise=0.001, seed=4),
+    )
+    loop.reset([0, 0], [0, 0])
+    np.testing.assert_array_equal(run.q, loop.run(2.0, record_every=10).trajectory.q)
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        (LOOP, "loop needs a controller, and there is none"),
+        (
+            HEAD + "[loop]\n[controller]\n" + PID,
+            "there must be only one of loop and integrator: a loop has steps of its own",
+        ),
+        (
+            LOOP + "[controller]\n" + PID + CIRCLE + BENT,
+            "controller must have motion or reference, not both",
+        ),
+        (
+            LOOP + "[controller]\n" + PID + CIRCLE.replace("[0.2, 0]", "[0.2]"),
+            "controller.motion.x must have 2 numbers, as the reference has",
+        ),
+        (
+            LOOP + "[controller]\n" + PID + CIRCLE.replace("circle", "round"),
+            'controller.motion.shape must be one of "circle", "helix", "polygon", "spline", got '
+            "'round' (string)",
+        ),
+        (
+            LOOP.replace("0.001", "0.0007") + "[controller]\n" + PID,
+            "the controller's period must be a whole number of steps of 0.0007 s",
+        ),
+        (
+            LOOP + '[[loop.sensors]]\nkind = "gps"\n[controller]\n' + PID,
+            'sensors[0].kind must be "coordinates", "rates"',
+        ),
+        (
+            LOOP + "[[loop.actuators]]\nlag = 1\n[controller]\n" + PID,
+            "actuators[0].lag is not a known key",
+        ),
+    ],
+)
+def test_what_is_wrong_with_a_loop(tmp_path: Path, text: str, sentence: str) -> None:
+    with pytest.raises(ValueError, match="loop") as caught:
+        closed(tmp_path, text)
+    assert sentence in str(caught.value)

@@ -130,10 +130,11 @@ def tables() -> set[str]:
     from pydantic import BaseModel
 
     from cdcr.identification import schema as identify
-    from cdcr.scenarios.file import schema, shape_schema
+    from cdcr.scenarios.file import control_schema, schema, shape_schema
 
     bases = {"BaseModel", "TensionShape"}
     homes = {"schema": schema, "shape_schema": shape_schema, "identify": identify}
+    homes["control_schema"] = control_schema
     return {
         f"{home}:{name}"
         for home, module in homes.items()
@@ -224,7 +225,7 @@ def test_what_has_no_meaning_is_refused() -> None:
         typeset.formula("(a + b")
 
 
-@pytest.mark.parametrize("name", ["README.md", "several-sections.md", "rods.md"])
+@pytest.mark.parametrize("name", ["README.md", "several-sections.md", "rods.md", "derivatives.md"])
 def test_all_numbered_equations_are_set(name: str) -> None:
     text = (ROOT / "cpp" / name).read_text(encoding="utf-8")
     numbers = re.findall(r" \((\d+)\)$", "".join(typeset.FENCED.findall(text)), re.MULTILINE)

@@ -18,6 +18,7 @@ FUNCTIONS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "forward_dynamics": (("q", "qd", "tension"), ("d",)),
     "inverse_dynamics": (("q", "qd", "qdd"), ("d",)),
     "linearize": (("q", "qd", "tension"), ("ss", "sm")),
+    "derivatives": (("q", "qd", "tension"), ("dd", "dd", "dm", "d16")),
     "kinetic_energy": (("q", "qd"), ("",)),
     "potential_energy": (("q",), ("",)),
     "potential_gradient": (("q",), ("d",)),
@@ -38,6 +39,7 @@ FUNCTIONS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "wrench_force": (("q",), ("d",)),
 }
 MORE: dict[str, Any] = {
+    "derivatives": (cdcr.Wrench(section=0, force=(0.1, 0.2, 0.0), frame="local"),),
     "pose": (0, 0.3),
     "jacobian": (0, 0.3),
     "wrench_force": (cdcr.Wrench(section=0, force=(0.1, 0.2, 0.0)),),
@@ -79,7 +81,9 @@ def answers(model: cdcr.Model, name: str, arguments: list[Any]) -> tuple[Any, ..
 
 def core_shape(model: cdcr.Model, letters: str) -> tuple[int, ...]:
     d, n, m = model.num_coordinates, model.num_sections, model.num_cables
-    return tuple({"d": d, "n": n + 1, "m": m, "s": 2 * d, "3": 3, "6": 6}[c] for c in letters)
+    return tuple(
+        {"d": d, "n": n + 1, "m": m, "s": 2 * d, "1": 1, "3": 3, "6": 6}[c] for c in letters
+    )
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
@@ -117,6 +121,21 @@ def test_one_state_has_no_leading_dimension(model: cdcr.Model, name: str) -> Non
     for one, letters in zip(found, gives, strict=True):
         assert type(one) is (np.ndarray if letters else float)
         assert np.shape(one) == core_shape(model, letters)
+
+
+@pytest.mark.parametrize("robot", [cdcr.robots.amouri2020(), cdcr.robots.three_sections()])
+def test_many_states_in_lanes_are_single_states_to_rounding(robot: cdcr.Robot) -> None:
+    plain = cdcr.Model(robot)
+    rng = np.random.default_rng(2)
+    q, qd = (rng.normal(size=(11, plain.num_coordinates)) for _ in range(2))
+    tension = rng.uniform(0.0, 3.0, plain.num_cables)
+    for pulls in (tension, tension * np.arange(11)[:, None]):
+        got = plain.forward_dynamics(q, qd, pulls)
+        for i, row in enumerate(np.broadcast_to(pulls, (11, plain.num_cables))):
+            expected = plain.forward_dynamics(q[i], qd[i], row)
+            scale = np.abs(expected).max()
+            np.testing.assert_allclose(got[i], expected, rtol=0.0, atol=1e-12 * scale)
+    assert plain.forward_dynamics(q[:0], qd[:0], tension).shape == (0, plain.num_coordinates)
 
 
 def test_any_layout_of_an_array_will_do(model: cdcr.Model) -> None:

@@ -4,7 +4,6 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "cdcr/export.hpp"
@@ -23,6 +22,8 @@ struct TensionLimits {
   double max_tension = std::numeric_limits<double>::infinity();
   std::vector<Index> cables;
   AllocationMethod method = AllocationMethod::automatic;
+  /// Least tension of each cable (num_cables) [N], where that is above min_tension; or empty.
+  VectorXd pretension = VectorXd();
 };
 
 /// Finds the least-norm tensions that give a generalised force, eq. (20):
@@ -40,6 +41,8 @@ class Allocator {
 
   /// Takes B at q (d) from now on. For robots whose B depends on q; made for q = 0. Real-time safe.
   void set_shape(const ConstVectorRef& q) noexcept;
+  /// Limits of each cable (num_cables) [N], lower <= upper, from now on. Real-time safe.
+  void set_limits(const ConstVectorRef& lower, const ConstVectorRef& upper) noexcept;
   /// Solves for force (d) [N m]; true when the force is met. One of another size or not finite is
   /// not, and leaves the last answer in place.
   bool solve(const ConstVectorRef& force) noexcept;
@@ -50,6 +53,9 @@ class Allocator {
   [[nodiscard]] const VectorXd& force() const noexcept { return force_; }
   /// Whether a cable stands at one of its limits.
   [[nodiscard]] bool at_limit(Index cable) const noexcept;
+  /// Limits of each cable (num_cables) [N].
+  [[nodiscard]] const VectorXd& lower() const noexcept { return lower_; }
+  [[nodiscard]] const VectorXd& upper() const noexcept { return upper_; }
   /// Whether the closed form applies to these cables.
   [[nodiscard]] bool has_closed_form() const noexcept { return !triples_.empty(); }
 
@@ -76,14 +82,14 @@ class Allocator {
   void polish() noexcept;
   void left_for_free() noexcept;
 
-  std::optional<Model> model_;        // where B depends on q
-  std::pair<double, double> limits_;  // of every tension [N]
-  double low_ = 0.0, high_ = 0.0;     // the same in the unit of the force at hand
-  double scale_ = 1.0;                // largest column of B, so that lengths are near one
-  double softest_ = 0.0;              // least bending stiffness [N m/rad]
-  double negligible_ = 0.0;           // force/scale that bends the robot no more than rounding
-  MatrixXd B_, normal_;               // B/scale; sum of b b^T over the free cables
-  VectorXd Q_, rest_, lambda_;        // Q/scale; what the free cables must give; multipliers
+  std::optional<Model> model_;  // where B depends on q
+  VectorXd lower_, upper_;      // limits of the tensions [N]
+  VectorXd low_, high_;         // the same in the unit of the force at hand
+  double scale_ = 1.0;          // largest column of B, so that lengths are near one
+  double softest_ = 0.0;        // least bending stiffness [N m/rad]
+  double negligible_ = 0.0;     // force/scale that bends the robot no more than rounding
+  MatrixXd B_, normal_;         // B/scale; sum of b b^T over the free cables
+  VectorXd Q_, rest_, lambda_;  // Q/scale; what the free cables must give; multipliers
   VectorXd F_, tension_, force_;
   std::vector<Triple> triples_;  // one for each section, or none
   std::vector<Place> place_;

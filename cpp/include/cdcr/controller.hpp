@@ -1,10 +1,20 @@
 #pragma once
 
 #include "cdcr/export.hpp"
+#include "cdcr/model.hpp"
 #include "cdcr/status.hpp"
 #include "cdcr/types.hpp"
 
 namespace CDCR_EXPORT cdcr {
+
+/// Numbers about the last update of a controller.
+struct ControlDiagnostics {
+  long long updates = 0;  ///< since the last reset, failed ones counted too
+  double duration = 0.0;  ///< of the last one, by the clock [s]
+  double error = 0.0;     ///< norm of reference minus measurement, in the unit of the reference
+  double missing = 0.0;   ///< norm of the generalised force that limits withheld [N m]
+  Index limited = 0;      ///< cables at one of their limits
+};
 
 /// Turns the measured state into commands, once each period; they are held until the next.
 ///
@@ -27,8 +37,17 @@ class Controller {
   [[nodiscard]] virtual Index num_cables() const noexcept = 0;
   /// Whether it gives tensions for all cables, so that none may be driven by length.
   [[nodiscard]] virtual bool gives_tensions() const noexcept { return false; }
+  /// The robot that it reckons with, whose cables must be driven as those of the robot that it
+  /// drives; null where it reckons with none.
+  [[nodiscard]] virtual const Model* reckons_with() const noexcept { return nullptr; }
+  /// Real-time safe.
+  [[nodiscard]] virtual ControlDiagnostics diagnostics() const noexcept { return {}; }
 
   static constexpr Index any_size = -1;
 };
+
+/// Throws std::invalid_argument where a controller does not fit a robot: its sizes, its period, the
+/// drives of its cables.
+void require_fit(const Controller& controller, const Model& model);
 
 }  // namespace CDCR_EXPORT cdcr

@@ -38,6 +38,17 @@ void forward_dynamics_force(const Model& model, Data& data, const ConstVectorRef
                             const ConstVectorRef& qd, const ConstVectorRef& force,
                             VectorRef qdd) noexcept;
 
+/// Vectors of many states: that of state i begins at data + i * apart.
+struct StateRows {
+  const double* data = nullptr;
+  Index apart = 0;  ///< 0: the same for all
+};
+/// Accelerations (count, d), row-major, of many states under tensions: as of each by itself, to
+/// rounding, but several at once where the robot is of arcs and its cables are has_plain_cables().
+/// Allocates.
+void forward_dynamics(const Model& model, Data& data, Index count, const StateRows& q,
+                      const StateRows& qd, const StateRows& tension, double* qdd);
+
 /// Generalised force (d) [N m] that produces the given accelerations.
 void inverse_dynamics(const Model& model, Data& data, const ConstVectorRef& q,
                       const ConstVectorRef& qd, const ConstVectorRef& qdd,

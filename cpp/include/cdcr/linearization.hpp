@@ -24,4 +24,12 @@ void state_jacobian(const Model& model, Data& data, const ConstVectorRef& q,
                     const ConstVectorRef& qd, const ConstVectorRef& command,
                     const Wrenches& wrenches, MatrixRef A) noexcept;
 
+/// d(qdd)/dq and d(qdd)/dqd (d, d), d(qdd)/d(command) (d, num_cables), and d(qdd)/d(wrenches)
+/// (d, 6 wrenches.size()): of each wrench by its force and by its moment, in its own frame. All of
+/// them exact, as those of linearize(). Real-time safe.
+void acceleration_derivatives(const Model& model, Data& data, const ConstVectorRef& q,
+                              const ConstVectorRef& qd, const ConstVectorRef& command,
+                              const Wrenches& wrenches, MatrixRef on_q, MatrixRef on_qd,
+                              MatrixRef on_command, MatrixRef on_wrenches) noexcept;
+
 }  // namespace CDCR_EXPORT cdcr

@@ -19,6 +19,9 @@ namespace CDCR_EXPORT cdcr {
 class Model {
  public:
   explicit Model(Robot robot, Formulation formulation = Formulation::exact);
+  /// Of the formulation of another model, whose tables it shares where sections have the same
+  /// inertia: for many robots that differ in a few numbers.
+  Model(Robot robot, const Model& like);
 
   /// The same model under another gravity [m/s^2], in the base frame. Its tables are shared, so
   /// that this costs a copy. Throws std::invalid_argument where it is not finite.
@@ -93,6 +96,7 @@ class Model {
   [[nodiscard]] const std::shared_ptr<const Parts>& parts() const noexcept { return parts_; }
 
  private:
+  Model(Robot robot, Formulation formulation, const Model* like);
   void set_elasticity(Parts& parts);
   void set_cables(Parts& parts);
   void set_gravity(const Vector3d& gravity, const std::shared_ptr<Parts>& parts);
@@ -134,7 +138,7 @@ class Data {
     return parts_ == model.parts();
   }
 
-  /// What is kept; private to the library. None where the closed form applies.
+  /// What is kept; private to the library. None where the closed form is all that is asked.
   class Kept;
   [[nodiscard]] Kept* kept() noexcept { return kept_.get(); }
 

@@ -30,6 +30,15 @@ void check(const Model& model, const TensionLimits& limits) {
                       limits.max_tension >= limits.min_tension,
                   "tension limits must satisfy min_tension <= max_tension, got min_tension ",
                   limits.min_tension, " N and max_tension ", limits.max_tension, " N");
+  detail::require(limits.pretension.size() == 0 || limits.pretension.size() == model.num_cables(),
+                  "pretension must have one value for each of the ", model.num_cables(),
+                  " cables, got ", limits.pretension.size());
+  for (Index j = 0; j < limits.pretension.size(); ++j) {
+    const double least = limits.pretension[j];
+    detail::require(std::isfinite(least) && least <= limits.max_tension, "pretension of cable ",
+                    j + 1, " must be finite and at most max_tension, ", limits.max_tension,
+                    " N, got ", least);
+  }
   for (const Index cable : limits.cables) {
     detail::require(detail::is_cable(model, cable), "cables must be indices from 0 to ",
                     model.num_cables() - 1, ", got ", cable);
@@ -39,7 +48,9 @@ void check(const Model& model, const TensionLimits& limits) {
 }  // namespace
 
 Allocator::Allocator(const Model& model, const TensionLimits& limits)
-    : limits_(limits.min_tension, limits.max_tension), ldlt_(model.num_coordinates()) {
+    : lower_(VectorXd::Constant(model.num_cables(), limits.min_tension)),
+      upper_(VectorXd::Constant(model.num_cables(), limits.max_tension)),
+      ldlt_(model.num_coordinates()) {
   check(model, limits);
   const Index m = model.num_coordinates(), c = model.num_cables();
   place_.assign(static_cast<std::size_t>(c), limits.cables.empty() ? Place::lower : Place::unused);
@@ -52,6 +63,9 @@ Allocator::Allocator(const Model& model, const TensionLimits& limits)
   ldlt_.compute(normal_);
   Q_ = rest_ = lambda_ = force_ = VectorXd::Zero(m);
   F_ = tension_ = VectorXd::Zero(c);
+  if (limits.pretension.size() == c) lower_ = lower_.cwiseMax(limits.pretension);
+  low_ = lower_;
+  high_ = upper_;
 
   const bool nested = model.has_nested_cables() && limits.cables.empty();
   if (limits.method != AllocationMethod::search && nested) find_triples(model);
@@ -64,6 +78,12 @@ void Allocator::set_shape(const ConstVectorRef& q) noexcept {
   if (!model_) return;
   actuation_matrix(*model_, q, B_);
   set_actuation();
+}
+
+void Allocator::set_limits(const ConstVectorRef& lower, const ConstVectorRef& upper) noexcept {
+  assert(lower.size() == lower_.size() && upper.size() == upper_.size());
+  lower_ = lower;
+  upper_ = upper;
 }
 
 /// Leaves out the cables not in use, and scales.
@@ -117,15 +137,16 @@ bool Allocator::solve_triple(const Triple& triple, const Eigen::Vector2d& force)
   base.noalias() = triple.pseudo_inverse * force;
   double least = -HUGE_VAL, most = HUGE_VAL;
   for (int i = 0; i < 3; ++i) {
-    least = std::fmax(least, (low_ - base[i]) / triple.null[i]);
-    most = std::fmin(most, (high_ - base[i]) / triple.null[i]);
+    const Index j = triple.cables[i];
+    least = std::fmax(least, (low_[j] - base[i]) / triple.null[i]);
+    most = std::fmin(most, (high_[j] - base[i]) / triple.null[i]);
   }
   if (!(least <= most)) return false;
   const double common = std::clamp(0.0, least, most);
   for (int i = 0; i < 3; ++i) {
     const Index j = triple.cables[i];
-    F_[j] = std::fmin(std::fmax(base[i] + common * triple.null[i], low_), high_);
-    place_[j] = F_[j] == low_ ? Place::lower : F_[j] == high_ ? Place::upper : Place::free;
+    F_[j] = std::fmin(std::fmax(base[i] + common * triple.null[i], low_[j]), high_[j]);
+    place_[j] = F_[j] == low_[j] ? Place::lower : F_[j] == high_[j] ? Place::upper : Place::free;
   }
   return true;
 }
@@ -145,8 +166,8 @@ bool Allocator::solve_in_closed_form() noexcept {
 void Allocator::initialise_active_set() noexcept {
   for (Index j = 0; j < F_.size(); ++j) {
     if (place_[j] == Place::unused) continue;
-    F_[j] = std::fmin(std::fmax(0.0, low_), high_);
-    place_[j] = low_ >= 0.0 ? Place::lower : high_ <= 0.0 ? Place::upper : Place::free;
+    F_[j] = std::fmin(std::fmax(0.0, low_[j]), high_[j]);
+    place_[j] = low_[j] >= 0.0 ? Place::lower : high_[j] <= 0.0 ? Place::upper : Place::free;
   }
 }
 
@@ -178,20 +199,20 @@ bool Allocator::step_to_first_bound() noexcept {
   for (Index j = 0; j < F_.size(); ++j) {
     if (place_[j] != Place::free) continue;
     const double wanted = B_.col(j).dot(lambda_);
-    if (wanted >= low_ && wanted <= high_) continue;
-    const double limit = wanted < low_ ? low_ : high_;
+    if (wanted >= low_[j] && wanted <= high_[j]) continue;
+    const double limit = wanted < low_[j] ? low_[j] : high_[j];
     const double part = (limit - F_[j]) / (wanted - F_[j]);
     if (first < 0 || part < share) {
       share = part;
       first = j;
-      side = wanted < low_ ? Place::lower : Place::upper;
+      side = wanted < low_[j] ? Place::lower : Place::upper;
     }
   }
   for (Index j = 0; j < F_.size(); ++j) {
     if (place_[j] == Place::free) F_[j] += share * (B_.col(j).dot(lambda_) - F_[j]);
   }
   if (first < 0) return false;
-  F_[first] = side == Place::lower ? low_ : high_;
+  F_[first] = side == Place::lower ? low_[first] : high_[first];
   place_[first] = side;
   return true;
 }
@@ -201,7 +222,7 @@ bool Allocator::release_by_multiplier() noexcept {
   Index best = -1;
   double most = 1e-9 * (1.0 + lambda_.norm());
   for (Index j = 0; j < F_.size(); ++j) {
-    if (!at_limit(j) || low_ == high_) continue;
+    if (!at_limit(j) || low_[j] == high_[j]) continue;
     const double wanted = B_.col(j).dot(lambda_) - F_[j];
     const double inwards = place_[j] == Place::lower ? wanted : -wanted;
     if (inwards > most) {
@@ -229,7 +250,7 @@ void Allocator::polish() noexcept {
   }
   for (Index j = 0; j < F_.size(); ++j) {
     if (place_[j] == Place::free) {
-      F_[j] = std::fmin(std::fmax(B_.col(j).dot(lambda_), low_), high_);
+      F_[j] = std::fmin(std::fmax(B_.col(j).dot(lambda_), low_[j]), high_[j]);
     }
   }
 }
@@ -250,8 +271,8 @@ bool Allocator::solve(const ConstVectorRef& force) noexcept {
   // All of it grows with the force: in a unit of its size, nothing that is squared overflows.
   const double largest = force.lpNorm<Eigen::Infinity>();
   const double unit = largest > huge ? largest : 1.0;
-  low_ = limits_.first / unit;
-  high_ = limits_.second / unit;
+  low_ = lower_ / unit;
+  high_ = upper_ / unit;
   Q_ = force / unit / scale_;
   if (!solve_in_closed_form()) search();
   rest_ = Q_;
@@ -259,8 +280,8 @@ bool Allocator::solve(const ConstVectorRef& force) noexcept {
   for (Index j = 0; j < F_.size(); ++j) {
     rest_ -= B_.col(j) * F_[j];
     size += std::abs(F_[j]) * B_.col(j).norm();
-    tension_[j] = place_[j] == Place::lower   ? limits_.first
-                  : place_[j] == Place::upper ? limits_.second
+    tension_[j] = place_[j] == Place::lower   ? lower_[j]
+                  : place_[j] == Place::upper ? upper_[j]
                                               : F_[j] * unit;
   }
   force_ = unit * (scale_ * (Q_ - rest_));
@@ -297,7 +318,7 @@ Allocation allocate_at(const Model& model, const VectorXd& q, const VectorXd& fo
     if (!allocator.at_limit(j)) continue;
     const double wanted = B.col(j).dot(missing);
     const double tension = result.tension[j];
-    const bool lower = tension == limits.min_tension, upper = tension == limits.max_tension;
+    const bool lower = tension == allocator.lower()[j], upper = tension == allocator.upper()[j];
     const double least = indifferent * B.col(j).norm() * result.distance;
     if (!(lower && wanted < -least) && !(upper && wanted > least)) continue;
     result.limiting.push_back(j);

@@ -32,11 +32,14 @@ class CablePath {
     return sum;
   }
 
-  /// Adds the force of a cable that rubs, with `tension` at its base while its length changes at
-  /// `rate`. The tension that is left beyond each section goes to `beyond_sections` where wanted.
+  /// Adds the force of a cable that rubs, with this tension at its base while its length changes at
+  /// this rate. The tension that is left beyond each section goes to `beyond_sections` where
+  /// wanted.
   template <class S>
   void rub(const Chain& chain, const S* q, const S* qd, const double* friction,
-           double sliding_speed, S tension, S rate, S* force, S* beyond_sections) const {
+           double sliding_speed, const S& tension_at_base, const S& rate_of_length, S* force,
+           S* beyond_sections) const {
+    S tension = tension_at_base, rate = rate_of_length;
     for (std::size_t i = 0; i < rubbing_.size(); ++i) {
       const auto k = static_cast<std::size_t>(first_) + i;
       const Index at = chain.first[k];

@@ -1,8 +1,9 @@
 #include "chain/chain.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
+#include <Eigen/Cholesky>
+#include <algorithm>
 
+#include "base/eigenvalues.hpp"
 #include "chain/functions.hpp"
 
 namespace cdcr::detail {
@@ -17,16 +18,6 @@ Payload payload_of(const Robot& robot) {
       robot.payload_inertia +
       robot.payload * (c.squaredNorm() * Matrix3d::Identity() - c * c.transpose());
   return {robot.payload, c, about_tip};
-}
-
-/// Whether two sections have the same inertia: then they share a table.
-bool moves_alike(const Section& a, const Section& b) {
-  return a.length == b.length && a.backbone_mass == b.backbone_mass &&
-         a.backbone_diameter == b.backbone_diameter &&
-         a.backbone_inner_diameter == b.backbone_inner_diameter && a.num_disks == b.num_disks &&
-         a.disk_mass == b.disk_mass && a.disk_diameter == b.disk_diameter &&
-         a.disk_positions == b.disk_positions && a.disk_masses == b.disk_masses &&
-         a.disk_diameters == b.disk_diameters;
 }
 
 SectionParameters arc_parameters(const Section& s, std::shared_ptr<const SectionTable> table) {
@@ -46,7 +37,16 @@ SectionParameters rod_parameters(const Section& s) {
 
 }  // namespace
 
-Chain::Chain(const Robot& robot)
+bool moves_alike(const Section& a, const Section& b) {
+  return a.length == b.length && a.backbone_mass == b.backbone_mass &&
+         a.backbone_diameter == b.backbone_diameter &&
+         a.backbone_inner_diameter == b.backbone_inner_diameter && a.num_disks == b.num_disks &&
+         a.disk_mass == b.disk_mass && a.disk_diameter == b.disk_diameter &&
+         a.disk_positions == b.disk_positions && a.disk_masses == b.disk_masses &&
+         a.disk_diameters == b.disk_diameters;
+}
+
+Chain::Chain(const Robot& robot, const KnownTables& known)
     : first{0}, payload(payload_of(robot)), root(robot.base_orientation), gravity(robot.gravity) {
   const bool rods = robot.has_rods();
   for (const Section& s : robot.sections) {
@@ -56,9 +56,14 @@ Chain::Chain(const Robot& robot)
       continue;
     }
     std::shared_ptr<const SectionTable> table;
-    for (std::size_t i = 0; i < sections.size() && !table; ++i) {
-      if (moves_alike(robot.sections[i], s)) table = sections[i].table;
-    }
+    const auto look_in = [&](const std::vector<Section>& there, const Chain& chain) {
+      const std::size_t count = std::min(there.size(), chain.sections.size());
+      for (std::size_t i = 0; i < count && !table; ++i) {
+        if (moves_alike(there[i], s)) table = chain.sections[i].table;
+      }
+    };
+    look_in(robot.sections, *this);
+    if (known.chain != nullptr) look_in(*known.sections, *known.chain);
     if (!table) table = std::make_shared<const SectionTable>(section_table(s));
     sections.push_back(arc_parameters(s, std::move(table)));
     first.push_back(first.back() + ConstantCurvature<double>::m);
@@ -86,11 +91,9 @@ Index find_singular_section(const Chain& chain) {
     const auto scale = size.segment(at, m_i).cwiseInverse().asDiagonal();
     const MatrixXd relative = scale * D * scale;
     if (!relative.allFinite()) return i;
-    const double smallest =
-        Eigen::SelfAdjointEigenSolver<MatrixXd>(relative, Eigen::EigenvaluesOnly).eigenvalues()[0];
-    if (!(smallest > singular_share)) return i;
+    if (!(symmetric_eigenvalues(relative)[0] > singular_share)) return i;
     const MatrixXd coupling = M.block(0, at, at, m_i);
-    M.topLeftCorner(at, at) -= coupling * D.inverse() * coupling.transpose();
+    M.topLeftCorner(at, at) -= coupling * D.llt().solve(coupling.transpose());
   }
   return -1;
 }

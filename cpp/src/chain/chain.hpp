@@ -23,9 +23,19 @@ struct Payload {
   [[nodiscard]] bool has_inertia() const noexcept { return mass != 0.0 || !inertia.isZero(0.0); }
 };
 
+/// Whether two sections have the same inertia: then they share a table.
+[[nodiscard]] bool moves_alike(const Section& a, const Section& b);
+
+struct Chain;
+/// The sections of a robot, and its chain, whose tables another may share; or none.
+struct KnownTables {
+  const std::vector<Section>* sections = nullptr;
+  const Chain* chain = nullptr;
+};
+
 /// A robot made ready for the recursions.
 struct Chain {
-  explicit Chain(const Robot& robot);
+  explicit Chain(const Robot& robot, const KnownTables& known = {});
 
   [[nodiscard]] Index num_sections() const noexcept { return static_cast<Index>(sections.size()); }
   [[nodiscard]] Index num_coordinates() const noexcept { return first.back(); }

@@ -1,7 +1,7 @@
 #include "cdcr/dynamics.hpp"
 
 #include "base/sizes.hpp"
-#include "dynamics/gradient_slopes.hpp"
+#include "derivatives/weight_hessian.hpp"
 #include "dynamics/kept.hpp"
 #include "loads/cable_force.hpp"
 
@@ -135,7 +135,12 @@ void potential_hessian(const Model& model, Data& data, const ConstVectorRef& q,
   assert(of_coordinates(model, q));
   assert(detail::has_size(H, model.num_coordinates(), model.num_coordinates()));
   if (model.has_closed_form()) return closed_form::potential_hessian(single_of(model), q, H);
-  detail::gradient_slopes(model, data.kept()->dual_rods, q, H, [](const auto*, auto*) {});
+  data.kept()->with_derivatives(
+      model,
+      [&](auto& chain, auto& state, auto& derivatives) {
+        detail::weight_hessian(chain, state, q.data(), derivatives.dual, H);
+      },
+      q.data());
 }
 
 }  // namespace cdcr

@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "cdcr/model.hpp"
-#include "chain/dual.hpp"
 #include "chain/functions.hpp"
+#include "derivatives/motion_derivatives.hpp"
 #include "dynamics/parts.hpp"
+#include "loads/force_derivatives.hpp"
 
 namespace cdcr {
 
@@ -61,30 +62,47 @@ class KeptState {
 /// The chain of one model as it was last asked for, and room for its derivatives.
 class Data::Kept {
  public:
-  explicit Kept(const Model& model) {
+  explicit Kept(const Model& model) : force_duals(model) {
     const detail::Chain& chain = detail::chain_of(model);
     if (chain.has_rods()) {
-      rods_.emplace(chain);
-      dual_rods.emplace(chain);
+      rods_.emplace(chain, model.num_cables());
     } else {
-      arcs_.emplace(chain);
+      arcs_.emplace(chain, model.num_cables());
     }
   }
 
   /// f(chain, state) at a position, or at a position and a velocity.
   template <class F, class... Positions>
   auto with(const Model& model, const F& f, const Positions*... at) noexcept {
-    const detail::Chain& chain = detail::chain_of(model);
-    if (arcs_) return f(chain, arcs_->at(chain, at...));
-    // NOLINTNEXTLINE(bugprone-unchecked-optional-access): one of the two
-    return f(chain, rods_->at(chain, at...));
+    return with_derivatives(
+        model, [&f](auto& chain, auto& state, auto& /*derivatives*/) { return f(chain, state); },
+        at...);
   }
 
-  std::optional<detail::RodChainState<detail::Dual>> dual_rods;
+  /// f(chain, state, derivatives).
+  template <class F, class... Positions>
+  auto with_derivatives(const Model& model, const F& f, const Positions*... at) noexcept {
+    const detail::Chain& chain = detail::chain_of(model);
+    if (arcs_) return f(chain, arcs_->motion.at(chain, at...), arcs_->derivatives);
+    // NOLINTNEXTLINE(bugprone-unchecked-optional-access): one of the two
+    return f(chain, rods_->motion.at(chain, at...), rods_->derivatives);
+  }
+
+  detail::ForceDuals force_duals;
 
  private:
-  std::optional<detail::KeptState<detail::MotionState>> arcs_;
-  std::optional<detail::KeptState<detail::RodMotionState>> rods_;
+  /// Of one kind of section.
+  template <template <class> class Kind>
+  struct Rooms {
+    Rooms(const detail::Chain& chain, Index num_cables)
+        : motion(chain), derivatives(chain, num_cables) {}
+
+    detail::KeptState<detail::ChainState<Kind<double>>> motion;
+    detail::MotionDerivatives<Kind> derivatives;
+  };
+
+  std::optional<Rooms<detail::ConstantCurvature>> arcs_;
+  std::optional<Rooms<detail::Rod>> rods_;
 };
 
 }  // namespace cdcr

@@ -23,15 +23,22 @@ detail::SectionSeries series_of(const Section& section, double payload, Formulat
 
 }  // namespace
 
-Model::Model(Robot robot, Formulation formulation) : formulation_(formulation) {
+Model::Model(Robot robot, Formulation formulation)
+    : Model(std::move(robot), formulation, nullptr) {}
+Model::Model(Robot robot, const Model& like) : Model(std::move(robot), like.formulation_, &like) {}
+
+Model::Model(Robot robot, Formulation formulation, const Model* like) : formulation_(formulation) {
   validate(robot);
   robot.base_orientation = detail::nearest_rotation(robot.base_orientation);
   has_tool_ = robot.tool != Transform::Identity();
   robot.tool.topLeftCorner<3, 3>() = detail::nearest_rotation(robot.tool.topLeftCorner<3, 3>());
   robot_ = std::make_shared<const Robot>(std::move(robot));
   const auto n = static_cast<Index>(robot_->sections.size());
+  const detail::KnownTables known =
+      like == nullptr ? detail::KnownTables()
+                      : detail::KnownTables{&like->robot_->sections, &like->parts_->chain};
   const auto parts =
-      std::make_shared<Parts>(Parts{detail::Chain(*robot_), std::nullopt, {}, {}, {}});
+      std::make_shared<Parts>(Parts{detail::Chain(*robot_, known), std::nullopt, {}, {}, {}});
   parts_ = parts;
   first_ = parts->chain.first;
   has_rods_ = parts->chain.has_rods();
@@ -43,7 +50,12 @@ Model::Model(Robot robot, Formulation formulation) : formulation_(formulation) {
   const bool alike =
       first.disk_positions.empty() && first.disk_masses.empty() && first.disk_diameters.empty();
   if (n == 1 && point && !has_rods_ && (alike || formulation == Formulation::exact)) {
-    const detail::ShapeTable table(series_of(first, robot_->payload, formulation));
+    const bool known_shape = like != nullptr && like->has_closed_form_ &&
+                             like->robot_->payload == robot_->payload &&
+                             detail::moves_alike(like->robot_->sections[0], first);
+    const detail::ShapeTable table =
+        known_shape ? detail::single_of(*like).table
+                    : detail::ShapeTable(series_of(first, robot_->payload, formulation));
     parts->single = detail::SingleSection{table,       first.length,     stiffness_[0],
                                           damping_[0], Vector3d::Zero(), false};
     has_closed_form_ = true;
@@ -177,7 +189,8 @@ void require_inertia(const Model& model) {
 Data::Data(const Model& model)
     : force(VectorXd::Zero(model.num_coordinates())),
       parts_(model.parts()),
-      kept_(model.has_closed_form() ? nullptr : std::make_unique<Kept>(model)) {}
+      kept_(model.has_closed_form() && model.has_plain_cables() ? nullptr
+                                                                : std::make_unique<Kept>(model)) {}
 Data::Data(const Data& other)
     : force(other.force),
       parts_(other.parts_),

@@ -38,6 +38,9 @@ class ShiftedController final : public Controller {
   [[nodiscard]] Index num_coordinates() const noexcept override { return inner_.num_coordinates(); }
   [[nodiscard]] Index num_cables() const noexcept override { return inner_.num_cables(); }
   [[nodiscard]] bool gives_tensions() const noexcept override { return inner_.gives_tensions(); }
+  [[nodiscard]] const Model* reckons_with() const noexcept override {
+    return inner_.reckons_with();
+  }
 
  private:
   Controller& inner_;

@@ -98,10 +98,11 @@ template <class S>
 /// work. The tension that is left beyond each section goes to `beyond_sections` where that is
 /// wanted.
 template <class S>
-void add_capstan_force(const Model& model, Index j, const S* q, const S* qd, S tension, S* force,
-                       S* beyond_sections = nullptr) {
+void add_capstan_force(const Model& model, Index j, const S* q, const S* qd,
+                       const S& tension_at_base, S* force, S* beyond_sections = nullptr) {
   using std::sqrt;
   using std::tanh;
+  S tension = tension_at_base;
   const MatrixXd& B = model.actuation_matrix();
   const auto end = static_cast<Index>(model.cables()[static_cast<std::size_t>(j)].end_section);
   S beyond(0.0);  // rate of the length from here to the cable's end
@@ -181,24 +182,24 @@ inline void single_actuation_force(const Model& model, const double* tension,
   force[1] = y;
 }
 
+/// Adds the generalised force of one cable.
+template <class S>
+void add_cable_force(const Model& model, Index j, const S* q, const S* qd, const S& command,
+                     S* force) {
+  const S tension = base_tension(model, j, q, qd, command);
+  if (model.has_rods()) return add_rod_cable_force(model, j, q, qd, tension, force);
+  if (model.has_friction()) return add_capstan_force(model, j, q, qd, tension, force);
+  const Index rows = model.cable_rows()[static_cast<std::size_t>(j)];
+  for (Index i = 0; i < rows; ++i) force[i] += model.actuation_matrix()(i, j) * tension;
+}
+
 /// Generalised force of all cables.
 template <class S>
 void cable_force(const Model& model, const S* q, const S* qd, const S* command, S* force) {
   if (model.has_plain_cables()) return actuation_force(model, command, force);
   for (Index i = 0; i < model.num_coordinates(); ++i) force[i] = S(0.0);
-  const MatrixXd& B = model.actuation_matrix();
   for (Index j = 0; j < model.num_cables(); ++j) {
-    const S tension = base_tension(model, j, q, qd, command[j]);
-    if (model.has_rods()) {
-      add_rod_cable_force(model, j, q, qd, tension, force);
-      continue;
-    }
-    if (model.has_friction()) {
-      add_capstan_force(model, j, q, qd, tension, force);
-      continue;
-    }
-    const Index rows = model.cable_rows()[static_cast<std::size_t>(j)];
-    for (Index i = 0; i < rows; ++i) force[i] += B(i, j) * tension;
+    add_cable_force(model, j, q, qd, command[j], force);
   }
 }
 

@@ -7,9 +7,10 @@
 
 namespace cdcr::detail {
 
-template <int N>
-void read(const PolynomialTable<N>& table, double sigma, Eigen::Array<double, N, 1>& f) {
-  table(sigma, f);
+/// The table on any scalar that has such a function.
+template <class S>
+void read_arcs(const ArcTable& arcs, const S& sigma, ArcValues<S>& f) {
+  read(arcs, sigma, f);
 }
 
 struct RodParameters;
@@ -27,7 +28,8 @@ struct SectionParameters {
 /// eqs. (23) to (25): where it ends, and how the end moves with q.
 template <class S>
 struct Arc {
-  using Matrix3m = Eigen::Matrix<S, 3, 2>;
+  static constexpr int max_m = 2;
+  using Matrix3m = Eigen::Matrix<S, 3, max_m>;
 
   FrameState<S> base;
   S q_x, q_y;

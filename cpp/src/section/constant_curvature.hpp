@@ -16,8 +16,8 @@ struct ConstantCurvature : Arc<S> {
   using Matrix3m = typename Arc<S>::Matrix3m;
   using Matrixm = Eigen::Matrix<S, m, m>;
   using Vectorm = Eigen::Matrix<S, m, 1>;
-  using Arc<S>::base, Arc<S>::q_x, Arc<S>::q_y, Arc<S>::arc, Arc<S>::q, Arc<S>::r, Arc<S>::J_omega,
-      Arc<S>::J_v;
+  using Arc<S>::max_m, Arc<S>::base, Arc<S>::q_x, Arc<S>::q_y, Arc<S>::arc, Arc<S>::q, Arc<S>::r,
+      Arc<S>::J_omega, Arc<S>::J_v;
   S qd_x, qd_y;
   ShapeValues<S> f;
   Vector3<S> n;  // z x q

@@ -78,6 +78,11 @@ class PolynomialTable {
     }
   }
 
+  /// Coefficients of a piece: of the function f, that of power k is at [k N + f].
+  [[nodiscard]] const double* piece(int piece) const noexcept {
+    return pieces_[static_cast<std::size_t>(piece)].coefficients;
+  }
+
   /// Values and their derivatives with respect to sigma.
   void operator()(double sigma, Values& values, Values& slopes) const noexcept {
     if (!(sigma <= sigma_limit)) {
@@ -141,11 +146,15 @@ class PolynomialTable {
   };
 
   /// Coefficients of the piece that sigma lies in; t is its place there.
-  const double* find(double sigma, double& t) const noexcept {
-    return pieces_[static_cast<std::size_t>(find_piece(sigma, t))].coefficients;
-  }
+  const double* find(double sigma, double& t) const noexcept { return piece(find_piece(sigma, t)); }
 
   std::vector<Piece> pieces_;
 };
+
+/// The functions of a table at sigma: of other scalars, where these are.
+template <int N>
+void read(const PolynomialTable<N>& table, double sigma, Eigen::Array<double, N, 1>& f) {
+  table(sigma, f);
+}
 
 }  // namespace cdcr::detail

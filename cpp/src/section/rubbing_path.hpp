@@ -16,16 +16,17 @@ class RubbingPath {
  public:
   RubbingPath(const RodParameters& rod, const CableRoute& route);
 
-  /// Adds the generalised force of a cable with this `tension` where it enters the rod, and gives
+  /// Adds the generalised force of a cable with this tension where it enters the rod, and gives
   /// the tension where it leaves. `rate` is that of the cable's length from the rod's base to its
   /// own end [m/s], and becomes that from the rod's tip; where the cable `ends` there, it slides in
   /// the last stretch as before it. Real-time safe.
   template <class S>
   S pull(const RodParameters& rod, const S* q, const S* qd, double mu, double sliding_speed,
-         S tension, S& rate, bool ends, S* force) const {
+         const S& tension_at_base, S& rate, bool ends, S* force) const {
     using std::exp;
     using std::sqrt;
     using std::tanh;
+    S tension = tension_at_base;
     const auto num_points = static_cast<int>(points_.size());
     S turning[max_nodes];
     for (int i = 0; i < num_points; ++i) turning[i] = turning_at(rod, points_[i], q);

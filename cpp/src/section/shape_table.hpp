@@ -10,7 +10,9 @@ namespace cdcr::detail {
 /// The functions a, b, G_A, G_S of sigma = theta^2 and their derivatives, four that are read
 /// together in each table: eq. (21).
 struct ShapeTable {
-  using Values = std::array<double, 4>;
+  template <class S>
+  using ValuesOf = std::array<S, 4>;
+  using Values = ValuesOf<double>;
 
   explicit ShapeTable(const SectionSeries& s)
       : inertia({s.a, s.b, {}, {}}, {{2, 0}, {3, 1}}),
@@ -18,9 +20,12 @@ struct ShapeTable {
         second({twice(s.a), twice(s.b), twice(s.G_A), twice(s.G_S)}, {}) {}
 
   /// NaN beyond the largest bending angle and for NaN. Real-time safe.
-  [[nodiscard]] static Values read(const PolynomialTable<4>& table, double sigma) noexcept {
-    Eigen::Array<double, 4, 1> f;
-    table(sigma, f);
+  template <class S>
+  [[nodiscard, gnu::always_inline]] static ValuesOf<S> read(const PolynomialTable<4>& table,
+                                                            const S& sigma) noexcept {
+    using detail::read;
+    Eigen::Array<S, 4, 1> f;
+    read(table, sigma, f);
     return {f[0], f[1], f[2], f[3]};
   }
 

@@ -6,7 +6,7 @@
 
 namespace cdcr::detail {
 
-#if defined(__x86_64__)
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 /// Whether this processor has fused multiply-add, which halves the instructions of a rod.
 // NOLINTNEXTLINE(readability-implicit-bool-conversion): a bool to clang, an int to GCC
 inline const bool has_fma = __builtin_cpu_supports("fma") != 0;
@@ -19,7 +19,7 @@ template <class F, class Width>
 
 template <class F, class Width>
 void run(const F& f, Width width) {
-#if defined(__x86_64__)
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   if (has_fma) return run_with_fma(f, width);
 #endif
   f(width);

@@ -1,10 +1,10 @@
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <random>
 
+#include "base/eigenvalues.hpp"
 #include "cdcr/cables.hpp"
 #include "cdcr/robot_ode.hpp"
 #include "cdcr/statics.hpp"
@@ -82,11 +82,11 @@ class NewtonSolver {
       const auto pivots = llt_.matrixLLT().diagonal();
       if (pivots.minCoeff() > 1e-2 * pivots.maxCoeff()) return llt_.solve(-r_);
     }
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(K_);
-    const double floor = 1e-6 * eigen.eigenvalues().cwiseAbs().maxCoeff();
-    const VectorXd curvature = eigen.eigenvalues().cwiseAbs().cwiseMax(floor);
-    const VectorXd in_eigenbasis = eigen.eigenvectors().transpose() * r_;
-    return -(eigen.eigenvectors() * in_eigenbasis.cwiseQuotient(curvature));
+    const auto [values, vectors] = detail::symmetric_eigen(K_);
+    const double floor = 1e-6 * values.cwiseAbs().maxCoeff();
+    const VectorXd curvature = values.cwiseAbs().cwiseMax(floor);
+    const VectorXd in_eigenbasis = vectors.transpose() * r_;
+    return -(vectors * in_eigenbasis.cwiseQuotient(curvature));
   }
 
   /// Newton step, or where K is singular the gradient's way with the largest stiffness.
@@ -213,10 +213,9 @@ void classify_stability(StaticProblem& problem, Equilibrium& result) {
   MatrixXd K(result.q.size(), result.q.size());
   problem.stiffness(result.q, K);
   if (problem.has_energy()) {
-    result.eigenvalues =
-        Eigen::SelfAdjointEigenSolver<MatrixXd>(K, Eigen::EigenvaluesOnly).eigenvalues();
+    result.eigenvalues = detail::symmetric_eigenvalues(K);
   } else {
-    result.eigenvalues = Eigen::EigenSolver<MatrixXd>(K, false).eigenvalues().real();
+    result.eigenvalues = detail::eigenvalues(K).real();
     std::sort(result.eigenvalues.begin(), result.eigenvalues.end());
   }
   result.stable = result.eigenvalues.minCoeff() > neutral * result.eigenvalues.maxCoeff();

@@ -1,13 +1,14 @@
 #include "cdcr/modes.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <utility>
 #include <vector>
 
 #include "base/arguments.hpp"
+#include "base/eigenvalues.hpp"
 #include "cdcr/dynamics.hpp"
 #include "cdcr/linearization.hpp"
 #include "cdcr/robot_ode.hpp"
@@ -31,9 +32,9 @@ void check(const Model& model, const VectorXd& q, const VectorXd& command) {
 /// w^2 and phi from the symmetric problem.
 void find_shapes(const MatrixXd& K, const MatrixXd& M, Modes& modes) {
   const MatrixXd symmetric = 0.5 * (K + K.transpose());
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(symmetric, M);
-  modes.squared_frequency = solver.eigenvalues();
-  modes.shape = solver.eigenvectors();
+  auto [values, vectors] = detail::symmetric_eigen(symmetric, M);
+  modes.squared_frequency = std::move(values);
+  modes.shape = std::move(vectors);
   for (Index i = 0; i < modes.shape.cols(); ++i) {  // the largest component points forwards
     Index largest = 0;
     modes.shape.col(i).cwiseAbs().maxCoeff(&largest);
@@ -57,7 +58,7 @@ Eigen::VectorXcd eigenvalues_of(MatrixXd A) {
   const double scale = std::sqrt(A.bottomLeftCorner(m, m).norm() + 1e-300);
   A.topRightCorner(m, m) *= scale;
   A.bottomLeftCorner(m, m) /= scale;
-  Eigen::VectorXcd values = Eigen::EigenSolver<MatrixXd>(A, false).eigenvalues();
+  Eigen::VectorXcd values = detail::eigenvalues(A);
   std::stable_sort(values.begin(), values.end(),
                    [](const auto& a, const auto& b) { return std::abs(a) < std::abs(b); });
   return values;

@@ -7,9 +7,10 @@
 #include "cdcr/dynamics.hpp"
 #include "cdcr/kinematics.hpp"
 #include "cdcr/statics.hpp"
-#include "dynamics/gradient_slopes.hpp"
+#include "derivatives/weight_hessian.hpp"
 #include "dynamics/kept.hpp"
 #include "loads/cable_force.hpp"
+#include "loads/force_derivatives.hpp"
 #include "loads/wrench_force.hpp"
 
 namespace cdcr {
@@ -28,23 +29,25 @@ double moment_of(const Model& model, const Wrenches& wrenches) {
   return sum + mass * (length + chain.payload.position.norm()) * chain.gravity.norm();
 }
 
-/// Adds the force of the cables of rods at rest, without friction.
-void add_path_forces(const Model& model, const Dual* q, const ConstVectorRef& command,
-                     Dual* force) {
+/// Takes from K the derivatives of the force of the cables of rods at rest, without friction.
+void subtract_path_stiffness(const Model& model, const ConstVectorRef& q,
+                             const ConstVectorRef& command, MatrixRef K) {
   const Chain& chain = chain_of(model);
-  for (Index j = 0; j < model.num_cables(); ++j) {
-    const Cable& cable = model.cables()[static_cast<std::size_t>(j)];
-    if (!cable.length_driven()) {
-      static_cast<void>(path_of(model, j).length(chain, q, Dual(command[j]), force));
-      continue;
+  differentiate(q.size(), q.data(), K, -1.0, [&](const Dual* x, Dual* force) {
+    for (Index j = 0; j < model.num_cables(); ++j) {
+      const Cable& cable = model.cables()[static_cast<std::size_t>(j)];
+      if (!cable.length_driven()) {
+        static_cast<void>(path_of(model, j).length(chain, x, Dual(command[j]), force));
+        continue;
+      }
+      const CableSlope<Dual> slope(chain, path_of(model, j), x);
+      const Dual longer = slope.length - command[j];
+      if (!(longer > 0.0)) continue;
+      for (Index i = 0; i < q.size(); ++i) {
+        force[i] += slope.column[i] * (cable.stiffness * longer);
+      }
     }
-    const CableSlope<Dual> slope(chain, path_of(model, j), q);
-    const Dual longer = slope.length - command[j];
-    if (!(longer > 0.0)) continue;
-    for (Index i = 0; i < model.num_coordinates(); ++i) {
-      force[i] += slope.column[i] * (cable.stiffness * longer);
-    }
-  }
+  });
 }
 
 }  // namespace
@@ -143,30 +146,15 @@ bool conservative(const Wrenches& wrenches) noexcept {
 
 namespace {
 
-using Room = std::optional<detail::RodChainState<detail::Dual>>;  // for a robot of rods
-
-void static_stiffness_in(Room& room, const Model& model, const ConstVectorRef& q,
-                         const ConstVectorRef& command, const Wrenches& wrenches,
-                         MatrixRef K) noexcept {
-  using detail::Dual;
+/// Adds to the stiffness of the backbone and its weight those of cables and wrenches.
+void add_load_stiffness(const Model& model, const ConstVectorRef& q, const ConstVectorRef& command,
+                        const Wrenches& wrenches, MatrixRef K) noexcept {
   assert(detail::of_coordinates(model, q) && detail::of_cables(model, command));
   assert(check_wrenches(model, wrenches) == Status::ok);
-  assert(detail::has_size(K, model.num_coordinates(), model.num_coordinates()));
-  const bool has_paths = !model.has_constant_actuation();
-  if (model.has_closed_form() && wrenches.empty()) {
-    detail::closed_form::potential_hessian(detail::single_of(model), q, K);
-  } else {
-    const auto d = static_cast<int>(model.num_coordinates());
-    detail::gradient_slopes(model, room, q, K, [&](const Dual* x, Dual* y) {
-      if (wrenches.empty() && !has_paths) return;
-      Dual pull[max_coordinates];
-      for (int i = 0; i < d; ++i) pull[i] = Dual(0.0);
-      detail::add_wrench_force<Dual>(detail::chain_of(model), x, wrenches, pull);
-      if (has_paths) detail::add_path_forces(model, x, command, pull);
-      for (int i = 0; i < d; ++i) y[i] -= pull[i];
-    });
+  detail::subtract_wrench_stiffness(model, q, wrenches, K);
+  if (!model.has_constant_actuation()) {
+    return detail::subtract_path_stiffness(model, q, command, K);
   }
-  if (has_paths) return;
   const MatrixXd& B = model.actuation_matrix();
   for (Index j = 0; j < model.num_cables(); ++j) {
     const Cable& cable = model.cables()[static_cast<std::size_t>(j)];
@@ -187,16 +175,26 @@ void static_stiffness(const Model& model, Data& data, const ConstVectorRef& q,
                       const ConstVectorRef& command, const Wrenches& wrenches,
                       MatrixRef K) noexcept {
   assert(data.belongs_to(model));
-  Room none;
-  Room& room = data.kept() != nullptr ? data.kept()->dual_rods : none;
-  static_stiffness_in(room, model, q, command, wrenches, K);
+  potential_hessian(model, data, q, K);
+  add_load_stiffness(model, q, command, wrenches, K);
 }
 
 void static_stiffness(const Model& model, const ConstVectorRef& q, const ConstVectorRef& command,
                       const Wrenches& wrenches, MatrixRef K) noexcept {
-  Room room;
-  if (model.has_rods()) room.emplace(detail::chain_of(model));
-  static_stiffness_in(room, model, q, command, wrenches, K);
+  assert(detail::has_size(K, model.num_coordinates(), model.num_coordinates()));
+  if (model.has_rods()) {
+    Data data(model);
+    return static_stiffness(model, data, q, command, wrenches, K);
+  }
+  if (model.has_closed_form()) {
+    detail::closed_form::potential_hessian(detail::single_of(model), q, K);
+  } else {
+    detail::MotionState state;
+    detail::ConstantCurvature<detail::Dual> room;
+    update_position(detail::chain_of(model), state, q.data());
+    detail::weight_hessian(detail::chain_of(model), state, q.data(), room, K);
+  }
+  add_load_stiffness(model, q, command, wrenches, K);
 }
 
 }  // namespace cdcr

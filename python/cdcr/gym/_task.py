@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -31,6 +31,7 @@ CYCLE = (3.0, 6.0)  # range of the time in which a target goes round its path [s
 LEAST_STEPS = 5  # of Runge-Kutta in a period
 STABLE_SHARE = 3.0  # the largest stable step over the one taken
 MAX_DRAWS = 20  # of commands, until the robot rests under one
+OPTIONS, NO_LOADS = _core.Options(), _core.Loads()
 THIRDS = 2.0 * math.pi / 3.0 * np.arange(3)
 
 
@@ -51,6 +52,7 @@ class Task:
         control_cost: float,
         period: float,
         randomization: Ranges | None,
+        threads: int = 1,
     ) -> None:
         self.moving = known_name("task", task, TASKS) == "track"
         if isinstance(robot, str):
@@ -69,8 +71,11 @@ class Task:
         self._base: FloatArray = np.array(self.drive.robot.base_position, dtype=np.float64)
         tool = np.linalg.norm(np.array(self.drive.robot.tool)[:3, 3])
         self._reach = 1.0 + float(tool) / self._length
-        substeps = self._substeps(self.model)
-        self._simulators = [self._simulator(self.model, substeps) for _ in range(count)]
+        self._models = [self.model] * count
+        self._substeps = np.full(count, self._substeps_of(self.model))
+        self._periods = np.zeros(count, dtype=int)  # since the episode began
+        self._simulator: _core.Simulator | None = None  # of a robot that is the only one
+        self._threads = threads
         self._bounds = self.bounds
         size = self.model.num_coordinates
         self.q, self.qd = np.zeros((count, size)), np.zeros((count, size))
@@ -96,8 +101,7 @@ class Task:
 
     def model_of(self, i: int) -> Model:
         """Return the model of a robot in its episode."""
-        model: Model = self._simulators[i].model
-        return model
+        return self._models[i]
 
     def reset(
         self,
@@ -113,8 +117,8 @@ class Task:
 
     def _begin(self, i: int, rng: np.random.Generator, given: Mapping[str, FloatArray]) -> None:
         if self._ranges:
-            model = Model(draw_robot(self.drive.robot, self._ranges, rng))
-            self._simulators[i] = self._simulator(model, self._substeps(model))
+            self._models[i] = Model(draw_robot(self.drive.robot, self._ranges, rng))
+            self._substeps[i] = self._substeps_of(self._models[i])
         rest = self._rest(i, self.model.rest_command())
         self.q[i] = rest + rng.uniform(-NOISE, NOISE, rest.shape)
         self.qd[i] = rng.uniform(-NOISE, NOISE, rest.shape)
@@ -123,7 +127,11 @@ class Task:
         self._rate[i] = 2.0 * math.pi / rng.uniform(*CYCLE)
         self.target[i] = given.get("target", self.model.tips(self._corners[i, 0]))
         self.q[i], self.qd[i] = given.get("q", self.q[i]), given.get("qd", self.qd[i])
-        self._simulators[i].reset(self.q[i], self.qd[i])
+        self._periods[i] = 0
+        if len(self.q) == 1:
+            steps = int(self._substeps[i])
+            self._simulator = _core.Simulator(self._models[i], step=self._period, substeps=steps)
+            self._simulator.reset(self.q[i], self.qd[i])
         self.episode[i] += 1
 
     def step(
@@ -139,10 +147,13 @@ class Task:
             raise ValueError(f"action must have shape {shape}, got {given.shape}")
         share = self.drive.share(given)
         commands = self.drive.command(share)
-        for i in np.flatnonzero(active).tolist():
-            simulator = self._simulators[i]
-            failed[i] = simulator.step(commands[i]) != _core.Status.ok
-            self.q[i], self.qd[i] = simulator.q, simulator.qd
+        if self._simulator is None:
+            for these in self._groups(active):
+                failed[these] = self._advance(these, commands[these])
+        elif active[0]:
+            failed[0] = self._simulator.step(commands[0]) != _core.Status.ok
+            self.q[0], self.qd[0] = self._simulator.q, self._simulator.qd
+        self._periods += active & ~failed
         self._update()
         cost = self._cost / share.shape[1]
         parts = {
@@ -150,6 +161,49 @@ class Task:
             "reward_control": -cost * np.einsum("ij,ij->i", share, share),
         }
         return parts, failed
+
+    def _groups(self, active: NDArray[np.bool_]) -> Iterator[slice | NDArray[np.intp]]:
+        """Yield the active robots, those together that take as many Runge-Kutta steps a period."""
+        if not self._ranges:
+            yield slice(None) if active.all() else np.flatnonzero(active)
+            return
+        for substeps in np.unique(self._substeps[active]):
+            yield np.flatnonzero(active & (self._substeps == substeps))
+
+    def _advance(self, these: slice | NDArray[np.intp], commands: FloatArray) -> Any:
+        """Take some robots through a period; return which failed, and stay where they were."""
+        alike = isinstance(these, slice) or not self._ranges
+        models = [self.model] if alike else [self._models[i] for i in np.asarray(these)]
+        q, qd = self.q[these], self.qd[these]
+        if len(q) == 0:
+            return False
+        steps = int(self._substeps[these][0])
+        *after, _, failures, _ = _core.rollout(
+            models,
+            q,
+            qd,
+            commands[:, None],
+            None,
+            NO_LOADS,
+            _core.Method.rk4,
+            OPTIONS,
+            self._period / steps,
+            steps,
+            steps,
+            0.0,
+            self._threads,
+            None,
+        )
+        if not failures:
+            self.q[these], self.qd[these] = after[0][:, -1], after[1][:, -1]
+            return False
+        if any(status is _core.Status.interrupted for _, status, _ in failures):
+            raise KeyboardInterrupt
+        failed = np.zeros((len(q), 1), dtype=bool)
+        failed[[i for i, _, _ in failures]] = True
+        for state, before, rows in ((self.q, q, after[0]), (self.qd, qd, after[1])):
+            state[these] = np.where(failed, before, rows[:, -1])
+        return failed[:, 0]
 
     @property
     def reached(self) -> NDArray[np.bool_]:
@@ -169,10 +223,10 @@ class Task:
         return np.array([self._drawn_shape(0, rng) for _ in range(count)])
 
     def _update(self) -> None:
-        """Bring tips and targets to the time and state of the simulators."""
+        """Bring tips and targets to the time and state of the robots."""
         self.tip = self.model.tips(self.q)
         if self.moving:
-            time = np.array([simulator.time for simulator in self._simulators])
+            time = self._periods * self._period
             now, soon = (self._shapes_at(time + ahead) for ahead in (0.0, self._period))
             self.target, later = self.model.tips(np.stack([now, soon]))
             self._velocity = (later - self.target) / self._period
@@ -200,14 +254,11 @@ class Task:
             "the robot rests under none of the commands that were tried: choose a smaller limit"
         )
 
-    def _substeps(self, model: Model) -> int:
+    def _substeps_of(self, model: Model) -> int:
         """Return the Runge-Kutta steps of a period: well below what is stable, all cables taut."""
         taut = self.drive.command(np.full(model.num_cables, 0.5))
         largest = stable_step(model, np.zeros(model.num_coordinates), taut)
         return max(LEAST_STEPS, math.ceil(STABLE_SHARE * self._period / largest))
-
-    def _simulator(self, model: Model, substeps: int) -> _core.Simulator:
-        return _core.Simulator(model, step=self._period, substeps=substeps)
 
     def _checked(self, options: Mapping[str, Any]) -> dict[str, FloatArray]:
         """Return the options of `reset`, or refuse them."""

@@ -37,6 +37,9 @@ class RobotVectorEnv(VectorEnv[Observation, NDArray[np.float32], NDArray[Any]]):
         As in `RobotEnv`.
     max_episode_steps : int, optional
         Steps after which an episode is truncated.
+    threads : int, optional
+        How many take the robots through a step; 0 for one for each processor. More than one pays
+        where steps are long: thousands of robots, or many sections.
     render_mode : {"rgb_array"}, optional
         Pictures as arrays, of each robot. Needs the extra ``plot``.
 
@@ -76,11 +79,13 @@ class RobotVectorEnv(VectorEnv[Observation, NDArray[np.float32], NDArray[Any]]):
         control_cost: float = 0.01,
         period: float = 0.02,
         randomization: Ranges | None = None,
+        threads: int = 1,
     ) -> None:
         check = Check()
         self.num_envs = check.whole("num_envs", num_envs, "a whole number >= 1", low=1)
         if max_episode_steps is not None:
             check.whole("max_episode_steps", max_episode_steps, "a whole number >= 1", low=1)
+        check.whole("threads", threads, "a whole number >= 0", low=0)
         check.done()
         if render_mode not in (None, "rgb_array"):
             raise ValueError(f"render_mode must be 'rgb_array' or None, got {render_mode!r}")
@@ -93,6 +98,7 @@ class RobotVectorEnv(VectorEnv[Observation, NDArray[np.float32], NDArray[Any]]):
             control_cost=control_cost,
             period=period,
             randomization=randomization,
+            threads=threads,
         )
         self.render_mode = render_mode
         self.metadata = self.metadata | {"render_fps": round(1.0 / period)}

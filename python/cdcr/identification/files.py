@@ -112,6 +112,15 @@ class Table:
         """Name a place in the file by its line, and by the name that the column has there."""
         return f"{self._lines[row]}: {self._header.get(column, column)}"
 
+    def commands(self, kind: str, count: int, units: Sequence[str]) -> FloatArray:
+        """Return the columns that are commands; refusals call them by the names they have."""
+        names = [f"{kind} {j + 1}" for j in range(count)]
+        found = self.take(names, units, needed=True)
+        assert found is not None
+        for j, name in enumerate(names):
+            self._header[f"cable {j + 1}"] = self._header[name]
+        return found
+
     def take(
         self, names: Sequence[str], units: Sequence[str], *, needed: bool = False
     ) -> FloatArray | None:
@@ -190,19 +199,19 @@ def _measured(
     """Return the arguments of a measurement, those of the file among them."""
     cables = range(1, robot.num_cables + 1)
     given: dict[str, Any] = {"name": table.file.name, "where": table.where} | dict(options)
+    count = robot.num_cables
     command: Any
-    pulls = table.take([f"pull {j}" for j in cables], ["m"])
-    if pulls is not None:
-        given["pulled"], command = True, pulls
+    if any(f"pull {j}" in table.columns for j in cables):
+        given["pulled"], command = True, table.commands("pull", count, ["m"])
     elif "command" in given:
         command = given.pop("command")
     elif "command 1" in table.columns:
-        command = table.take([f"command {j}" for j in cables], ["N or m", "N", "m"])
+        command = table.commands("command", count, ["N or m", "N", "m"])
         table.take([f"tension {j}" for j in cables], ["N"])  # in a run's file: what came of it
     elif "tension 1" in table.columns and "cable 1" not in table.columns:
-        command = table.take([f"tension {j}" for j in cables], ["N"])
+        command = table.commands("tension", count, ["N"])
     else:
-        command = table.take([f"cable {j}" for j in cables], ["N", "m"], needed=True)
+        command = table.commands("cable", count, ["N", "m"])
     names = {
         "tip": ([f"tip {axis}" for axis in "xyz"], "m"),
         "tension": ([f"tension {j}" for j in cables], "N"),

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from cdcr.base.arrays import finite
 from cdcr.base.extras import require
+from cdcr.model.derivatives import Derivatives
 from cdcr.model.shape import ShapeModel
 
 if TYPE_CHECKING:
@@ -18,7 +19,48 @@ if TYPE_CHECKING:
 
 
 class StateSpaceModel(ShapeModel):
-    """A model, and its linear systems."""
+    """A model, its derivatives and linear systems."""
+
+    def derivatives(
+        self,
+        q: ArrayLike,
+        qd: ArrayLike,
+        tension: ArrayLike,
+        wrenches: Wrench | Sequence[Wrench] = (),
+    ) -> Derivatives:
+        """Differentiate `forward_dynamics` by all that it takes, cpp/derivatives.md eq. (71).
+
+        Exact to rounding, at rest or moving, through cables and wrenches too. At the kinks of a
+        cable (just slack; friction at a straight section) one side is taken.
+
+        Parameters
+        ----------
+        q, qd : (..., d) array_like
+            Coordinates [rad, m] and their rates; or arrays of states.
+        tension : (..., num_cables) array_like
+            Cable tensions [N]; lengths [m] for cables driven by length.
+        wrenches : Wrench or sequence of Wrench, optional
+            Forces and moments on the backbone; of no size where only their slopes are asked for.
+
+        Returns
+        -------
+        Derivatives
+            Its arrays have the leading dimensions of `q`, `qd` and `tension`, broadcast.
+
+        Raises
+        ------
+        ValueError
+            For arguments that are no states or commands, and for a robot without inertia there.
+
+        Examples
+        --------
+        >>> import cdcr
+        >>> model = cdcr.Model(cdcr.robots.amouri2020())
+        >>> model.derivatives([0.0, 0.0], [0.0, 0.0], [0.0, 0.0, 0.0]).dqdd_dq.round(2) + 0.0
+        array([[-82.74,   0.  ],
+               [  0.  , -82.74]])
+        """
+        return Derivatives(*self._derivatives(q, qd, tension, wrenches))
 
     def to_statespace(
         self,

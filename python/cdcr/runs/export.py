@@ -76,7 +76,7 @@ def _state(run: Trajectory) -> list[Quantity]:
     """Bending vectors by section where there is nothing else, or coordinates one by one."""
     found = []
     for name, values, about in (("q", run.q, "{}"), ("qd", run.qd, "rate of the {}")):
-        dims, units = _dims_and_units(run.model, name)
+        dims, units = dims_and_units(run.model, name)
         vectors = len(dims) == 2
         shape = (len(run), -1, 2) if vectors else values.shape
         long_name = about.format("bending vector" if vectors else "coordinate")
@@ -84,7 +84,8 @@ def _state(run: Trajectory) -> list[Quantity]:
     return found
 
 
-def _dims_and_units(model: Model, name: str) -> tuple[tuple[str, ...], str]:
+def dims_and_units(model: Model, name: str) -> tuple[tuple[str, ...], str]:
+    """Return the dimensions after time, and the unit, of q, qd, tension or command."""
     dims, units = _STATE[name]
     if name not in ("q", "qd") or all_bend_evenly(model):
         return dims, units
@@ -107,7 +108,7 @@ def _of_stretch(units: str) -> str:
     return units.replace("rad", "m")
 
 
-def coordinates(run: Trajectory) -> dict[str, tuple[list[Any], str, str]]:
+def coordinates(model: Model, t: FloatArray) -> dict[str, tuple[list[Any], str, str]]:
     """Labels, unit and meaning of each dimension."""
     about = {
         "section": ("1", "section number, 1 at the base"),
@@ -116,8 +117,8 @@ def coordinates(run: Trajectory) -> dict[str, tuple[list[Any], str, str]]:
         "cable": ("1", "cable number, from 1, section by section"),
         "axis": ("1", "axis of the base frame"),
     }
-    labels = _labels(run.model)
-    return {"time": (run.t.tolist(), "s", "time")} | {
+    labels = _labels(model)
+    return {"time": (t.tolist(), "s", "time")} | {
         name: (labels[name], *words) for name, words in about.items() if name in labels
     }
 
@@ -150,7 +151,7 @@ def to_xarray(run: Trajectory) -> xarray.Dataset:
     }
     coords = {
         name: (name, labels, {"units": units, "long_name": long_name})
-        for name, (labels, units, long_name) in coordinates(run).items()
+        for name, (labels, units, long_name) in coordinates(run.model, run.t).items()
     }
     dataset: xarray.Dataset = xr.Dataset(data, coords, attributes(run))
     return dataset
@@ -209,7 +210,7 @@ def write_csv(run: Trajectory, path: Path) -> None:
 
 def columns_of(model: Model, name: str) -> list[str]:
     """Return the columns of q, qd, tension or command in a CSV file."""
-    return _columns(model, name, *_dims_and_units(model, name))
+    return _columns(model, name, *dims_and_units(model, name))
 
 
 def _columns(model: Model, name: str, dims: Sequence[str], units: str) -> list[str]:

@@ -46,6 +46,10 @@ _FIGURES = {
     "twist-under-load": None,
     "tapered-arm": None,
     "precurved-tube": None,
+    "regulation": None,
+    "circle-control": None,
+    "three-section-tracking": None,
+    "motor-limits": None,
 }
 # Modules of studies and figures that serve several scenarios.
 _SHARED = {

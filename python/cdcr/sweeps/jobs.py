@@ -16,11 +16,12 @@ from cdcr import scenarios
 from cdcr._core import __version__
 from cdcr.base.arrays import FloatArray
 from cdcr.base.check import nearest
+from cdcr.robot.numbers import Table, put
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.file.whole import scenario_from_table, whole_table
 from cdcr.scenarios.scenario import Scenario
 from cdcr.sweeps.metrics import Asked, values_of
-from cdcr.sweeps.paths import Table, places, put
+from cdcr.sweeps.paths import places
 
 REFUSED = "refused"  # status of a run that did not begin
 # What values of parameters may do to a robot; anything else is a fault of the program.

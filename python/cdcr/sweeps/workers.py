@@ -118,14 +118,17 @@ def _of_client(client: Any) -> Workers:
 def _by_executor(
     job: Job, chunks: Chunks, executor: Executor, number: Callable[[], int]
 ) -> Generator[Done]:
-    waiting, pending = iter(chunks), set[Future[Done]]()
+    waiting, pending = iter(chunks), list[Future[Done]]()
     try:
         while True:
             for chunk in _first(waiting, AHEAD * number() - len(pending)):
-                pending.add(executor.submit(compute, job, chunk))
+                pending.append(executor.submit(compute, job, chunk))
             if not pending:
                 return
-            ready, pending = wait(pending, return_when=FIRST_COMPLETED)
+            done, _ = wait(pending, return_when=FIRST_COMPLETED)
+            # In the order in which they were sent, which one worker keeps to.
+            ready = [future for future in pending if future in done]
+            pending = [future for future in pending if future not in done]
             for future in ready:
                 yield _result(future)
     finally:

@@ -7,11 +7,7 @@
 
 #include "cases.hpp"
 #include "cdcr/dynamics.hpp"
-#include "chain/energy.hpp"
-#include "chain/forward.hpp"
-#include "chain/gradient.hpp"
-#include "chain/inverse.hpp"
-#include "chain/mass_matrix.hpp"
+#include "chain/functions.hpp"
 #include "chain_cases.hpp"
 #include "rods.hpp"
 
@@ -104,42 +100,42 @@ class Recursion : public Subject {
 
   [[nodiscard]] Index size() const override { return chain_.num_coordinates(); }
   MatrixXd mass_matrix(const VectorXd& q) override {
-    state_->update_position(chain_, q.data());
+    detail::update_position(chain_, *state_, q.data());
     MatrixXd M(size(), size());
-    detail::composite_mass<Section>(chain_, *state_, M);
+    detail::mass_matrix(chain_, *state_, M);
     return M;
   }
   VectorXd bias(const VectorXd& q, const VectorXd& qd) override {
     VectorXd h(size());
-    state_->update(chain_, q.data(), qd.data());
-    detail::inverse_dynamics<Section, double>(chain_, *state_, nullptr, h.data());
+    detail::update_motion(chain_, *state_, q.data(), qd.data());
+    detail::inverse_motion(chain_, *state_, nullptr, h.data());
     return h;
   }
   VectorXd inverse(const VectorXd& q, const VectorXd& qd, const VectorXd& qdd) override {
     VectorXd force(size());
-    state_->update(chain_, q.data(), qd.data());
-    detail::inverse_dynamics(chain_, *state_, qdd.data(), force.data());
+    detail::update_motion(chain_, *state_, q.data(), qd.data());
+    detail::inverse_motion(chain_, *state_, qdd.data(), force.data());
     return force;
   }
   VectorXd forward(const VectorXd& q, const VectorXd& qd, const VectorXd& force) override {
     VectorXd qdd(size());
-    state_->update_position(chain_, q.data());
-    state_->update_velocity(chain_, qd.data());
-    detail::forward_dynamics(chain_, *state_, force.data(), qdd.data());
+    detail::update_position(chain_, *state_, q.data());
+    detail::update_velocity(chain_, *state_, qd.data());
+    detail::forward_motion(chain_, *state_, force.data(), qdd.data());
     return qdd;
   }
   double kinetic(const VectorXd& q, const VectorXd& qd) override {
-    state_->update(chain_, q.data(), qd.data());
-    return detail::kinetic_energy_of(chain_, *state_, qd.data());
+    detail::update_motion(chain_, *state_, q.data(), qd.data());
+    return detail::kinetic_energy(chain_, *state_, qd.data());
   }
   double potential(const VectorXd& q) override {
-    state_->update_position(chain_, q.data());
-    return detail::potential_energy_of(chain_, *state_, q.data());
+    detail::update_position(chain_, *state_, q.data());
+    return detail::potential_energy(chain_, *state_, q.data());
   }
   VectorXd gradient(const VectorXd& q) override {
     VectorXd gradient(size());
-    state_->update_position(chain_, q.data());
-    detail::potential_gradient<Section>(chain_, *state_, q.data(), gradient.data());
+    detail::update_position(chain_, *state_, q.data());
+    detail::weight_gradient(chain_, *state_, q.data(), gradient.data());
     return gradient;
   }
 

@@ -7,6 +7,7 @@ from typing import Any
 from cdcr import _core, robots
 from cdcr.files.json_schema import Schema, document, one_of_keys, table_schema
 from cdcr.robot.json_schema import changes_schema, robot_schema, section_schema
+from cdcr.scenarios.file import control_schema as control
 from cdcr.scenarios.file import schema as tables
 from cdcr.scenarios.file import shape_schema as shapes
 from cdcr.scenarios.file.values import RIVALS
@@ -28,13 +29,33 @@ def scenario_file_schema() -> Schema:
         tension=_tension(),
         wrenches=_array(_wrench()),
         trajectory=_trajectory(),
-        controller=table_schema(tables.ControllerTable, reference=reference),
+        controller=_controller(reference),
+        loop=_loop(),
         integrator=table_schema(tables.IntegratorTable),
         output=table_schema(tables.OutputTable),
     )
     inputs = ("tension", "trajectory"), ("tension", "controller"), ("trajectory", "controller")
     return document("A scenario of a cable-driven continuum robot (cdcr)", scenario) | one_of_keys(
         *inputs
+    )
+
+
+def _controller(reference: Schema) -> Schema:
+    motion: Schema = {"anyOf": _shapes(control.MOTIONS)}
+    kinds = []
+    for name, table in control.CONTROLLERS.items():
+        held = {"reference": reference} if "reference" in table.model_fields else {}
+        kinds.append(table_schema(table, type={"const": name}, motion=motion, **held))
+    return {"anyOf": kinds}
+
+
+def _loop() -> Schema:
+    actuator = table_schema(control.ActuatorTable, winch=table_schema(control.WinchTable))
+    sensor = table_schema(control.SensorTable)
+    return table_schema(
+        control.LoopTable,
+        actuators=_array(actuator, minItems=1),
+        sensors=_array(sensor, minItems=1),
     )
 
 

@@ -32,6 +32,7 @@ from cdcr.model.model import Model
 from cdcr.runs.command import TensionTable
 from cdcr.runs.simulate import integrator_options
 from cdcr.scenarios.file.controller import read_controller
+from cdcr.scenarios.file.loop import read_loop
 from cdcr.scenarios.file.robot import read_robot
 from cdcr.scenarios.file.shapes import TensionShapes
 from cdcr.scenarios.file.start import read_start
@@ -180,6 +181,10 @@ def _input_errors(table: Mapping[str, Any]) -> list[str]:
     if len(given) > 1:
         got = " and ".join(given)
         found.append(f"there must be only one of tension, trajectory and controller, got {got}")
+    if "loop" in table and "controller" not in table:
+        found.append("loop needs a controller, and there is none")
+    if "loop" in table and "integrator" in table:
+        found.append("there must be only one of loop and integrator: a loop has steps of its own")
     motion = table.get("trajectory", {})
     if "feed_back" in motion:
         found.append("trajectory must have simulate or feed_back, its old name, not both")
@@ -207,7 +212,12 @@ def _input(table: Mapping[str, Any], model: Model, file: Path) -> dict[str, Any]
     """Return the fields of a scenario that say what moves the robot."""
     if "controller" in table:
         loop = read_controller(table["controller"], model, file)
-        return {"controller": loop, "summarize": loop.summarize, "plot": loop.plot}
+        shown = {"summarize": loop.summarize, "plot": loop.plot}
+        if "loop" not in table:
+            return {"controller": loop} | shown
+        closed = read_loop(table["loop"], loop, model, file)
+        fixed = {"method": "rk4", "step": closed.step}
+        return {"controller": loop, "input_source": closed} | shown | fixed
     if "trajectory" in table:
         t_end = table["t_end"]
         motion = read_trajectory(table["trajectory"], model, t_end, file)

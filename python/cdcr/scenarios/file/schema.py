@@ -65,6 +65,10 @@ class ScenarioTable(BaseModel):
         "a table with type",
         "a controller that pulls the cables, in place of tension and trajectory",
     )
+    loop: dict[str, Any] = optional(
+        "a table with step, actuators, sensors",
+        "fixed steps, actuators and sensors around a controller, in place of integrator",
+    )
     integrator: dict[str, Any] = optional(
         "a table with method, rtol, atol, step, max_step", "how the run is integrated"
     )
@@ -159,42 +163,6 @@ class OutputTable(BaseModel):
         'an array with one or more of "picture", "csv", "nc", "mcap"',
         "kinds of files to write",
         min_length=1,
-    )
-
-
-class ControllerTable(BaseModel):
-    """The [controller] table of type "pid"."""
-
-    model_config = STRICT
-
-    type: Literal["pid"] = needed('"pid"', "kind of controller")
-    kp: float = needed("a number >= 0 [N m/rad]", "proportional gain", ge=0.0, allow_inf_nan=False)
-    ki: float = optional(
-        "a number >= 0 [N m/(rad s)]", "integral gain", ge=0.0, allow_inf_nan=False
-    )
-    kd: float = optional(
-        "a number >= 0 [N m s/rad]", "gain of the rate", ge=0.0, allow_inf_nan=False
-    )
-    period: float = _positive("a number > 0 [s]", "between updates; tensions are held")
-    feed_forward: bool = optional(
-        "true or false", "whether the force that holds the reference still is added"
-    )
-    anti_windup: bool = optional(
-        "true or false", "whether integration stops where the limits cannot give more"
-    )
-    min_tension: float = optional(
-        "a number [N], or -inf for no limit", "least tension of every cable"
-    )
-    max_tension: float = optional(
-        "a number [N], or inf for no limit", "largest tension of every cable"
-    )
-    cables: list[int] = optional(
-        "an array with numbers of cables, from 1",
-        "cables that may be used; all by default",
-        min_length=1,
-    )
-    reference: dict[str, Any] = optional(
-        "a table with q, or theta and phi", "what to reach and hold; straight by default"
     )
 
 

@@ -88,14 +88,19 @@ def _shape(table: dict[str, Any], num_sections: int, file: Path) -> Motion:
 
 def shape_errors(shapes: Mapping[str, Any], table: Mapping[str, Any], at: str) -> list[str]:
     """Return a sentence for an unknown shape, or one for each key that its table does not allow."""
-    shape = table.get("shape")
-    if not isinstance(shape, str) or shape not in shapes:
-        known = ", ".join(f'"{name}"' for name in shapes)
-        if "shape" not in table:
-            return [f"{at}.shape is missing; it must be one of {known}"]
-        guess = nearest(shape, shapes) if isinstance(shape, str) else ""
-        return [f"{at}.shape must be one of {known}, got {format_toml(shape)}.{guess}".rstrip(".")]
-    return schema_errors(shapes[shape], table, at)
+    return kind_errors(shapes, table, at, "shape")
+
+
+def kind_errors(kinds: Mapping[str, Any], table: Mapping[str, Any], at: str, key: str) -> list[str]:
+    """Return the same where the kind of the table stands in another key than its shape."""
+    kind = table.get(key)
+    if not isinstance(kind, str) or kind not in kinds:
+        known = ", ".join(f'"{name}"' for name in kinds)
+        if key not in table:
+            return [f"{at}.{key} is missing; it must be one of {known}"]
+        guess = nearest(kind, kinds) if isinstance(kind, str) else ""
+        return [f"{at}.{key} must be one of {known}, got {format_toml(kind)}.{guess}".rstrip(".")]
+    return schema_errors(kinds[kind], table, at)
 
 
 class _Angles:

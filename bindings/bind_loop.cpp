@@ -1,0 +1,197 @@
+#include <pybind11/stl.h>
+
+#include <map>
+#include <string>
+#include <utility>
+
+#include "arrays.hpp"
+#include "bind.hpp"
+#include "cdcr/loop.hpp"
+#include "controllers.hpp"
+#include "docs.hpp"
+#include "gil.hpp"
+
+namespace cdcr::python {
+
+using namespace py::literals;
+
+namespace {
+
+template <class T>
+T field(const py::dict& given, const char* name) {
+  return given[name].cast<T>();
+}
+
+Actuator read_actuator(const py::dict& given) {
+  Actuator actuator;
+  actuator.resolution = field<double>(given, "resolution");
+  actuator.dead_time = field<double>(given, "dead_time");
+  actuator.time_constant = field<double>(given, "time_constant");
+  actuator.max_rate = field<double>(given, "max_rate");
+  actuator.min_command = field<double>(given, "min_command");
+  actuator.max_command = field<double>(given, "max_command");
+  if (given["winch"].is_none()) return actuator;
+  const auto winch = given["winch"].cast<py::dict>();
+  actuator.winch = Winch{field<double>(winch, "drum_radius"), field<double>(winch, "gear"),
+                         field<double>(winch, "inertia"),     field<double>(winch, "bandwidth"),
+                         field<double>(winch, "max_torque"),  field<double>(winch, "max_speed")};
+  return actuator;
+}
+
+Sensor read_sensor(const py::dict& given) {
+  using Kind = Sensor::Kind;
+  static const std::map<std::string, Kind> kinds{
+      {"coordinates", Kind::coordinates}, {"rates", Kind::rates}, {"lengths", Kind::lengths},
+      {"tensions", Kind::tensions},       {"tip", Kind::tip},     {"curvature", Kind::curvature}};
+  Sensor sensor;
+  sensor.kind = kinds.at(field<std::string>(given, "kind"));
+  sensor.period = field<double>(given, "period");
+  sensor.delay = field<double>(given, "delay");
+  sensor.noise = field<double>(given, "noise");
+  sensor.bias = field<double>(given, "bias");
+  sensor.seed = field<std::uint64_t>(given, "seed");
+  for (const auto& [section, fraction] :
+       given["places"].cast<std::vector<std::pair<Index, double>>>()) {
+    sensor.places.push_back({section, fraction});
+  }
+  return sensor;
+}
+
+LoopOptions read_loop(const py::dict& given) {
+  LoopOptions options;
+  options.step = field<double>(given, "step");
+  options.substeps = field<int>(given, "substeps");
+  for (const auto& one : given["actuators"].cast<std::vector<py::dict>>()) {
+    options.actuators.push_back(read_actuator(one));
+  }
+  for (const auto& one : given["sensors"].cast<std::vector<py::dict>>()) {
+    options.sensors.push_back(read_sensor(one));
+  }
+  return options;
+}
+
+}  // namespace
+
+/// A loop that keeps model and controller as Python has them.
+class PythonLoop final : public Loop {
+ public:
+  PythonLoop(py::object of, py::object by, const py::dict& options)
+      : Loop(read_model(of), by.cast<Controller&>(), read_loop(options)),
+        model(std::move(of)),
+        controlled_by(std::move(by)) {}
+
+  /// Calls what asks the controller, which may be one written in Python, whose exceptions it
+  /// throws.
+  template <class Call>
+  auto asking(Call&& call) {
+    const auto unlocked = [&] {
+      const Unlocked here;
+      return call();
+    };
+    auto* const written_in_python = dynamic_cast<PythonController*>(&controller());
+    auto answer = unlocked();
+    if (written_in_python != nullptr) written_in_python->rethrow();
+    return answer;
+  }
+
+  py::object model, controlled_by;
+};
+
+namespace {
+
+py::dict sampled(PythonLoop& self, double duration, Index record_every,
+                 const py::object& wrenches) {
+  const Wrenches loads = read_wrenches(self.plant().model(), wrenches);
+  Interruption interruption;
+  const LoopRun found = self.asking(
+      [&] { return run(self, duration, record_every, loads, [&] { return interruption(); }); });
+  interruption.raise();
+  py::list told;
+  for (const RowMatrixXd& rows : found.told) told.append(to_rows(rows));
+  return py::dict("t"_a = to_array(found.t), "q"_a = to_rows(found.q), "qd"_a = to_rows(found.qd),
+                  "tension"_a = to_rows(found.tension), "command"_a = to_rows(found.command),
+                  "asked"_a = to_rows(found.asked), "told_q"_a = to_rows(found.told_q),
+                  "told_qd"_a = to_rows(found.told_qd), "told"_a = told,
+                  "durations"_a = to_array(found.durations), "status"_a = found.status,
+                  "message"_a = found.message, "stats"_a = found.stats);
+}
+
+}  // namespace
+
+void bind_loop(py::module_& m) {
+  py::class_<PythonLoop>(m, "Loop", "A closed loop; see cdcr.Loop.")
+      .def(py::init<py::object, py::object, py::dict>(), "model"_a, "controller"_a, "options"_a,
+           Doc("Make a loop, which has no state until `reset`.",
+               {docs::model, "controller : Controller\n    Asked once each period.\n",
+                "options : dict\n    What the class in Python takes by keyword, all of it.\n"},
+               "", docs::bad_argument))
+      .def(
+          "reset",
+          [](PythonLoop& self, const py::object& q, const py::object& qd, double time,
+             const py::object& command) {
+            const Model& model = self.plant().model();
+            const VectorXd q0 = *read_bending(model, q, "q");
+            const VectorXd qd0 =
+                *VectorArgument(qd, "qd", model.num_coordinates(), of_coordinates(model));
+            const VectorXd first = *read_tension(model, command, "command");
+            (void)self.asking([&] {
+              self.reset(q0, qd0, time, first);
+              return true;
+            });
+          },
+          "q"_a, "qd"_a, "time"_a = 0.0, "command"_a = py::none(),
+          Doc("Set state and time, put actuators and sensors at rest, reset the controller.",
+              {docs::one_q, docs::one_qd, "time : float, default 0\n    The time [s].\n",
+               "command : (num_cables,) array_like, optional\n    What actuators give there [N], "
+               "[m]; by default what leaves the straight robot alone.\n"},
+              "", docs::bad_argument))
+      .def(
+          "step",
+          [](PythonLoop& self, const py::object& wrenches) {
+            const Wrenches loads = read_wrenches(self.plant().model(), wrenches);
+            return self.asking([&] { return self.step(loads); });
+          },
+          "wrenches"_a = py::tuple(),
+          Doc("Advance one step of the plant.", {docs::wrenches},
+              "Status\n    ``ok``, or why the state is still the one before.", docs::bad_argument))
+      .def("_sampled", &sampled, "duration"_a, "record_every"_a, "wrenches"_a,
+           Doc("Steps over a duration; see cdcr.Loop.run.",
+               {"duration : float\n    A whole number of steps [s].\n",
+                "record_every : int\n    Steps between samples [1].\n", docs::wrenches},
+               "dict\n    Arrays of samples by name.", docs::bad_argument))
+      .def_readonly("model", &PythonLoop::model, "The robot.")
+      .def_readonly("controller", &PythonLoop::controlled_by, "What controls it.")
+      .def_property_readonly(
+          "q", [](const PythonLoop& self) { return to_array(self.q()); },
+          "Bending vectors (d,) [rad].")
+      .def_property_readonly(
+          "qd", [](const PythonLoop& self) { return to_array(self.qd()); },
+          "Their rates (d,) [rad/s].")
+      .def_property_readonly(
+          "asked", [](const PythonLoop& self) { return to_array(self.asked()); },
+          "What the controller last asked for (num_cables,) [N], [m].")
+      .def_property_readonly(
+          "given", [](const PythonLoop& self) { return to_array(self.given()); },
+          "What the cables got in the last step (num_cables,) [N], [m].")
+      .def_property_readonly(
+          "told_q", [](const PythonLoop& self) { return to_array(self.told_q()); },
+          "Bending vectors that the controller is told (d,) [rad].")
+      .def_property_readonly(
+          "told_qd", [](const PythonLoop& self) { return to_array(self.told_qd()); },
+          "Rates that the controller is told (d,) [rad/s].")
+      .def_property_readonly(
+          "measurements",
+          [](const PythonLoop& self) {
+            py::list found;
+            for (const SensorChannel& one : self.sensors()) found.append(to_array(one.value()));
+            return found;
+          },
+          "What each sensor tells, a list of arrays (m,) [of its kind].")
+      .def_property_readonly(
+          "time", [](const PythonLoop& self) { return self.time(); }, "Time reached [s].")
+      .def_property_readonly(
+          "status", [](const PythonLoop& self) { return self.status(); },
+          "How the last step ended.");
+}
+
+}  // namespace cdcr::python

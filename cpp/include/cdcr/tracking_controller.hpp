@@ -1,0 +1,78 @@
+#pragma once
+
+#include "cdcr/cable_drive.hpp"
+#include "cdcr/controller.hpp"
+#include "cdcr/export.hpp"
+#include "cdcr/reference_path.hpp"
+
+namespace CDCR_EXPORT cdcr {
+
+/// Limits of what a controller asks of the cables.
+struct CommandLimits {
+  TensionLimits tension;
+  double max_rate = std::numeric_limits<double>::infinity();  ///< of a command [N/s], [m/s], > 0
+};
+
+/// A controller with a model that follows a reference and keeps its commands within limits.
+///
+/// What it derives from this is a law alone, `control`: this class looks at the reference, refuses
+/// states that are none, measures how long it took, and holds the CableDrive of the commands. Set
+/// up: constructor, set_reference and set_path may allocate and throw std::invalid_argument.
+class TrackingController : public Controller {
+ public:
+  /// What to reach and hold (reference_size), the same at all times.
+  void set_reference(const VectorXd& value) { set_path(ReferencePath::constant(value)); }
+  /// A motion to follow, over the time of the run.
+  void set_path(const ReferencePath& path);
+  [[nodiscard]] const ReferencePath& path() const noexcept { return path_; }
+  /// What is followed at the last update; before it, at the start of the path.
+  [[nodiscard]] const Setpoint& setpoint() const noexcept { return setpoint_; }
+
+  void reset() noexcept override;
+  [[nodiscard]] Status update(double t, const ConstVectorRef& q, const ConstVectorRef& qd,
+                              VectorRef command) noexcept final;
+  [[nodiscard]] double period() const noexcept override { return drive_.period(); }
+  [[nodiscard]] Index num_coordinates() const noexcept override {
+    return model().num_coordinates();
+  }
+  [[nodiscard]] Index num_cables() const noexcept override { return model().num_cables(); }
+  [[nodiscard]] const Model* reckons_with() const noexcept override { return &model(); }
+  [[nodiscard]] ControlDiagnostics diagnostics() const noexcept override { return diagnostics_; }
+  [[nodiscard]] const CommandLimits& limits() const noexcept { return limits_; }
+
+ protected:
+  /// Its reference is of the coordinates, or, where of_tip, of the tip's position in the base
+  /// frame.
+  TrackingController(const Model& model, double period, CommandLimits limits, bool of_tip = false);
+
+  /// The law: finds the drive's commands for a finite state; a force (d) it wants goes to `give`.
+  virtual Status control(double t, const ConstVectorRef& q, const ConstVectorRef& qd,
+                         const Setpoint& wanted) noexcept = 0;
+  /// Throws std::invalid_argument where it cannot follow that: another size, values not finite or,
+  /// of coordinates, beyond what the robot bends.
+  virtual void accept(const ReferencePath& path);
+
+  /// Asks the drive for a force; true when it is met. Notes what is missing.
+  bool give(const ConstVectorRef& q, const ConstVectorRef& qd,
+            const ConstVectorRef& force) noexcept;
+  /// The same by tensions near to `preferred`.
+  bool give(const ConstVectorRef& q, const ConstVectorRef& qd, const ConstVectorRef& force,
+            const ConstVectorRef& preferred) noexcept;
+  void note_error(double error) noexcept { diagnostics_.error = error; }
+
+  [[nodiscard]] const Model& model() const noexcept { return drive_.model(); }
+  [[nodiscard]] CableDrive& drive() noexcept { return drive_; }
+  [[nodiscard]] const CableDrive& drive() const noexcept { return drive_; }
+
+ private:
+  bool note(bool met, const ConstVectorRef& force) noexcept;
+
+  CommandLimits limits_;
+  bool of_tip_;
+  CableDrive drive_;
+  ReferencePath path_;
+  Setpoint setpoint_;
+  ControlDiagnostics diagnostics_;
+};
+
+}  // namespace CDCR_EXPORT cdcr

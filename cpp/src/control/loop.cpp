@@ -1,0 +1,135 @@
+#include "cdcr/loop.hpp"
+
+#include <utility>
+
+#include "base/sizes.hpp"
+#include "cdcr/cables.hpp"
+#include "cdcr/robot_ode.hpp"
+#include "control/steps.hpp"
+
+namespace cdcr {
+
+Loop::Loop(const Model& plant, Controller& controller, LoopOptions options, Estimator* estimator)
+    : options_(std::move(options)),
+      plant_(plant, options_.step, options_.substeps),
+      controller_(&controller),
+      estimator_(estimator),
+      actuators_(plant, options_.actuators, options_.step) {
+  require_fit(controller, plant);
+  every_ = detail::whole_steps("the controller's period", controller.period(), options_.step, 1);
+  for (const Sensor& sensor : options_.sensors) sensors_.emplace_back(plant, sensor, options_.step);
+  detail::require(estimator == nullptr || !sensors_.empty(), "an estimator needs sensors");
+  fresh_.assign(sensors_.size(), 0);
+  asked_ = trial_ = tension_ = VectorXd::Zero(plant.num_cables());
+  told_q_ = told_qd_ = VectorXd::Zero(plant.num_coordinates());
+}
+
+void Loop::reset(const VectorXd& q, const VectorXd& qd, double start, const VectorXd& command) {
+  plant_.reset(q, qd, start);
+  if (command.size() == 0) {
+    rest_command(plant_.model(), asked_);
+  } else {
+    require_command(plant_.model(), command);
+    asked_ = command;
+  }
+  actuators_.reset(asked_);
+  for (SensorChannel& sensor : sensors_) sensor.reset(q, qd, asked_);
+  told_q_ = q;
+  told_qd_ = qd;
+  if (estimator_ != nullptr) estimator_->reset(q, qd);
+  controller_->reset();
+  status_ = Status::ok;
+}
+
+/// What the controller is told: the estimate, or what sensors of the state say, or the truth.
+Status Loop::look() noexcept {
+  told_q_ = q();
+  told_qd_ = qd();
+  for (std::size_t i = 0; i < sensors_.size(); ++i) {
+    SensorChannel& channel = sensors_[i];
+    fresh_[i] = channel.step(plant_.periods(), q(), qd(), given()) ? 1 : 0;
+    if (channel.sensor().kind == Sensor::Kind::coordinates) told_q_ = channel.value();
+    if (channel.sensor().kind == Sensor::Kind::rates) told_qd_ = channel.value();
+  }
+  if (estimator_ == nullptr) return Status::ok;
+  return estimator_->update(time(), sensors_, fresh_, asked_, told_q_, told_qd_);
+}
+
+Status Loop::close(const Wrenches& wrenches) noexcept {
+  Status status = look();
+  if (status != Status::ok) return status;
+  if (plant_.periods() % every_ == 0) {
+    trial_ = asked_;
+    status = controller_->update(time(), told_q_, told_qd_, trial_);
+    if (status == Status::ok) status = check_tension(plant_.model(), trial_);
+    if (status != Status::ok) return status;
+    asked_ = trial_;
+  }
+  cable_tensions(plant_.model(), q(), qd(), given(), tension_);
+  actuators_.step(asked_, tension_);
+  return plant_.step(given(), wrenches);
+}
+
+Status Loop::step(const Wrenches& wrenches) noexcept {
+  if (status_ == Status::ok) status_ = close(wrenches);
+  return status_;
+}
+
+LoopRun run(Loop& loop, double duration, Index record_every, const Wrenches& wrenches,
+            const Interrupt& stop) {
+  const Model& model = loop.plant().model();
+  const double step = loop.options().step;
+  const Index steps = detail::whole_steps("duration", duration, step, 1);
+  detail::require(record_every >= 1, "record_every must be at least 1, got ", record_every);
+  validate(model, wrenches);
+  const Index rows = steps / record_every + 1, d = model.num_coordinates(), c = model.num_cables();
+  LoopRun out;
+  out.t = out.durations = VectorXd::Zero(rows);
+  out.q = out.qd = out.told_q = out.told_qd = RowMatrixXd::Zero(rows, d);
+  out.tension = out.command = out.asked = RowMatrixXd::Zero(rows, c);
+  for (const SensorChannel& one : loop.sensors()) {
+    out.told.emplace_back(RowMatrixXd::Zero(rows, one.value().size()));
+  }
+  VectorXd tension(c), q(d), qd(d);
+  out.status = loop.status();
+  Index row = 0;
+  for (Index k = 0; out.status == Status::ok && k <= steps; ++k) {
+    const bool records = k % record_every == 0;
+    const double t = loop.time();
+    q = loop.q();
+    qd = loop.qd();
+    if (k < steps) out.status = loop.step(wrenches);
+    if (stop && k % 256 == 255 && stop()) out.status = Status::interrupted;
+    if (!records || out.status != Status::ok) continue;
+    out.t[row] = t;
+    out.q.row(row) = q;
+    out.qd.row(row) = qd;
+    out.command.row(row) = loop.given();
+    out.asked.row(row) = loop.asked();
+    out.told_q.row(row) = loop.told_q();
+    out.told_qd.row(row) = loop.told_qd();
+    for (std::size_t i = 0; i < out.told.size(); ++i) {
+      out.told[i].row(row) = loop.sensors()[i].value();
+    }
+    cable_tensions(model, q, qd, loop.given(), tension);
+    out.tension.row(row) = tension;
+    out.durations[row] = loop.controller().diagnostics().duration;
+    ++row;
+  }
+  out.stats.steps = static_cast<long>(loop.plant().periods()) * loop.options().substeps;
+  out.stats.evaluations = 4 * out.stats.steps;
+  if (out.status != Status::ok) {
+    out.message = detail::sentence("stopped at t = ", loop.time(), " s: ", message(out.status));
+  }
+  if (row == rows) return out;
+  out.t.conservativeResize(row);
+  out.durations.conservativeResize(row);
+  for (RowMatrixXd* table :
+       {&out.q, &out.qd, &out.told_q, &out.told_qd, &out.tension, &out.command, &out.asked}) {
+    table->conservativeResize(row, Eigen::NoChange);
+  }
+  for (RowMatrixXd& table : out.told) table.conservativeResize(row, Eigen::NoChange);
+  return out;
+}
+
+}  // namespace cdcr

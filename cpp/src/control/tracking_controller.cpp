@@ -1,0 +1,92 @@
+#include "cdcr/tracking_controller.hpp"
+
+#include <chrono>
+#include <utility>
+
+#include "base/sizes.hpp"
+#include "cdcr/kinematics.hpp"
+#include "cdcr/robot_ode.hpp"
+
+namespace cdcr {
+namespace {
+
+VectorXd at_rest(const Model& model, bool of_tip) {
+  return of_tip ? VectorXd(tip(model, model.rest()).p) : model.rest();
+}
+
+}  // namespace
+
+TrackingController::TrackingController(const Model& model, double period, CommandLimits limits,
+                                       bool of_tip)
+    : limits_(std::move(limits)),
+      of_tip_(of_tip),
+      drive_(model, limits_.tension, limits_.max_rate, period),
+      path_(ReferencePath::constant(at_rest(model, of_tip))),
+      setpoint_(path_.size()) {
+  path_.evaluate(path_.start(), setpoint_);
+}
+
+void TrackingController::set_path(const ReferencePath& path) {
+  accept(path);
+  path_ = path;
+  path_.evaluate(path_.start(), setpoint_);
+}
+
+void TrackingController::accept(const ReferencePath& path) {
+  constexpr int looks = 256;  // along a path
+  Setpoint at(path.size());
+  for (int i = 0; i <= (path.is_constant() ? 0 : looks); ++i) {
+    path.evaluate(path.start() + (path.end() - path.start()) * i / looks, at);
+    const bool sound = path.size() == path_.size() && at.value.allFinite();
+    if (of_tip_) {
+      detail::require(sound, "reference must be 3 finite values [m], got [", at.value.transpose(),
+                      "]");
+      continue;
+    }
+    detail::require(sound && check_shape(model(), at.value) == Status::ok, "reference must be ",
+                    model().num_coordinates(),
+                    " finite values that bend each section by at most 3 pi rad, got [",
+                    at.value.transpose(), "]");
+  }
+}
+
+void TrackingController::reset() noexcept {
+  drive_.reset();
+  diagnostics_ = {};
+}
+
+Status TrackingController::update(double t, const ConstVectorRef& q, const ConstVectorRef& qd,
+                                  VectorRef command) noexcept {
+  const bool fits = detail::of_coordinates(model(), q, qd) && detail::of_cables(model(), command);
+  if (!fits) return Status::wrong_size;
+  const auto begin = std::chrono::steady_clock::now();
+  ++diagnostics_.updates;
+  Status status = Status::non_finite_state;
+  if (q.allFinite() && qd.allFinite()) {
+    path_.evaluate(t, setpoint_);
+    status = control(t, q, qd, setpoint_);
+  }
+  if (status == Status::ok) command = drive_.command();
+  diagnostics_.limited = drive_.num_limited();
+  diagnostics_.duration =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return status;
+}
+
+bool TrackingController::give(const ConstVectorRef& q, const ConstVectorRef& qd,
+                              const ConstVectorRef& force) noexcept {
+  return note(drive_.solve(q, qd, force), force);
+}
+
+bool TrackingController::give(const ConstVectorRef& q, const ConstVectorRef& qd,
+                              const ConstVectorRef& force,
+                              const ConstVectorRef& preferred) noexcept {
+  return note(drive_.solve(q, qd, force, preferred), force);
+}
+
+bool TrackingController::note(bool met, const ConstVectorRef& force) noexcept {
+  diagnostics_.missing = met ? 0.0 : (force - drive_.force()).norm();
+  return met;
+}
+
+}  // namespace cdcr

@@ -1,0 +1,9 @@
+#include "derivatives/differentiate_motion.hpp"
+
+namespace cdcr::detail {
+
+template class MotionDerivatives<ConstantCurvature>;
+template void weight_hessian(const Chain&, const ArcChainState<double>&, const double*,
+                             ConstantCurvature<Dual>&, MatrixRef) noexcept;
+
+}  // namespace cdcr::detail

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace cdcr::detail {
+
+/// Four doubles that are worked on at once, by one instruction where the processor has it. A scalar
+/// to Eigen.
+struct alignas(32) Quad {                                  // as packs are where there is AVX
+  typedef double Native __attribute__((vector_size(32)));  // NOLINT(modernize-use-using)
+  static constexpr int count = 4;
+  Native all;
+
+  Quad() = default;
+  Quad(double value) : all{value, value, value, value} {}  // NOLINT(google-explicit-constructor)
+  /// By reference, since without AVX there is no register to pass one in.
+  explicit Quad(const Native& values) : all(values) {}
+
+  double& operator[](int lane) { return reinterpret_cast<double*>(&all)[lane]; }
+  double operator[](int lane) const { return reinterpret_cast<const double*>(&all)[lane]; }
+
+  Quad& operator+=(const Quad& b) {
+    all += b.all;
+    return *this;
+  }
+  Quad& operator-=(const Quad& b) {
+    all -= b.all;
+    return *this;
+  }
+  Quad& operator*=(const Quad& b) {
+    all *= b.all;
+    return *this;
+  }
+  friend Quad operator+(const Quad& a, const Quad& b) { return Quad(Native(a.all + b.all)); }
+  friend Quad operator-(const Quad& a, const Quad& b) { return Quad(Native(a.all - b.all)); }
+  friend Quad operator*(const Quad& a, const Quad& b) { return Quad(Native(a.all * b.all)); }
+  friend Quad operator-(const Quad& a) { return Quad(Native(-a.all)); }
+};
+
+}  // namespace cdcr::detail
+
+namespace Eigen {
+
+template <>
+struct NumTraits<cdcr::detail::Quad> : GenericNumTraits<cdcr::detail::Quad> {
+  enum {  // NOLINTBEGIN(readability-identifier-naming): names of Eigen
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 0,
+    ReadCost = 1,
+    AddCost = 1,
+    MulCost = 1
+  };  // NOLINTEND(readability-identifier-naming)
+};
+template <class Operation>
+struct ScalarBinaryOpTraits<cdcr::detail::Quad, double, Operation> {
+  using ReturnType = cdcr::detail::Quad;
+};
+template <class Operation>
+struct ScalarBinaryOpTraits<double, cdcr::detail::Quad, Operation> {
+  using ReturnType = cdcr::detail::Quad;
+};
+
+}  // namespace Eigen

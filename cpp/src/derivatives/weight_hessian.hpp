@@ -1,0 +1,86 @@
+#pragma once
+
+#include "chain/chain.hpp"
+#include "derivatives/dual.hpp"
+#include "section/width.hpp"
+
+// NOLINTBEGIN(readability-identifier-naming): letters of the equations
+
+namespace cdcr::detail {
+
+/// A section on dual numbers at a position. Compiled once for those who call it.
+template <class DualSection>
+[[gnu::noinline]] void place(DualSection& dual, const SectionParameters& fixed,
+                             const FrameState<Dual>& base, const Dual* q) noexcept {
+  with_fma<double>([&] { dual.update_position(fixed, base, q); });
+}
+
+template <class Section, class DualSection>
+void add_up_weight_hessian(const Chain& chain, const ChainState<Section>& state, const double* q,
+                           DualSection& dual, MatrixRef& H) {
+  using Matrix3m = typename Section::Matrix3m;
+  const Vector3d& g = chain.gravity;
+  double mass = chain.payload.mass;  // of all beyond this tip
+  Vector3d h = state.tip.rotate(mass * chain.payload.position);
+  for (Index i = chain.num_sections() - 1; i >= 0; --i) {
+    const Section& section = state.sections[i];
+    const SectionParameters& fixed = chain.sections[i];
+    const Index at = chain.first[i], size = chain.first[i + 1] - at;
+    const Vector3d moment = h.cross(g);
+    const FrameState<Dual> base{section.base.x.template cast<Dual>(),
+                                section.base.y.template cast<Dual>(),
+                                section.base.z.template cast<Dual>(), Vector3<Dual>::Zero()};
+    std::array<Dual, Section::max_m> x;
+    for (Index k = 0; k < size; ++k) x[k] = Dual(q[at + k]);
+    for (Index first = 0; first < size; first += Quad::count) {
+      const int count = static_cast<int>(std::min<Index>(Quad::count, size - first));
+      for (int lane = 0; lane < count; ++lane) x[first + lane].slopes[lane] = 1.0;
+      place(dual, fixed, base, x.data());
+      const typename DualSection::Vectorm force =
+          DualSection::elastic_force(fixed, x.data()) -
+          dual.linear_coupling().transpose().lazyProduct(g) -
+          dual.J_omega.transpose().lazyProduct(moment) - dual.J_v.transpose().lazyProduct(mass * g);
+      for (int lane = 0; lane < count; ++lane) {
+        for (Index c = 0; c < size; ++c) H(at + c, at + first + lane) = force[c].slopes[lane];
+        x[first + lane].slopes[lane] = 0.0;
+      }
+    }
+    Matrix3m pull;  // what turns with a coordinate pulls on the sections that carry it
+    pull.resize(3, size);
+    const Matrix3m coupling = section.linear_coupling();
+    for (Index k = 0; k < size; ++k) {
+      const Vector3d swing = Vector3d(section.J_omega.col(k)).cross(h);
+      const Vector3d turned = swing.cross(g);
+      for (Index c = 0; c < size; ++c) H(at + c, at + k) -= section.J_omega.col(c).dot(turned);
+      pull.col(k) = Vector3d(coupling.col(k) + mass * section.J_v.col(k) + swing).cross(g);
+    }
+    for (Index j = 0; j < i; ++j) {
+      const Section& before = state.sections[j];
+      const Index row = chain.first[j];
+      for (Index c = 0; c < before.J_omega.cols(); ++c) {
+        for (Index k = 0; k < size; ++k) {
+          H(row + c, at + k) = H(at + k, row + c) = -before.J_omega.col(c).dot(pull.col(k));
+        }
+      }
+    }
+    h += mass * section.r + section.first_moment();
+    mass += fixed.mass;
+  }
+}
+
+/// Second derivatives (d, d) of the potential energy, cpp/derivatives.md eqs. (79), (80): O(d^2).
+/// `state` needs its position alone; `dual` is room for one section.
+template <class Section, class DualSection>
+void weight_hessian(const Chain& chain, const ChainState<Section>& state, const double* q,
+                    DualSection& dual, MatrixRef H) noexcept {
+  with_fma<double>([&] { add_up_weight_hessian(chain, state, q, dual, H); });
+}
+
+extern template void weight_hessian(const Chain&, const ArcChainState<double>&, const double*,
+                                    ConstantCurvature<Dual>&, MatrixRef) noexcept;
+extern template void weight_hessian(const Chain&, const RodChainState<double>&, const double*,
+                                    Rod<Dual>&, MatrixRef) noexcept;
+
+}  // namespace cdcr::detail
+
+// NOLINTEND(readability-identifier-naming)

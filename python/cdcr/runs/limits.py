@@ -1,0 +1,45 @@
+"""What controllers take alike: gains, limits of the cables, periods."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from cdcr.base.arrays import finite
+from cdcr.base.check import Check
+
+
+def checked(
+    numbers: dict[str, Any],
+    *,
+    gains: dict[str, ArrayLike] | None = None,
+    switches: dict[str, bool] | None = None,
+    others: dict[str, Any] | None = None,
+    cables: Sequence[int] | None = None,
+) -> dict[str, Any]:
+    """Return options as the core takes them, or refuse what is of another kind."""
+    check = Check()
+    given: dict[str, Any] = {}
+    for name, gain in (gains or {}).items():
+        if isinstance(gain, (list, tuple, np.ndarray)) and np.ndim(gain) > 0:
+            given[name] = finite(gain, name)
+        else:
+            given[name] = check.number(name, gain, "a number")
+    for name, value in numbers.items():
+        given[name] = check.number(name, value, "a number")
+    for name, switch in (switches or {}).items():
+        if not isinstance(switch, (bool, np.bool_)):
+            check.refuse(name, "True or False", switch)
+        given[name] = bool(switch)
+    given["cables"] = []
+    if cables is not None:
+        chosen = check.items("cables", cables, "a sequence of indices of cables")
+        given["cables"] = [
+            check.whole(f"cables[{i}]", cable, "the index of a cable")
+            for i, cable in enumerate(chosen)
+        ]
+    check.done()
+    return given | (others or {})

@@ -1,0 +1,106 @@
+"""The [loop] table of scenario files: fixed steps, actuators and sensors around a controller."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from cdcr.base.arrays import FloatArray
+from cdcr.files.toml import refuse, schema_errors
+from cdcr.model.model import Model
+from cdcr.runs.loop import Actuator, Loop, Sensor, Winch
+from cdcr.runs.trajectory import Trajectory
+from cdcr.scenarios.file.controller import ControlLoop
+from cdcr.scenarios.file.values import error_prefix
+
+AT = "loop"
+STEP = 1e-3  # without one in the file [s]
+_NEAR = 1e-6  # a sample and a step, in steps
+
+
+@dataclass(frozen=True, eq=False)
+class ClosedLoop:
+    """A run of a `cdcr.Loop`, an input source of a scenario."""
+
+    controller: ControlLoop
+    step: float
+    options: dict[str, Any]
+    integrates = True
+
+    def make(self, model: Model) -> Loop:
+        """Return the loop."""
+        return Loop(model, self.controller(model), step=self.step, **self.options)
+
+    def run(
+        self,
+        model: Model,
+        q0: tuple[float, ...],
+        qd0: tuple[float, ...],
+        t: FloatArray,
+        **options: Any,
+    ) -> Trajectory:
+        """Run the robot from a state and sample it at output times (N,) [s]."""
+        steps = (t[-1] - t[0]) / (len(t) - 1) / self.step
+        every = round(steps)
+        if every < 1 or abs(steps - every) > _NEAR * steps:
+            raise ValueError(
+                f"samples of a closed loop must be whole numbers of its steps of {self.step:g} s "
+                f"apart, got {steps * self.step:g} s: change num_samples or t_end"
+            )
+        loop = self.make(model)
+        loop.reset(q0, qd0, time=float(t[0]))
+        wrenches = options.get("wrenches", ())
+        duration = every * (len(t) - 1) * self.step
+        return loop.run(duration, record_every=every, wrenches=wrenches).trajectory
+
+
+def read_loop(
+    table: dict[str, Any], controller: ControlLoop, model: Model, file: Path
+) -> ClosedLoop:
+    """Return the loop of a [loop] table, or refuse it with file, key and value."""
+    from cdcr.scenarios.file import control_schema as schema
+
+    refuse(str(file), schema_errors(schema.LoopTable, table, AT))
+    with error_prefix(f"{file}, [{AT}]"):
+        actuators = [
+            _actuator(one, f"actuators[{i}]") for i, one in enumerate(table.get("actuators", ()))
+        ]
+        sensors = [
+            _sensor(one, model, f"sensors[{i}]") for i, one in enumerate(table.get("sensors", ()))
+        ]
+        options: dict[str, Any] = {"actuators": actuators, "sensors": sensors}
+        options |= {key: table[key] for key in ("substeps",) if key in table}
+        closed = ClosedLoop(controller, float(table.get("step", STEP)), options)
+        closed.make(model)
+    return closed
+
+
+def _actuator(table: dict[str, Any], at: str) -> Actuator:
+    from cdcr.scenarios.file.control_schema import ActuatorTable, WinchTable
+
+    _refuse(schema_errors(ActuatorTable, table, at))
+    given = dict(table)
+    if "winch" in given:
+        _refuse(schema_errors(WinchTable, given["winch"], f"{at}.winch"))
+        given["winch"] = Winch(**given["winch"])
+    return Actuator(**given)
+
+
+def _sensor(table: dict[str, Any], model: Model, at: str) -> Sensor:
+    from cdcr.scenarios.file.control_schema import SensorTable
+
+    _refuse(schema_errors(SensorTable, table, at))
+    places = table.get("places", [])
+    for place in places:
+        if len(place) != 2 or place[0] not in np.arange(1, model.num_sections + 1):
+            requirement = f"pairs of a section, 1 to {model.num_sections}, and a fraction"
+            _refuse([f"{at}.places must be {requirement}, got {place}"])
+    return Sensor(**table | {"places": [(int(one[0]) - 1, one[1]) for one in places]})
+
+
+def _refuse(sentences: list[str]) -> None:
+    if sentences:
+        raise ValueError("\n".join(sentences))

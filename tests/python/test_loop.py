@@ -1,0 +1,152 @@
+"""Closed loops from Python: the same as by hand, what they record, what they refuse."""
+
+from typing import Any, cast
+
+import numpy as np
+import pytest
+
+import cdcr
+
+MODEL = cdcr.Model(cdcr.robots.amouri2020(damping=0.02))
+PATH = cdcr.ReferencePath.spline([0.0, 0.1, 0.3], [[0.0, 0.0], [0.2, 0.1], [-0.1, 0.2]])
+
+
+class Push(cdcr.Controller):
+    """Pulls cable 1 for ever, or fails."""
+
+    def __init__(self, tension: float) -> None:
+        super().__init__(period=2e-3)
+        self.tension = tension
+        self.calls: list[float] = []
+
+    def update(self, t: float, q: Any, qd: Any) -> list[float]:
+        """Return the same tensions."""
+        self.calls.append(t)
+        if self.tension < 0.0:
+            raise ArithmeticError("no tension")
+        return [self.tension, 0.0, 0.0]
+
+
+def test_a_loop_in_cpp_is_the_loop_by_hand_bit_for_bit() -> None:
+    inside, outside = cdcr.ComputedTorque(MODEL), cdcr.ComputedTorque(MODEL)
+    inside.path = outside.path = PATH
+    loop = cdcr.Loop(MODEL, inside)
+    loop.reset([0.05, 0.0], [0.0, 0.0])
+    run = loop.run(0.3)
+    simulator = cdcr.Simulator(MODEL, step=1e-3)
+    simulator.reset([0.05, 0.0], [0.0, 0.0])
+    for i in range(300):
+        np.testing.assert_array_equal(run.trajectory.q[i], simulator.q)
+        command = outside.update(simulator.time, simulator.q, simulator.qd)
+        np.testing.assert_array_equal(run.asked[i], command)
+        simulator.step(command)
+    np.testing.assert_array_equal(run.trajectory.q[300], simulator.q)
+    np.testing.assert_array_equal(loop.qd, simulator.qd)
+    by_hand = cdcr.Loop(MODEL, inside)
+    by_hand.reset([0.05, 0.0], [0.0, 0.0])
+    for _ in range(300):
+        assert by_hand.step() == cdcr.Status.ok
+    np.testing.assert_array_equal(by_hand.q, loop.q)
+
+
+def test_actuators_and_sensors_change_what_is_given_and_told() -> None:
+    controller = cdcr.Pid(MODEL, kp=1.0, kd=0.1)
+    controller.path = PATH
+    loop = cdcr.Loop(
+        MODEL,
+        controller,
+        actuators=[
+            cdcr.Actuator(time_constant=0.01),
+            cdcr.Actuator(dead_time=5e-3),
+            cdcr.Actuator(resolution=0.5),
+        ],
+        sensors=[
+            cdcr.Sensor(kind="coordinates", delay=3e-3, noise=1e-4, seed=3),
+            cdcr.Sensor(kind="tip", period=5e-3, bias=0.01),
+            cdcr.Sensor(kind="curvature", places=[(0, 0.5)]),
+        ],
+    )
+    loop.reset([0.1, 0.0], [0.0, 0.0])
+    run = loop.run(0.3, record_every=5)
+    assert run.trajectory.success
+    assert len(run.trajectory) == 61
+    np.testing.assert_array_equal(run.trajectory.command[:, 2] % 0.5, 0.0)
+    assert not np.array_equal(run.told_q, run.trajectory.q)
+    np.testing.assert_array_equal(run.told_qd[:-1], run.trajectory.qd[:-1])
+    np.testing.assert_allclose(run.measurements[1][:-1], run.trajectory.tip[:-1] + 0.01, rtol=1e-12)
+    length = MODEL.robot.sections[0].length
+    np.testing.assert_allclose(
+        run.measurements[2][:-1], run.trajectory.q[:-1] / length, rtol=1e-12, atol=1e-12
+    )
+    assert (run.durations > 0.0).all()
+    loop.reset([0.1, 0.0], [0.0, 0.0])
+    np.testing.assert_array_equal(loop.run(0.3, record_every=5).told_q, run.told_q)
+
+
+def test_a_controller_in_python_is_asked_at_its_period_and_its_exceptions_come_out() -> None:
+    push = Push(2.0)
+    loop = cdcr.Loop(MODEL, push)
+    loop.reset([0.0, 0.0], [0.0, 0.0], time=1.0)
+    run = loop.run(0.01)
+    np.testing.assert_allclose(push.calls, [1.0, 1.002, 1.004, 1.006, 1.008])
+    np.testing.assert_array_equal(run.trajectory.command[:, 0], 2.0)
+    push.tension = -1.0
+    with pytest.raises(ArithmeticError, match="no tension"):
+        loop.run(0.01)
+    loop.reset([0.0, 0.0], [0.0, 0.0])
+    with pytest.raises(ArithmeticError, match="no tension"):
+        loop.step()
+
+
+def test_after_a_failure_the_last_good_state_stays() -> None:
+    loop = cdcr.Loop(MODEL, Push(4000.0))
+    with pytest.raises(ValueError, match="the loop has no state: call reset"):
+        loop.run(0.1)
+    loop.reset([0.0, 0.0], [0.0, 0.0])
+    run = loop.run(5.0)
+    assert run.trajectory.status == cdcr.Status.bending_limit
+    assert run.trajectory.message.startswith("stopped at t = ")
+    assert np.isfinite(loop.q).all()
+    assert loop.step() == cdcr.Status.bending_limit
+    loop.reset([0.0, 0.0], [0.0, 0.0])
+    with pytest.raises(RuntimeError, match="stopped at t = "):
+        loop.run(5.0, throw=True)
+
+
+NONE = cast("Any", None)
+PID = cdcr.Pid(MODEL, kp=1.0)
+REFUSALS: dict[str, tuple[Any, str]] = {
+    "model": (lambda: cdcr.Loop(NONE, PID), "model must be a cdcr.Model, got NoneType"),
+    "controller": (lambda: cdcr.Loop(MODEL, NONE), "controller must be a cdcr.Controller, got"),
+    "actuator": (lambda: cdcr.Loop(MODEL, PID, actuators=[NONE]), "actuators[0] must be a cdcr."),
+    "period": (
+        lambda: cdcr.Loop(MODEL, PID, step=7e-4),
+        "the controller's period must be a whole number of steps of 0.0007 s, 1 or more, got",
+    ),
+    "kind": (
+        lambda: cdcr.Sensor(kind=cast("Any", "gps")),
+        "kind must be one of 'coordinates', 'rates', 'lengths', 'tensions', 'tip', 'curvature', "
+        "got 'gps'",
+    ),
+    "noise": (lambda: cdcr.Sensor(kind="tip", noise=NONE), "noise must be a number, got None"),
+    "places": (
+        lambda: cdcr.Sensor(kind="curvature", places=cast("Any", [3])),
+        "places[0] must be an index of a section and a fraction, got 3 (int)",
+    ),
+    "winch": (
+        lambda: cdcr.Actuator(winch=cast("Any", 3.0)),
+        "winch must be a cdcr.Winch, got float",
+    ),
+    "other robot": (
+        lambda: cdcr.Loop(cdcr.Model(cdcr.robots.three_sections()), PID),
+        "the controller was made for a robot of 2 coordinates and 3 cables, but the model has 6",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", REFUSALS)
+def test_what_does_not_fit_is_refused(case: str) -> None:
+    run, sentence = REFUSALS[case]
+    with pytest.raises((ValueError, TypeError)) as caught:
+        run()
+    assert str(caught.value).startswith(sentence)
