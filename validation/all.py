@@ -21,7 +21,7 @@ from common import Row, show
 
 # What must be in the folder for a source, and its rows.
 SOURCES: dict[str, Callable[[Path], list[Row]]] = {
-    "sorosim_release": lambda path: sorosim.rows([path], parts=8, orders=(3, 1)),
+    "sorosim_release": lambda path: sorosim.rows([path], parts=8, order=3),
     "soromox_three_codes": lambda path: three_codes.rows(path, parts=6),
     "ftdcr_v4/train.csv": lambda path: ftdcr.rows(path, None),
     "dataset_CR_dynamics": lambda path: agotelli.rows(path, parts=4),

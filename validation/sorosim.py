@@ -131,7 +131,7 @@ def run(path: Path, kind: tuple[int, int] | int) -> Found:
     return Found(rms(p - told.tip[early]), angle, spent[0], model.num_coordinates)
 
 
-def rows(paths: list[Path], parts: int, orders: tuple[int, int]) -> list[Row]:
+def rows(paths: list[Path], parts: int, order: int, twist: int = 1) -> list[Row]:
     """Return a row of the table for each material and model."""
     files = [file for path in paths
              for file in (sorted(path.glob("*Rod*.txt")) if path.is_dir() else [path])]  # fmt: skip
@@ -139,7 +139,7 @@ def rows(paths: list[Path], parts: int, orders: tuple[int, int]) -> list[Row]:
         raise ValueError(f"there are no files *Rod*.txt in {', '.join(map(str, paths))}")
     kinds: dict[str, tuple[int, int] | int] = {
         f"arcs in {parts} parts": parts,
-        f"rod, bending order {orders[0]}, twist order {orders[1]}": orders,
+        f"rod, bending order {order}, twist order {twist}": (order, twist),
     }
     found = []
     for rod in (TPU, STEEL):
@@ -171,7 +171,7 @@ def main() -> None:
     parser.add_argument("--order", type=int, default=3, help="of the bending of a rod")
     parser.add_argument("--twist", type=int, default=1, help="order of its twist")
     given = parser.parse_args()
-    script(lambda: rows(given.paths, given.parts, (given.order, given.twist)))
+    script(lambda: rows(given.paths, given.parts, given.order, given.twist))
 
 
 if __name__ == "__main__":

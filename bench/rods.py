@@ -1,0 +1,148 @@
+"""One rod beside 16 parts: how long equilibrium takes, and 10 s of motion at the same error.
+
+    python bench/rods.py [--runs 5]
+
+The robot of Table 1 upright under gravity, damped as in the scenario `subdivision`. The rod has
+bending order 2, with twist for the equilibrium; its first two frequencies and those of 16 parts are
+off by less than 0.6 % (`cdcr run subdivision`). It is let go bent by 0.7 rad. For each model the
+quickest method counts, at the loosest tolerance that leaves the tip within 0.1 mm of its own path
+at rtol 1e-9. Times are of the processor, medians of runs taken in turn, with their range.
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from rows import layout, number
+
+import cdcr
+from cdcr.runs.simulate import MethodName, available
+
+FloatArray = NDArray[np.float64]
+
+DAMPING = 5e-4  # of the whole section [N m s/rad]
+PARTS, ORDER = 16, 2
+TIMES = np.linspace(0.0, 10.0, 1001)
+ERROR = 1e-4  # of the tip [m]
+TRUTH = 1e-9
+RTOLS = (1e-4, 1e-5, 1e-6, 1e-7)
+METHODS: tuple[MethodName, ...] = ("bdf", "dopri5", "dop853", "adams")
+BLOCK = 200  # equilibria in a block
+
+ROBOT = cdcr.robots.amouri2020(damping=DAMPING, gravity=(0.0, 0.0, -9.81))
+(SECTION,) = ROBOT.sections
+
+
+def rod(**orders: int) -> cdcr.Robot:
+    """Return the robot, its section of bending order 2."""
+    shear = SECTION.youngs_modulus / 2.6
+    one = replace(SECTION, bending_order=ORDER, shear_modulus=shear, **orders)  # type: ignore[arg-type]
+    return replace(ROBOT, sections=(one,))
+
+
+@dataclass
+class Runner:
+    """A model, let go: its quickest method, and the times of that."""
+
+    name: str
+    model: cdcr.Model
+    q0: FloatArray
+    method: MethodName = "dopri5"
+    rtol: float = TRUTH
+    error: float = 0.0  # of the tip, at most [m]
+    steps: int = 0
+    times: list[float] = field(default_factory=list)
+
+    def run(self, method: MethodName, rtol: float) -> tuple[cdcr.Trajectory, float]:
+        """Return a run and its time [s]."""
+        start = time.thread_time()
+        run = cdcr.simulate(
+            self.model,
+            self.q0,
+            np.zeros_like(self.q0),
+            t=TIMES,
+            method=method,
+            rtol=rtol,
+            atol=0.01 * rtol,
+            throw=True,
+        )
+        return run, time.thread_time() - start
+
+    def choose(self) -> None:
+        """Find the quickest method that is near enough to the truth."""
+        truth = self.run("dopri5", TRUTH)[0].tip
+        best = np.inf
+        for method in filter(available, METHODS):
+            for rtol in RTOLS:
+                run, took = self.run(method, rtol)
+                error = float(np.linalg.norm(run.tip - truth, axis=1).max())
+                if error <= ERROR:
+                    if took < best:
+                        best, self.method, self.rtol = took, method, rtol
+                        self.error, self.steps = error, run.stats.steps
+                    break
+
+    def row(self) -> list[str]:
+        """Show its method and its times."""
+        how = f"{self.method} rtol {self.rtol:.0e}, {self.steps} steps, {1e3 * self.error:.2g} mm"
+        return [f"10 s, {self.name}", str(self.model.num_coordinates), how, *spread(self.times)]
+
+
+def spread(times: list[float]) -> list[str]:
+    """Return median and range in ms."""
+    low, high = (number(1e3 * one) for one in (min(times), max(times)))
+    return [f"{number(1e3 * float(np.median(times)))} ms", f"{low} to {high}"]
+
+
+def statics(runs: int) -> list[list[str]]:
+    """Time the equilibrium of a rod that twists, and the stiffness that each of its steps takes."""
+    model = cdcr.Model(rod(twist_order=0))
+    tensions = np.random.default_rng(1).uniform(0.0, 3.0, (BLOCK, model.num_cables))
+    rest = [model.equilibrium(tension) for tension in tensions]
+    calls: dict[str, Callable[[int], object]] = {
+        "equilibrium": lambda k: model.equilibrium(tensions[k]),
+        "static stiffness": lambda k: model.static_stiffness(rest[k], tensions[k]),
+    }
+    times: dict[str, list[float]] = {name: [] for name in calls}
+    for _ in range(runs):
+        for name, call in calls.items():
+            start = time.thread_time()
+            for k in range(BLOCK):
+                call(k)
+            times[name].append((time.thread_time() - start) / BLOCK)
+    how = f"from Python, {BLOCK} draws of the tensions, 0 to 3 N"
+    size = str(model.num_coordinates)
+    return [[f"{name}, with twist", size, how, *spread(times[name])] for name in calls]
+
+
+def main() -> None:
+    """Command line."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--runs", type=int, default=5, help="that are timed (default: %(default)s)")
+    runs = parser.parse_args().runs
+    bent = cdcr.bending([0.7], [0.0])
+    one, many = cdcr.Model(rod()), cdcr.Model(ROBOT.subdivide(PARTS))
+    runners = [
+        Runner(f"rod, bending order {ORDER}", one, one.coordinates(bent)),
+        Runner(f"{PARTS} parts", many, cdcr.subdivide_state(ROBOT, PARTS, bent)),
+    ]
+    for runner in runners:
+        runner.choose()
+    for _ in range(runs):
+        for runner in runners:
+            runner.times.append(runner.run(runner.method, runner.rtol)[1])
+    header = ["", "coordinates", "how", "median", "range"]
+    print(layout(header, [*statics(runs), *(runner.row() for runner in runners)]))
+    quick, slow = (float(np.median(runner.times)) for runner in runners)
+    print(f"{PARTS} parts over the rod: {number(slow / quick)} times")
+
+
+if __name__ == "__main__":
+    main()
