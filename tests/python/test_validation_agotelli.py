@@ -25,7 +25,7 @@ def true_robot(damping: float = DAMPING) -> cdcr.Robot:
     known: cdcr.Robot = agotelli.robot(1)
     section = replace(known.sections[0], bending_stiffness=STIFFNESS, damping=damping)
     springs = [replace(one, stiffness=SPRING) for one in known.cables]
-    return replace(known, sections=[section], cables=springs)
+    return replace(known, sections=(section,), cables=tuple(springs))
 
 
 def vicon(path: Path, t: FloatArray, model: cdcr.Model, q: FloatArray, axes: Any = 1.0) -> None:
