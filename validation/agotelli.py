@@ -167,8 +167,8 @@ def release(folder: Path, name: str, known: cdcr.Robot, beside: FloatArray) -> M
 
 def driven(folder: Path, name: str) -> Motion:
     """Return a run under measured tensions, from the raw files: their clock is one."""
-    # In the processed file of one circle the base is turned by 37 degrees: angles of the first
-    # disk jump by a whole turn there, and were smoothed over the jump.
+    # In the processed file of one circle the base is turned by 37 degrees. Angles of its first
+    # disk jump by a whole turn in the raw file: filtered, they would give such a frame.
     clock, places = disks(folder / name / "dataVicon.csv")
     columns = ["timestamp", "tension (N)"]
     forces = [read_columns(folder / name / f"dataMark10_{one}.csv", columns) for one in CABLES]

@@ -14,9 +14,11 @@ from contextlib import redirect_stdout
 from pathlib import Path
 
 import agotelli
+import catheter
 import ftdcr
 import sorosim
 import three_codes
+import trunk
 from common import Row, show
 
 # What must be in the folder for a source, and its rows.
@@ -25,6 +27,10 @@ SOURCES: dict[str, Callable[[Path], list[Row]]] = {
     "soromox_three_codes": lambda path: three_codes.rows(path, parts=6),
     "ftdcr_v4/train.csv": lambda path: ftdcr.rows(path, None),
     "dataset_CR_dynamics": lambda path: agotelli.rows(path, parts=4),
+    "trunk-stack": lambda path: trunk.rows(path, train=5),
+    "DeepKoopman_catheter_model/data/catheter_1T_expt_forced_5.1.2": (
+        lambda path: catheter.rows(path, "test.txt")
+    ),
 }
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -21,13 +22,13 @@ RUN = "plane_y_angle_150_speed_1"
 
 
 def true_robot(damping: float = DAMPING) -> cdcr.Robot:
-    known = agotelli.robot(1)
+    known: cdcr.Robot = agotelli.robot(1)
     section = replace(known.sections[0], bending_stiffness=STIFFNESS, damping=damping)
     springs = [replace(one, stiffness=SPRING) for one in known.cables]
-    return replace(known, sections=[section], cables=springs)
+    return replace(known, sections=(section,), cables=tuple(springs))
 
 
-def vicon(path: Path, t: FloatArray, model: cdcr.Model, q: FloatArray, axes: object = 1.0) -> None:
+def vicon(path: Path, t: FloatArray, model: cdcr.Model, q: FloatArray, axes: Any = 1.0) -> None:
     """Write where the disks are at shapes q (N, 2)."""
     places = [np.zeros((len(t), 3))]
     for k, marker in enumerate(MARKERS):
@@ -59,8 +60,8 @@ def laboratory(folder: Path) -> None:
     slack = agotelli.told(np.zeros(4))
     held = {"tip_release-x_3": (0.0, 0.0, 5.0, 0.2), "tip_release+y_1": (0.1, 5.0, 0.0, 0.0),
             "oscillation40s_from_tendon_release-x_3": (0.0, 0.0, 6.0, 0.0)}  # fmt: skip
-    for name, tension in held.items():
-        q0 = model.equilibrium(agotelli.told(np.array(tension)))
+    for name, pull in held.items():
+        q0 = model.equilibrium(agotelli.told(np.array(pull)))
         run = cdcr.simulate(model, q0, [0.0, 0.0], t=t, command=slack, method="dopri5")
         vicon(home / name / "dataVicon_.csv", 1.7e9 + t, model, run.q)
     model, home = cdcr.Model(true_robot(RUBBING)), folder / agotelli.DRIVEN

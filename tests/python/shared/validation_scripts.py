@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -13,12 +14,13 @@ HERE = Path(__file__).resolve().parents[3] / "validation"
 if not HERE.is_dir():
     pytest.skip("validation/ is not beside the tests", allow_module_level=True)
 sys.path.insert(0, str(HERE))
-import agotelli as agotelli  # noqa: E402
-import common as common  # noqa: E402
-import ftdcr as ftdcr  # noqa: E402
-import sorosim as sorosim  # noqa: E402
-import three_codes as three_codes  # noqa: E402
-
+agotelli: Any = import_module("agotelli")
+catheter: Any = import_module("catheter")
+common: Any = import_module("common")
+ftdcr: Any = import_module("ftdcr")
+sorosim: Any = import_module("sorosim")
+three_codes: Any = import_module("three_codes")
+trunk: Any = import_module("trunk")
 sys.path.remove(str(HERE))
 
 
