@@ -43,7 +43,7 @@ bench: setup-dev ## build and run the benchmarks
 
 compare: setup ## set cdcr beside other software, in build/compare (1.5 GB); the figure goes to out/
 	@mkdir -p out
-	@VENV="$(VENV)" tools/compare.sh --figure out/compare.svg
+	@VENV="$(VENV)" tools/compare.sh --figure out/compare.png
 
 bench-smoke: setup-dev
 	@$(IN_VENV) cmake --preset bench

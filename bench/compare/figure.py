@@ -39,4 +39,4 @@ def draw(entries: list[Entry], path: Path) -> None:
         )
         axes.invert_xaxis()
         figure.legend(loc="outside right upper", fontsize=8)
-        figure.savefig(path, metadata={"Date": None} if path.suffix == ".svg" else None)
+        figure.savefig(path)

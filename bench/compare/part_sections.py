@@ -35,9 +35,12 @@ def report(turns: int, figure: Path | None) -> None:
     for count in (1, 3):
         arm = soromox_arms.robot(count)
         pair = Pair(cdcr.Model(arm), soromox_arms.soromox(arm))
-        rows = pair.accelerations(turns)
+        rows = list(pair.accelerations(turns))
         print(layout(["accelerations", "us a state", "over cdcr", "first [s]", "differ by"], rows))
-        print(layout(["runs", "first [s]", *heads], pair.runs(turns, SECONDS[count])), flush=True)
+        print(
+            layout(["runs", "first [s]", *heads], list(pair.runs(turns, SECONDS[count]))),
+            flush=True,
+        )
 
 
 class Pair:

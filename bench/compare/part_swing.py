@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-import time
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -13,7 +12,7 @@ from rows import layout
 from swing import Swing
 from turns import Entry, Spread, measure, over, time_at
 
-ERRORS = (1e-4, 1e-6, 1e-8, 1e-10)
+ERRORS = (1e-6, 1e-8, 1e-10)
 OURS = ("cdcr dop853", "cdcr dopri5", "cdcr adams", "cdcr bdf")
 MODULES = {"scikit-sundae": "sksundae"}
 
@@ -35,17 +34,14 @@ def installed(peer: Peer) -> bool:
     return find_spec(MODULES.get(peer.package, peer.package)) is not None
 
 
-def entries_of(peer: Peer, swing: Swing, true: np.ndarray) -> tuple[float, list[Entry]]:
-    """Processor time to the first result, imports included, and an entry for each tolerance."""
-    before = time.process_time()
+def entries_of(peer: Peer, swing: Swing, true: np.ndarray) -> list[Entry]:
+    """Give an entry for each tolerance."""
     at = peer.prepare(swing)
-    at(1e-8)()
-    first = time.process_time() - before
     entries = []
     for k in peer.exponents:
         run = at(10.0**-k)
         entries.append(Entry(peer.name, 10.0**-k, float(np.abs(run() - true).max()), run))
-    return first, entries
+    return entries
 
 
 def report(turns: int, figure: Path | None) -> None:
@@ -53,28 +49,26 @@ def report(turns: int, figure: Path | None) -> None:
     swing = Swing.make()
     print(f"equations beside cdcr's: accelerations differ by {swing.disagreement():.1e} relative")
     true = truth(swing)
-    firsts: dict[str, float] = {}
     entries: list[Entry] = []
     for peer in PEERS:
         if not installed(peer):
             print(f"{peer.name}: {peer.package} is not installed", file=sys.stderr)
             continue
-        firsts[peer.name], found = entries_of(peer, swing, true)
-        entries += found
+        entries += entries_of(peer, swing, true)
     measure(entries, turns)
-    print(table(entries, firsts))
+    print(table(entries))
     if figure is not None:
         from figure import draw
 
         draw(entries, figure)
 
 
-def table(entries: list[Entry], firsts: dict[str, float]) -> str:
+def table(entries: list[Entry]) -> str:
     """Give times at each error, and their ratio to the best of ours."""
     rows = []
-    for name, first in firsts.items():
+    for name in dict.fromkeys(entry.method for entry in entries):
         mine = [entry for entry in entries if entry.method == name]
-        row = [name, f"{first:.2f}"]
+        row = [name]
         for error in ERRORS:
             times = [time_at(mine, error, turn) for turn in range(len(mine[0].times))]
             known = [1e3 * t for t in times if t is not None]
@@ -82,4 +76,4 @@ def table(entries: list[Entry], firsts: dict[str, float]) -> str:
             row += [f"{Spread(known).median:.3g}" if known else "", str(ratio or "")]
         rows.append(row)
     heads = [text for error in ERRORS for text in (f"ms at {error:.0e}", "over our best")]
-    return layout(["10 s of one section", "first [s]", *heads], rows)
+    return layout(["10 s of one section", *heads], rows)

@@ -4,7 +4,7 @@
 
 or, in an environment with what requirements.txt names and cdcr,
 
-    PYTHONPATH=bench python bench/compare/run.py [--quick] [--only PART] [--figure FILE.svg]
+    PYTHONPATH=bench python bench/compare/run.py [--quick] [--only PART] [--figure FILE.png]
 
 Parts: swing, sections, rods, start.
 """
