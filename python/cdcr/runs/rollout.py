@@ -114,7 +114,8 @@ def rollout(
         Forces and moments on the robot, the same in all motions; their profiles are tables.
     parameters : mapping of str to (N,) array_like, optional
         Numbers of the robot that differ from motion to motion, by path as in `cdcr.sweep`:
-        ``{"sections.*.youngs_modulus": ..., "payload": ...}``. Sections and cables count from 1.
+        ``{"sections.*.youngs_modulus": ..., "payload": ...}``, in SI units [Pa], [kg]. Sections and
+        cables count from 1.
     method : {"rk4", "dopri5", "dop853", "bdf", "adams"}, optional
         As in `simulate`; rk4 has the given step.
     record_every : int, optional

@@ -27,7 +27,17 @@ if TYPE_CHECKING:
 
 
 class RolloutFailure(NamedTuple):
-    """A motion that did not reach its end: its index, how it ended, and why in a sentence."""
+    """A motion that did not reach its end.
+
+    Attributes
+    ----------
+    motion : int
+        Its index.
+    status : Status
+        How it ended.
+    message : str
+        When it stopped, why, and what to try.
+    """
 
     motion: int
     status: Status
@@ -57,7 +67,7 @@ class Rollout(ReadOnlyArrays):
     method : str
         The integration method.
     parameters : dict of str to ndarray, shape (N,)
-        Numbers of the robot that differ from motion to motion, by path.
+        Numbers of the robot that differ from motion to motion, by path; in SI units [kg], [m] ..
     """
 
     models: tuple[Model, ...]
@@ -81,7 +91,17 @@ class Rollout(ReadOnlyArrays):
         return self.models[0]
 
     def model_of(self, motion: int) -> Model:
-        """Return the model of one motion."""
+        """Return the model of one motion.
+
+        Parameters
+        ----------
+        motion : int
+            Its index.
+
+        Returns
+        -------
+        Model
+        """
         if self.parameters:
             return Variation(self.model, self.parameters).model_of(motion)
         return self.models[motion if len(self.models) > 1 else 0]
