@@ -273,4 +273,6 @@ def test_the_picture_shows_the_path_of_the_tip_measured_and_predicted() -> None:
     for axes, (first, second) in zip(paths, ((0, 1), (0, 2), (1, 2)), strict=True):
         assert axes.get_xlabel() == f"tip {'xyz'[first]} [mm]"
         for line, places in zip(axes.lines, (seen, model), strict=True):
-            np.testing.assert_allclose(line.get_xydata(), 1e3 * places[:, [first, second]])
+            np.testing.assert_allclose(
+                np.array(line.get_xydata(), float), 1e3 * places[:, [first, second]]
+            )
