@@ -261,3 +261,18 @@ def test_the_most_telling_pulls_tell_as_much_as_is_said() -> None:
     assert np.linalg.det(inverse @ found.covariance @ inverse) < np.linalg.det(
         inverse @ by_chance @ inverse
     )
+
+
+def test_the_picture_shows_the_path_of_the_tip_measured_and_predicted() -> None:
+    pytest.importorskip("matplotlib")
+    commands = pulls(6)
+    seen = tips(ROBOT, commands, NOISE, 1)
+    found = cdcr.identify(Poses(commands, tip=seen), ROBOT, {"sections[*].youngs_modulus": None})
+    paths = found.plot().axes[-3:]
+    model = seen + found.residuals[0].values
+    for axes, (first, second) in zip(paths, ((0, 1), (0, 2), (1, 2)), strict=True):
+        assert axes.get_xlabel() == f"tip {'xyz'[first]} [mm]"
+        for line, places in zip(axes.lines, (seen, model), strict=True):
+            np.testing.assert_allclose(
+                np.array(line.get_xydata(), float), 1e3 * places[:, [first, second]]
+            )

@@ -1,4 +1,4 @@
-"""A fit in pictures: measured beside predicted, what is left over, correlation of estimates."""
+"""A fit in pictures: measured beside predicted, what is left over, correlation, paths."""
 
 from __future__ import annotations
 
@@ -42,15 +42,39 @@ def plot_identified(fit: Mapping[str, Any]) -> StyledFigure:
     'left over [mm]'
     """
     channels = fit["channels"][:MAX_CHANNELS]
+    place = next((one for one in channels if one["unit"] == "m" and _is_place(one)), None)
+    rows = len(channels) + (place is not None)
     with style():
-        figure = StyledFigure(figsize=(13.0, 0.6 + 3.2 * len(channels)), layout="constrained")
-        grid = figure.add_gridspec(len(channels), 3, width_ratios=(1.3, 1.0, 0.9))
+        figure = StyledFigure(figsize=(13.0, 0.6 + 3.2 * rows), layout="constrained")
+        grid = figure.add_gridspec(rows, 3, width_ratios=(1.3, 1.0, 0.9))
         for row, channel in enumerate(channels):
             unit, factor = _SHOWN.get(channel["unit"], (channel["unit"] or "1", 1.0))
             _track(figure.add_subplot(grid[row, 0]), channel, unit, factor)
             _left(figure.add_subplot(grid[row, 1]), channel, unit, factor)
         _correlation(figure, figure.add_subplot(grid[0, 2]), fit["names"], fit["correlation"])
+        if place is not None:
+            for column, axes in enumerate(((0, 1), (0, 2), (1, 2))):
+                _path(figure.add_subplot(grid[-1, column]), place, *axes)
     return figure
+
+
+def _is_place(channel: Mapping[str, Any]) -> bool:
+    return bool(channel["name"].split(": ")[-1].startswith(("tip", "marker")))
+
+
+def _path(axes: Axes, channel: Mapping[str, Any], first: int, second: int) -> None:
+    """Draw where a place was seen and where the model has it, in a plane."""
+    measured = 1e3 * channel["measured"]
+    model = measured + 1e3 * channel["left"]
+    moving = channel["along"] is not None
+    axes.plot(measured[:, first], measured[:, second], "o", color=COLORS[0], alpha=0.5,
+              markersize=3, label="measured")  # fmt: skip
+    axes.plot(model[:, first], model[:, second], "-" if moving else "+", color=BLACK,
+              linewidth=0.8, markersize=4, label="model")  # fmt: skip
+    axes.set_xlabel(f"{channel['name']} {_AXES[first]} [mm]")
+    axes.set_ylabel(f"{_AXES[second]} [mm]")
+    axes.set_aspect("equal", adjustable="datalim")
+    legend_above(axes)
 
 
 def _track(axes: Axes, channel: Mapping[str, Any], unit: str, factor: float) -> None:
@@ -66,7 +90,7 @@ def _track(axes: Axes, channel: Mapping[str, Any], unit: str, factor: float) -> 
         axes.plot(along, measured[:, k] + left[:, k], model or ",", color=BLACK, linewidth=0.8)
     _name_rows(axes, channel)
     axes.set_ylabel(f"{channel['name']} [{unit}]")
-    axes.set_title("measured (colours) and model (black)", fontsize=10, loc="left")
+    axes.set_title("model in black", fontsize=10, loc="left")
     legend_above(axes)
 
 
