@@ -14,6 +14,8 @@ CPP = ROOT / "cpp"
 README = (CPP / "README.md").read_text()
 SECTIONS = (CPP / "several-sections.md").read_text()
 RODS = (CPP / "rods.md").read_text()
+DERIVATIVES = (CPP / "derivatives.md").read_text()
+CONTROL = (CPP / "control.md").read_text()
 ORIGIN = (ROOT / "docs" / "origin-paper.md").read_text()
 
 
@@ -22,7 +24,8 @@ def blocks(document: str, language: str) -> list[str]:
     return re.findall(rf"^```{language}\n(.*?)^```", document, re.MULTILINE | re.DOTALL)
 
 
-FORMULAS = "".join(block for text in (README, SECTIONS, RODS) for block in blocks(text, "text"))
+PAGES = (README, SECTIONS, RODS, DERIVATIVES, CONTROL)
+FORMULAS = "".join(block for page in PAGES for block in blocks(page, "text"))
 EQUATIONS = [int(number) for number in re.findall(r" \((\d+)\)$", FORMULAS, re.MULTILINE)]
 
 
@@ -49,7 +52,7 @@ def quoted(text: str) -> list[int]:
 
 
 def test_equations_are_numbered_in_order() -> None:
-    assert list(range(1, 71)) == EQUATIONS
+    assert list(range(1, 94)) == EQUATIONS
 
 
 def test_equations_quoted_by_the_sources_exist() -> None:

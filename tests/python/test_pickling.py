@@ -98,6 +98,7 @@ PUBLIC: dict[str, Callable[[], Any]] = {
     "Cable": lambda: cdcr.Cable(radius=0.01, angle=0.0, end_section=0),
     "Controller": lambda: Bang(2.0),
     "ConvergenceError": convergence,
+    "Derivatives": lambda: MODEL.derivatives(np.zeros(6), np.zeros(6), np.ones(9)),
     "Equilibrium": lambda: MODEL.find_equilibrium(np.ones(9)),
     "Allocation": lambda: MODEL.find_tension(np.full(6, 1e3), max_tension=1.0),
     "InfeasibleError": lambda: infeasible(np.full(6, 1e3)),

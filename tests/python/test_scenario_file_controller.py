@@ -224,7 +224,7 @@ def test_a_motion_of_a_file_is_the_spline_through_its_points(tmp_path: Path) -> 
     motion = '[controller.motion]\nshape = "file"\nfile = "path.csv"\n'
     scenario = closed(tmp_path, LOOP + '[controller]\ntype = "computed-torque"\n' + motion)
     run = scenario.simulate()
-    path = cdcr.ReferencePath.spline([0, 1, 2], [[0, 0], [0.2, 0.1], [0.1, 0.3]])
+    path = cdcr.ReferencePath.spline([0.0, 1.0, 2.0], [[0.0, 0.0], [0.2, 0.1], [0.1, 0.3]])
     wanted = np.array([path.evaluate(t)[0] for t in run.t])
     np.testing.assert_allclose(run.q, wanted, atol=1e-4)
     with pytest.raises(FileNotFoundError, match="file of a motion"):

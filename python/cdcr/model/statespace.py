@@ -56,9 +56,9 @@ class StateSpaceModel(ShapeModel):
         --------
         >>> import cdcr
         >>> model = cdcr.Model(cdcr.robots.amouri2020())
-        >>> model.derivatives([0.0, 0.0], [0.0, 0.0], [0.0, 0.0, 0.0]).dqdd_dq.round(2) + 0.0
-        array([[-82.74,   0.  ],
-               [  0.  , -82.74]])
+        >>> model.derivatives([0.0, 0.0], [0.0, 0.0], [0.0, 0.0, 0.0]).dqdd_dq.round(1) + 0.0
+        array([[-82.7,   0. ],
+               [  0. , -82.7]])
         """
         return Derivatives(*self._derivatives(q, qd, tension, wrenches))
 

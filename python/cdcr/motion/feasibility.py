@@ -36,7 +36,7 @@ class PathReport:
     >>> model = cdcr.Model(cdcr.robots.amouri2020())
     >>> path = cdcr.ReferencePath.spline([0.0, 1.0], [[0.0, 0.0], [0.5, 0.0]])
     >>> cdcr.check_path(model, path, max_tension=5.0)
-    <PathReport: tensions of at most 5 N cannot give the motion from t = 0.325 s on>
+    <PathReport: tensions of at most 5 N cannot give the motion from t = 0.52 s on>
     """
 
     sentences: tuple[str, ...]
@@ -99,7 +99,7 @@ def check_path(
     >>> model = cdcr.Model(cdcr.robots.amouri2020())
     >>> circle = cdcr.ReferencePath.circle([0, 0], [0.26, 0], [0, 0.26], 1.0, 10.0)
     >>> cdcr.check_path(model, circle)
-    <PathReport: feasible, up to 5.72 N and 4.895 N/s>
+    <PathReport: feasible, up to 5.718 N and 6.264 N/s>
     """
     require_kind("model", model, Model)
     require_kind("path", path, _core.ReferencePath)
