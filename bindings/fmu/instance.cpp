@@ -211,13 +211,23 @@ MatrixXd Instance::partials() {
   actuation_matrix(model_, q, actuation);
   const MatrixXd length_by_q = -actuation.transpose();
   of(Kind::cable_length).leftCols(d) = length_by_q;
+  // By q of the rates of the lengths: how fast length_by_q changes along qd.
+  MatrixXd rate_by_q = MatrixXd::Zero(m, d);
+  if (!model_.has_constant_actuation()) {
+    constexpr double h = 1e-4;
+    const double step = h / std::max(1.0, qd.cwiseAbs().maxCoeff());
+    MatrixXd before(d, m), after(d, m);
+    actuation_matrix(model_, q - step * qd, before);
+    actuation_matrix(model_, q + step * qd, after);
+    rate_by_q = (before - after).transpose() / (2.0 * step);
+  }
   for (Index j = 0; j < m; ++j) {
     auto tension = of(Kind::cable_tension).row(j);
     const Cable& cable = model_.cables()[j];
     if (!cable.length_driven()) {
       tension[2 * d + j] = 1.0;
     } else if (cable_pull(model_, j, q, qd, command[j]) > 0.0) {
-      tension.head(d) = cable.stiffness * length_by_q.row(j);
+      tension.head(d) = cable.stiffness * length_by_q.row(j) + cable.damping * rate_by_q.row(j);
       tension.segment(d, d) = cable.damping * length_by_q.row(j);
       tension[2 * d + j] = -cable.stiffness;
     }

@@ -1,5 +1,6 @@
 #include "setup_file.hpp"
 
+#include <array>
 #include <cstdlib>
 #include <fstream>
 #include <map>
@@ -32,8 +33,22 @@ void put(const Values& values, std::optional<double>& item) {
   need(values, 1);
   item = values[0];
 }
+void put(const Values& values, std::optional<int>& item) {
+  if (values.empty()) return;
+  need(values, 1);
+  item = static_cast<int>(values[0]);
+}
 void put(const Values& values, std::vector<double>& item) {
   item = values;
+}
+void put(const Values& values, std::array<double, 2>& item) {
+  need(values, 2);
+  item = {values[0], values[1]};
+}
+void put(const Values& values, std::vector<std::array<double, 2>>& item) {
+  if (values.size() % 2 != 0) throw std::invalid_argument("pairs of numbers are needed there");
+  item.clear();
+  for (std::size_t k = 0; k < values.size(); k += 2) item.push_back({values[k], values[k + 1]});
 }
 void put(const Values& values, Vector3d& item) {
   need(values, 3);
@@ -47,7 +62,9 @@ void put(const Values& values, Eigen::Matrix<double, n, n, options>& item) {  //
 
 template <typename T>
 using Member = std::variant<double T::*, int T::*, std::optional<double> T::*,
-                            std::vector<double> T::*, Vector3d T::*, Matrix3d T::*, Transform T::*>;
+                            std::optional<int> T::*, std::vector<double> T::*,
+                            std::array<double, 2> T::*, std::vector<std::array<double, 2>> T::*,
+                            Vector3d T::*, Matrix3d T::*, Transform T::*>;
 template <typename T>
 using Fields = std::map<std::string, Member<T>>;
 
@@ -69,15 +86,36 @@ const Fields<Section>& section_fields() {
       {"cable_damping", &Section::cable_damping},
       {"cable_friction", &Section::cable_friction},
       {"damping", &Section::damping},
+      {"bending_order", &Section::bending_order},
+      {"twist_order", &Section::twist_order},
+      {"stretch_order", &Section::stretch_order},
+      {"backbone_tip_diameter", &Section::backbone_tip_diameter},
+      {"backbone_inner_diameter", &Section::backbone_inner_diameter},
+      {"shear_modulus", &Section::shear_modulus},
+      {"bending_stiffness", &Section::bending_stiffness},
+      {"twist_stiffness", &Section::twist_stiffness},
+      {"stretch_stiffness", &Section::stretch_stiffness},
+      {"twist_damping", &Section::twist_damping},
+      {"stretch_damping", &Section::stretch_damping},
+      {"material_damping", &Section::material_damping},
+      {"rest_bending", &Section::rest_bending},
+      {"rest_twist", &Section::rest_twist},
+      {"nodes", &Section::nodes},
   };
   return fields;
 }
 
 const Fields<Cable>& cable_fields() {
   static const Fields<Cable> fields = {
-      {"radius", &Cable::radius},           {"angle", &Cable::angle},
-      {"end_section", &Cable::end_section}, {"stiffness", &Cable::stiffness},
-      {"damping", &Cable::damping},         {"friction", &Cable::friction},
+      {"radius", &Cable::radius},
+      {"angle", &Cable::angle},
+      {"end_section", &Cable::end_section},
+      {"stiffness", &Cable::stiffness},
+      {"damping", &Cable::damping},
+      {"friction", &Cable::friction},
+      {"radii", &Cable::radii},
+      {"angles", &Cable::angles},
+      {"start_section", &Cable::start_section},
   };
   return fields;
 }

@@ -1,4 +1,4 @@
-"""What other software is told of rods: nothing yet; of tubes and given stiffnesses all."""
+"""Rods as FMUs, which move as in cdcr; chains of rigid links are made of arcs, tubes included."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -25,10 +25,10 @@ HELIX = cdcr.Cable(radius=0.02, angle=[(0.0, 1.0)], end_section=0)
         ({"cables": [HELIX]}, "cable 1 of cables does not run so"),
     ],
 )
-def test_rods_are_refused(change: dict[str, Any], sentence: str, tmp_path: Path) -> None:
+def test_no_chain_of_rigid_links_is_made_of_rods(
+    change: dict[str, Any], sentence: str, tmp_path: Path
+) -> None:
     robot = replace(ROBOT, **change)
-    with pytest.raises(ValueError, match=f"an FMU can be made .*{sentence}"):
-        cdcr.export.write_fmu(robot, tmp_path / "arm.fmu")
     with pytest.raises(ValueError, match=f"a chain of rigid links can be made .*{sentence}"):
         cdcr.export.write_mjcf(robot, tmp_path / "arm.xml")
 
@@ -43,3 +43,67 @@ def test_a_tube_is_told_as_the_solid_arc_that_moves_alike() -> None:
     wanted = cdcr.Model(robot).forward_dynamics(q, qd, tension)
     assert np.abs(found - wanted).max() <= REL * np.abs(wanted).max()
     assert as_solid_arcs(ROBOT, "it") == ROBOT
+
+
+ROD = cdcr.Section(
+    length=0.3,
+    backbone_mass=0.02,
+    backbone_diameter=(0.006, 0.004),
+    backbone_inner_diameter=0.001,
+    youngs_modulus=2e8,
+    shear_modulus=7e7,
+    bending_order=1,
+    twist_order=0,
+    stretch_order=0,
+    damping=1e-3,
+    twist_damping=1e-4,
+    stretch_damping=0.5,
+    material_damping=1e-3,
+    rest_bending=(0.2, -0.1),
+    nodes=7,
+)
+LOCKED = replace(ROD, bending_order=None, twist_order=None, stretch_order=None)
+CABLES = (
+    replace(HELIX, stiffness=500.0, damping=1.0),
+    cdcr.Cable(radius=[(0.012, 0.006)] * 3, angle=2.0, end_section=2),
+    cdcr.Cable(radius=0.01, angle=1.0, start_section=1, end_section=2, friction=0.1),
+)
+RODS = cdcr.Robot(sections=(ROD, LOCKED, ROD), cables=CABLES, gravity=(0.3, -0.2, -9.81))
+SAME_RUN = 1e-9  # two runs of dopri5 with other steps
+DIFFERENCES = 1e-6  # of central differences, relative
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_an_fmu_of_rods_moves_as_cdcr_does(fmi: int, tmp_path: Path) -> None:
+    pytest.importorskip("fmpy", reason="FMUs are tested by fmpy")
+    from fmu import Fmu
+
+    model = cdcr.Model(RODS)
+    d = model.num_coordinates
+    fmu = Fmu(RODS, tmp_path, fmi=fmi)
+    q0 = 0.05 * np.cos(np.arange(float(d)))
+    q0[[name.startswith("e") for name in model.coordinate_names]] *= 0.01
+    command = np.array([model.cable_lengths(q0)[0] - 0.01, 1.0, 2.0])
+    inputs = [f"{'length' if j == 0 else 'tension'}[{j + 1}]" for j in range(3)]
+    q, qd = fmu.names("q"), fmu.names("qd")
+    fmu.begin({f"q_start[{i + 1}]": q0[i] for i in range(d)})
+    fmu.set(dict(zip(inputs, command, strict=True)))
+    for k in range(5):
+        fmu.slave.doStep(currentCommunicationPoint=0.02 * k, communicationStepSize=0.02)
+    run = cdcr.simulate(
+        model, q0, np.zeros(d), t=[0.0, 0.1], command=command, method="dopri5", rtol=1e-10
+    )
+    assert np.abs(fmu.get(q) - run.q[-1]).max() <= SAME_RUN
+    lengths = fmu.get(fmu.names("cable_length"))
+    assert lengths == pytest.approx(model.cable_lengths(fmu.get(q)), rel=REL)
+
+    # By q of the tension of a damped cable that winds, whose slope changes with the shape.
+    slope = fmu.jacobian(["cable_tension[1]"], q)[0]
+    at, rates, step = fmu.get(q), fmu.get(qd), 1e-6
+
+    def tension(shape: np.ndarray) -> float:
+        rate = -model.actuation_matrix(shape)[:, 0] @ rates
+        return float(500.0 * (model.cable_lengths(shape)[0] - command[0]) + 1.0 * rate)
+
+    wanted = [(tension(at + step * e) - tension(at - step * e)) / (2.0 * step) for e in np.eye(d)]
+    assert np.abs(slope - wanted).max() <= DIFFERENCES * np.abs(wanted).max()

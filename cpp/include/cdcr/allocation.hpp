@@ -23,7 +23,7 @@ struct TensionLimits {
   std::vector<Index> cables;
   AllocationMethod method = AllocationMethod::automatic;
   /// Least tension of each cable (num_cables) [N], where that is above min_tension; or empty.
-  VectorXd pretension = VectorXd();
+  VectorXd pretension = {};
 };
 
 /// Finds the least-norm tensions that give a generalised force, eq. (20):

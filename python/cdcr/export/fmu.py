@@ -17,7 +17,6 @@ import numpy as np
 
 from cdcr import _core
 from cdcr.base.check import Check, count, format_value, require_kind
-from cdcr.export.arcs import as_solid_arcs
 from cdcr.export.fmu_description import IDENTIFIER, model_description
 from cdcr.export.fmu_variables import variables
 from cdcr.files.new_file import file_path, new_file
@@ -29,14 +28,9 @@ from cdcr.robot.section import Section
 LIBRARY = Path(_core.__file__).with_name("_fmu.so")
 # Where FMI has the shared object of a machine; FMI 2 names no folder for other processors.
 _FOLDERS = {2: {"x86_64": "linux64"}, 3: {"x86_64": "x86_64-linux", "aarch64": "aarch64-linux"}}
-# What bindings/fmu/setup_file.cpp does not read: tables of their own, and fields that solid arcs
-# and straight cables from the base leave at their defaults.
-_LEFT_OUT = {
-    *("sections", "cables", "bending_order", "twist_order", "stretch_order", "start_section"),
-    *("backbone_inner_diameter", "shear_modulus", "bending_stiffness", "twist_stiffness"),
-    *("stretch_stiffness", "twist_damping", "stretch_damping", "material_damping"),
-    *("rest_bending", "rest_twist", "nodes"),
-}
+_TABLES = {"sections", "cables"}
+# What a field is called in bindings/fmu/setup_file.cpp where it holds pairs.
+_PAIRS = {"radius": "radii", "angle": "angles"}
 
 
 def write_fmu(
@@ -73,8 +67,7 @@ def write_fmu(
     Raises
     ------
     ValueError
-        For a `fmi`, a `step` or a name that is none, for a robot without inertia, and
-        for one of more than arcs and straight cables.
+        For a `fmi`, a `step` or a name that is none, and for a robot without inertia.
     OSError
         Where the file exists and is not to be replaced, there is no such folder, or this is not a
         system for which there are FMUs.
@@ -107,7 +100,6 @@ def fmu_bytes(robot: Robot, file: Path, *, fmi: int = 3, step: float | None = No
         step = check.number("step", step, "a number > 0 s and finite", above=0.0)
         check.done()
     folder = _folder(fmi)
-    robot = as_solid_arcs(robot, "an FMU")
     model = Model(robot)
     _core.Simulator(model)  # refuses a robot without inertia
     lines = list(_setup_lines(robot, step))
@@ -161,9 +153,17 @@ def _setup_lines(robot: Robot, step: float | None) -> Iterator[str]:
 
 
 def _field_lines(thing: Robot | Section | Cable) -> Iterator[str]:
-    for item in fields(thing):
-        if item.name not in _LEFT_OUT:
-            yield _line(item.name, getattr(thing, item.name))
+    for name in (item.name for item in fields(thing)):
+        value = getattr(thing, name)
+        if name == "backbone_diameter" and isinstance(value, tuple):
+            yield _line(name, value[0])
+            yield _line("backbone_tip_diameter", value[1])
+        elif name in _PAIRS and isinstance(value, tuple):
+            yield _line(_PAIRS[name], value)
+        elif name.endswith("_order"):
+            yield _line(name, -1 if value is None else value)  # -1: locked
+        elif name not in _TABLES:
+            yield _line(name, value)
 
 
 def _line(key: str, value: object) -> str:

@@ -31,7 +31,8 @@ def variables(model: Model) -> list[Variable]:
 def _variables(model: Model) -> Iterator[Variable]:
     d = model.num_coordinates
     q, qd, qdd = (_names(name, d) for name in ("q", "qd", "qdd"))
-    where = [f"section {i // 2 + 1}, {'xy'[i % 2]}" for i in range(d)]
+    names = model.coordinate_names
+    units = ["m" if name.startswith("e") else "rad" for name in names]
     commands = [
         f"{'length' if cable.length_driven else 'tension'}[{j + 1}]"
         for j, cable in enumerate(model.robot.all_cables)
@@ -43,21 +44,20 @@ def _variables(model: Model) -> Iterator[Variable]:
         start = model.robot.gravity[k]
         yield Variable(f"gravity[{k + 1}]", "parameter", "m/s2", about, start)
     for i in range(d):
-        about = f"bending vector at the start, {where[i]}"
-        yield Variable(f"q_start[{i + 1}]", "parameter", "rad", about, 0.0)
+        about = f"coordinate {names[i]} at the start"
+        yield Variable(f"q_start[{i + 1}]", "parameter", units[i], about, 0.0)
     for i in range(d):
-        about = f"its rate at the start, {where[i]}"
-        yield Variable(f"qd_start[{i + 1}]", "parameter", "rad/s", about, 0.0)
+        about = f"rate of {names[i]} at the start"
+        yield Variable(f"qd_start[{i + 1}]", "parameter", f"{units[i]}/s", about, 0.0)
     yield from _inputs(model, commands)
     for i in range(d):
-        about = f"bending vector theta (cos phi, sin phi), {where[i]}"
-        yield Variable(q[i], "output", "rad", about, depends_on=(q[i],))
+        yield Variable(q[i], "output", units[i], f"coordinate {names[i]}", depends_on=(q[i],))
     for i in range(d):
-        about = f"rate of the bending vector, {where[i]}"
-        yield Variable(qd[i], "output", "rad/s", about, state=q[i], depends_on=(qd[i],))
+        about = f"rate of {names[i]}"
+        yield Variable(qd[i], "output", f"{units[i]}/s", about, state=q[i], depends_on=(qd[i],))
     for i in range(d):
-        about, on = f"acceleration, {where[i]}", (*q, *qd, *commands)
-        yield Variable(qdd[i], "local", "rad/s2", about, state=qd[i], depends_on=on)
+        about, on = f"acceleration of {names[i]}", (*q, *qd, *commands)
+        yield Variable(qdd[i], "local", f"{units[i]}/s2", about, state=qd[i], depends_on=on)
     yield from _tip(q)
     for name in _names("cable_length", model.num_cables):
         yield Variable(name, "output", "m", "length inside the robot", depends_on=q)
