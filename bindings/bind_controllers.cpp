@@ -101,7 +101,7 @@ template <class Law, class Read>
 py::class_<Tracking<Law>, TrackingController> bind_law(py::module_& m, const char* name,
                                                        const char* about, Read read) {
   py::class_<Tracking<Law>, TrackingController> law(m, name, about);
-  const auto make = [read](py::object model, py::dict options) {
+  const auto make = [read](const py::object& model, const py::dict& options) {
     return new Tracking<Law>(model, options, read(read_model(model), options));
   };
   law.def(py::init(make), "model"_a, "options"_a,

@@ -23,6 +23,7 @@ struct TensionLimits {
   std::vector<Index> cables;
   AllocationMethod method = AllocationMethod::automatic;
   /// Least tension of each cable (num_cables) [N], where that is above min_tension; or empty.
+  // NOLINTNEXTLINE(readability-redundant-member-init): so that lists may end before it
   VectorXd pretension = {};
 };
 

@@ -113,7 +113,7 @@ double SensorChannel::curvature(const Place& place, const ConstVectorRef& q,
   const double x = 2.0 * place.fraction - 1.0;
   double sum = 0.0, before = 0.0, legendre = 1.0;
   for (int j = 0; j <= section.bending_order; ++j) {
-    sum += legendre * q[first + 2 * j + axis];
+    sum += legendre * q[first + Index{2} * j + axis];
     const double next = ((2.0 * j + 1.0) * x * legendre - j * before) / (j + 1.0);
     before = legendre;
     legendre = next;

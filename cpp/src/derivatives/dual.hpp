@@ -121,4 +121,12 @@ struct ScalarBinaryOpTraits<double, cdcr::detail::Dual, Operation> {
   using ReturnType = cdcr::detail::Dual;
 };
 
+// Duals are aligned by themselves, further than Eigen aligns its arrays; Clang refuses less.
+namespace internal {
+template <int Size>
+struct compute_default_alignment<cdcr::detail::Dual, Size> {
+  enum { value = 0 };  // NOLINT(readability-identifier-naming): a name of Eigen
+};
+}  // namespace internal
+
 }  // namespace Eigen

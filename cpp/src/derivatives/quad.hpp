@@ -62,4 +62,12 @@ struct ScalarBinaryOpTraits<double, cdcr::detail::Quad, Operation> {
   using ReturnType = cdcr::detail::Quad;
 };
 
+// Quads are aligned by themselves, further than Eigen aligns its arrays; Clang refuses less.
+namespace internal {
+template <int Size>
+struct compute_default_alignment<cdcr::detail::Quad, Size> {
+  enum { value = 0 };  // NOLINT(readability-identifier-naming): a name of Eigen
+};
+}  // namespace internal
+
 }  // namespace Eigen
