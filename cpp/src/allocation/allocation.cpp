@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "allocation/check_limits.hpp"
 #include "base/arguments.hpp"
 #include "base/sizes.hpp"
 #include "cdcr/cables.hpp"
@@ -25,33 +26,13 @@ constexpr double huge = 1e100;
 // Share of the missing force along a cable that is zero but for rounding: it would not help.
 constexpr double indifferent = 1e-6;
 
-void check(const Model& model, const TensionLimits& limits) {
-  detail::require(!std::isnan(limits.min_tension) && limits.min_tension != HUGE_VAL &&
-                      limits.max_tension >= limits.min_tension,
-                  "tension limits must satisfy min_tension <= max_tension, got min_tension ",
-                  limits.min_tension, " N and max_tension ", limits.max_tension, " N");
-  detail::require(limits.pretension.size() == 0 || limits.pretension.size() == model.num_cables(),
-                  "pretension must have one value for each of the ", model.num_cables(),
-                  " cables, got ", limits.pretension.size());
-  for (Index j = 0; j < limits.pretension.size(); ++j) {
-    const double least = limits.pretension[j];
-    detail::require(std::isfinite(least) && least <= limits.max_tension, "pretension of cable ",
-                    j + 1, " must be finite and at most max_tension, ", limits.max_tension,
-                    " N, got ", least);
-  }
-  for (const Index cable : limits.cables) {
-    detail::require(detail::is_cable(model, cable), "cables must be indices from 0 to ",
-                    model.num_cables() - 1, ", got ", cable);
-  }
-}
-
 }  // namespace
 
 Allocator::Allocator(const Model& model, const TensionLimits& limits)
     : lower_(VectorXd::Constant(model.num_cables(), limits.min_tension)),
       upper_(VectorXd::Constant(model.num_cables(), limits.max_tension)),
       ldlt_(model.num_coordinates()) {
-  check(model, limits);
+  detail::check(model, limits);
   const Index m = model.num_coordinates(), c = model.num_cables();
   place_.assign(static_cast<std::size_t>(c), limits.cables.empty() ? Place::lower : Place::unused);
   for (const Index cable : limits.cables) place_[cable] = Place::lower;

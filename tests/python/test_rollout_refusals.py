@@ -1,0 +1,90 @@
+"""What a rollout refuses, and in which words."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import cdcr
+from pull_back import Spring, pull_back
+
+MODEL = cdcr.Model(cdcr.robots.amouri2020(damping=0.01))
+N, STEPS = 5, 20
+Q0, QD0 = np.zeros((N, 2)), np.zeros((N, 2))
+PULLS = np.ones((N, STEPS, 3))
+RUN: dict[str, Any] = {"step": 2.0**-7, "steps": STEPS}
+
+REFUSED: list[tuple[dict[str, Any], type[Exception], str]] = [
+    ({"model": 3}, TypeError, "model must be a cdcr.Model, or a sequence of them, got int"),
+    (
+        {"model": [MODEL, None]},
+        TypeError,
+        r"model\[1\] \(motion 2\) must be a cdcr.Model, got None",
+    ),
+    ({"q0": np.zeros(3)}, ValueError, r"q0 must have shape \(2,\) or \(N, 2\), got \(3,\)"),
+    (
+        {"q0": np.full((N, 2), 9.0)},
+        ValueError,
+        r"q0\[0\] \(motion 1\) must bend each section by at",
+    ),
+    (
+        {"tension": np.ones((3, 3))},
+        ValueError,
+        "as many motions of each, or one for all, got 5 of q0",
+    ),
+    (
+        {"tension": -PULLS},
+        ValueError,
+        "tension of motion 1, step 1, cable 1 must be finite and >= 0",
+    ),
+    ({"tension": PULLS[:, :7]}, ValueError, "a row for each step, got"),
+    (
+        {"tension": np.zeros(4)},
+        ValueError,
+        r"tension must have shape \(3,\), \(N, 3\) or \(N, 20, 3\)",
+    ),
+    ({"tension": pull_back}, TypeError, "a function of the states of all motions is a controller"),
+    ({"tension": PULLS, "controller": pull_back}, ValueError, "give one of tension, command and"),
+    ({"controller": 3}, TypeError, "controller must be a cdcr.Pid, a list of them or a function"),
+    (
+        {"controller": Spring(0.1)},
+        TypeError,
+        "a controller written in Python cannot drive a rollout",
+    ),
+    ({"controller": lambda t, q, qd: q}, ValueError, r"must give commands of shape \(5, 3\)"),
+    ({"controller": pull_back, "control_every": 3}, ValueError, "control_every must divide the 20"),
+    ({"parameters": {"payloads": np.ones(N)}}, ValueError, "Did you mean 'payload'?"),
+    ({"parameters": {"payload": 1.0}}, ValueError, r"must have shape \(N,\), got \(\)"),
+    ({"parameters": {"payload": -np.ones(N)}}, ValueError, "motion 1: payload must be"),
+    ({"parameters": {"payload": np.ones(3)}}, ValueError, "5 of q0, 5 of qd0, 3 of parameters"),
+    (
+        {"parameters": {"payload": np.ones(N), "gravity.x": np.ones(2)}},
+        ValueError,
+        "parameters must have as many values of each, got 5 of payload, 2 of gravity.x",
+    ),
+    (
+        {"model": [MODEL] * N, "parameters": {"payload": np.ones(N)}},
+        ValueError,
+        "parameters are those of one model, give either them or several models",
+    ),
+    ({"record_every": 3}, ValueError, "record_every must be a divisor of the 20 steps, got 3"),
+    ({"step": 0.0}, ValueError, "step must be a number > 0 s, got 0.0"),
+    ({"steps": -1}, ValueError, "steps must be a whole number >= 0, got -1"),
+    ({"progress": 3}, TypeError, "progress must be a function of a number, got int"),
+    (
+        {"wrenches": cdcr.Wrench(section=0, profile=lambda t: t)},
+        ValueError,
+        "the profile of a wrench on a rollout must be a table, got a function",
+    ),
+]
+
+
+@pytest.mark.parametrize(("given", "kind", "sentence"), REFUSED)
+def test_bad_arguments_are_refused(
+    given: dict[str, Any], kind: type[Exception], sentence: str
+) -> None:
+    arguments = {"model": MODEL, "q0": Q0, "qd0": QD0, **RUN} | given
+    with pytest.raises(kind, match=sentence):
+        cdcr.rollout(**arguments)
