@@ -101,10 +101,10 @@ double Dop853::error_norm_of(double h) const {
 
 // The last two slopes tell the eigenvalue of what the stages disagree about (Hairer and Wanner,
 // "Solving Ordinary Differential Equations II", section IV.2). Where it has long died out, it
-// decays: then errors hold the step from a fifth of the stable one on, the tighter the tolerance
+// decays: then errors hold the step from a sixth of the stable one on, the tighter the tolerance
 // the sooner.
 bool Dop853::is_held_by_stability() const noexcept {
-  constexpr double stable = 6.1, of_decay = 0.2 * stable;  // step times eigenvalue
+  constexpr double stable = 6.1, of_decay = 0.15 * stable;  // step times eigenvalue
   double change = 0.0, along = 0.0, way = 0.0;
   for (Index i = 0; i < y_.size(); ++i) {
     const double of_slope = slope_[i] - slopes_(i, 11), of_state = y_[i] - last_argument_[i];

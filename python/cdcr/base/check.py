@@ -92,9 +92,10 @@ class Check:
 
         Where it must be `above` a limit, it must be finite too.
         """
-        if isinstance(value, Real) and not isinstance(value, _NO_NUMBERS):
+        plain = type(value) in (float, int)  # most are, and are told at a tenth of the time
+        if plain or (isinstance(value, Real) and not isinstance(value, _NO_NUMBERS)):
             with suppress(OverflowError):
-                number = float(value)
+                number = float(value)  # type: ignore[arg-type]
                 if above is None or above < number < math.inf:
                     return number
         self.refuse(item, requirement, value)

@@ -21,6 +21,7 @@ from cdcr.runs.trajectory import Trajectory
 
 MethodName = Literal["auto", "bdf", "adams", "dopri5", "dop853", "rk4", "rosenbrock"]
 MAX_STEPS = 2**63 - 1  # that the core can count
+METHODS = dict(_core.Method.__members__)
 FIXED_STEP = ("rk4", "rosenbrock")
 DEFAULT_METHOD: MethodName = "auto"
 
@@ -32,16 +33,15 @@ def available(method: str) -> bool:
 
 def find_method(name: object) -> _core.Method:
     """Return the method of that name, which this build of cdcr must have."""
-    names = _core.Method.__members__
-    if not isinstance(name, str) or name not in names:
-        known = ", ".join(map(repr, names))
+    if not isinstance(name, str) or name not in METHODS:
+        known = ", ".join(map(repr, METHODS))
         raise ValueError(f"method must be one of {known}, got {name!r}")
     if not available(name):
         raise ValueError(
             f"method {name!r} needs CVODE, and this cdcr was built without it: use 'dopri5' or "
             "'rk4', or install SUNDIALS (libsundials-dev) and build cdcr again"
         )
-    return names[name]
+    return METHODS[name]
 
 
 def warn_beyond_taylor_range(model: Model, q: FloatArray) -> None:
