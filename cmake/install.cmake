@@ -77,6 +77,27 @@ if(CDCR_WITH_CVODE)
   list(APPEND pc_files ${build_dir}/cdcr-cvode.pc)
 endif()
 
+if(CDCR_WITH_TOML)
+  install(
+    TARGETS cdcr_toml
+    EXPORT cdcr-toml-targets
+    COMPONENT cpp
+    FILE_SET HEADERS COMPONENT cpp
+  )
+  install(
+    EXPORT cdcr-toml-targets
+    NAMESPACE cdcr::
+    DESTINATION ${config_dir}
+    COMPONENT cpp
+  )
+  configure_file(
+    ${PROJECT_SOURCE_DIR}/cmake/cdcr-toml.pc.in
+    ${build_dir}/cdcr-toml.pc
+    @ONLY
+  )
+  list(APPEND pc_files ${build_dir}/cdcr-toml.pc)
+endif()
+
 install(
   TARGETS cdcr
   EXPORT cdcr-targets
