@@ -6,7 +6,7 @@
 ANALYZER ?= shallow
 SOURCES := $(wildcard cpp/src/*/*.cpp)
 ifeq ($(ANALYZER),deep)
-SOURCES += $(wildcard bindings/*.cpp bindings/fmu/*.cpp)
+SOURCES += $(wildcard bindings/*.cpp bindings/c/*.cpp bindings/fmu/*.cpp)
 endif
 HEADERS := $(wildcard cpp/include/cdcr/*.hpp cpp/src/*/*.hpp bindings/*.hpp bindings/fmu/*.hpp)
 CHECKED := $(SOURCES:%=build/tidy/$(ANALYZER)/%)
