@@ -45,6 +45,7 @@ from cdcr.runs.simulate import simulate
 from cdcr.runs.trajectory import Trajectory
 
 if TYPE_CHECKING:
+    from cdcr import casadi as casadi
     from cdcr import control, export, identification, paper, scenarios, sweeps
     from cdcr import gym as gym
     from cdcr import plotting as plotting
@@ -125,7 +126,8 @@ __all__ = [
 
 
 _ROOMS = frozenset({
-    "control", "export", "gym", "identification", "paper", "plotting", "scenarios", "sweeps",
+    "casadi", "control", "export", "gym", "identification", "paper", "plotting", "scenarios",
+    "sweeps",
 })  # fmt: skip
 _LATER = {
     "Actuator": "runs.loop",
@@ -163,4 +165,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return [*__all__, "gym", "plotting"]  # not in __all__, as each needs an extra
+    return [*__all__, "casadi", "gym", "plotting"]  # not in __all__, as each needs an extra

@@ -21,6 +21,7 @@ from cdcr import _core
 
 MODULES = (
     cdcr,
+    cdcr.casadi,
     cdcr.control,
     cdcr.gym,
     cdcr.paper,

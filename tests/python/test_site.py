@@ -23,7 +23,16 @@ ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
 REFERENCE = DOCS / "reference"
 MODULES = (
-    *(cdcr, cdcr.control, cdcr.export, cdcr.gym, cdcr.paper, cdcr.plotting, cdcr.robots),
+    *(
+        cdcr,
+        cdcr.casadi,
+        cdcr.control,
+        cdcr.export,
+        cdcr.gym,
+        cdcr.paper,
+        cdcr.plotting,
+        cdcr.robots,
+    ),
     *(cdcr.identification, cdcr.scenarios, cdcr.sweeps),
 )
 RETURNED = {"cdcr.view.View"}  # by public names

@@ -35,6 +35,7 @@ GIVES = {
     "cli": "the command cdcr",
     "track": "motions from samples",
     "control": "python-control",
+    "casadi": "functions for optimisers",
     "identify": "parameters from measurements",
     "gym": "environments of Gymnasium",
     "mcap": "logs for Foxglove",
