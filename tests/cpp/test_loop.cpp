@@ -137,11 +137,11 @@ TEST_CASE("after a failure the last good state stays, until reset") {
 TEST_CASE("an estimator's word is what the controller is told") {
   class Half final : public Estimator {
    public:
-    void reset(const ConstVectorRef& /*q*/, const ConstVectorRef& /*qd*/) noexcept override {}
-    Status update(double /*t*/, const std::vector<SensorChannel>& sensors,
-                  const std::vector<char>& fresh, const ConstVectorRef& /*command*/, VectorRef q,
-                  VectorRef qd) noexcept override {
-      if (fresh[0] != 0) q = 0.5 * sensors[0].value();
+    void reset(const ConstVectorRef& /*q*/, const ConstVectorRef& /*qd*/,
+               const ConstVectorRef& /*command*/) noexcept override {}
+    Status update(double /*t*/, const std::vector<Measurement>& told,
+                  const ConstVectorRef& /*command*/, VectorRef q, VectorRef qd) noexcept override {
+      if (told[0].fresh) q = 0.5 * told[0].value;
       qd.setZero();
       return Status::ok;
     }
