@@ -48,6 +48,7 @@ if TYPE_CHECKING:
     from cdcr import casadi as casadi
     from cdcr import control, export, identification, paper, scenarios, sweeps
     from cdcr import gym as gym
+    from cdcr import jax as jax
     from cdcr import plotting as plotting
     from cdcr.identification import identify
     from cdcr.model.subdivision import subdivide_wrench
@@ -126,8 +127,8 @@ __all__ = [
 
 
 _ROOMS = frozenset({
-    "casadi", "control", "export", "gym", "identification", "paper", "plotting", "scenarios",
-    "sweeps",
+    "casadi", "control", "export", "gym", "identification", "jax", "paper", "plotting",
+    "scenarios", "sweeps",
 })  # fmt: skip
 _LATER = {
     "Actuator": "runs.loop",
@@ -165,4 +166,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return [*__all__, "casadi", "gym", "plotting"]  # not in __all__, as each needs an extra
+    return [*__all__, "casadi", "gym", "jax", "plotting"]  # not in __all__, as each needs an extra

@@ -24,6 +24,7 @@ MODULES = (
     cdcr.casadi,
     cdcr.control,
     cdcr.gym,
+    cdcr.jax,
     cdcr.paper,
     cdcr.plotting,
     cdcr.robots,

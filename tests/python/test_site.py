@@ -23,17 +23,8 @@ ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
 REFERENCE = DOCS / "reference"
 MODULES = (
-    *(
-        cdcr,
-        cdcr.casadi,
-        cdcr.control,
-        cdcr.export,
-        cdcr.gym,
-        cdcr.paper,
-        cdcr.plotting,
-        cdcr.robots,
-    ),
-    *(cdcr.identification, cdcr.scenarios, cdcr.sweeps),
+    *(cdcr, cdcr.casadi, cdcr.control, cdcr.export, cdcr.gym, cdcr.identification, cdcr.jax),
+    *(cdcr.paper, cdcr.plotting, cdcr.robots, cdcr.scenarios, cdcr.sweeps),
 )
 RETURNED = {"cdcr.view.View"}  # by public names
 FLAGS = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS

@@ -5,13 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
-
-from cdcr.base.arrays import FloatArray
-from cdcr.base.check import require_kind
-from cdcr.casadi._maps import Map
+from cdcr.casadi._callback import Callback
+from cdcr.model import maps
 from cdcr.model.model import Model
-from cdcr.model.steps import AnyDynamics, Steps, or_nan
 from cdcr.model.wrench import Wrench
 
 
@@ -56,17 +52,7 @@ def dynamics(model: Model, wrenches: Wrench | Sequence[Wrench] = ()) -> Any:
     array([[-82.7,   0. ],
            [  0. , -82.7]])
     """
-    motion = AnyDynamics(model, wrenches)
-    d = model.num_coordinates
-
-    def evaluate(*state: FloatArray) -> tuple[FloatArray, ...]:
-        return (motion.accelerations(*_rows(*state)),)
-
-    def slopes(*state: FloatArray) -> tuple[FloatArray, ...]:
-        return tuple(slope[0] for slope in motion.derivatives(*_rows(*state)))
-
-    takes = {"q": (d, 1), "qd": (d, 1), "tension": (model.num_cables, 1)}
-    return Map("dynamics", takes, {"qdd": (d, 1)}, evaluate, slopes)
+    return Callback.of(maps.dynamics(model, wrenches))
 
 
 def step(
@@ -111,18 +97,7 @@ def step(
     >>> step([0.0, 0.0, 0.0, 0.0], [5.0, 0.0, 0.0]).full().ravel().round(4) + 0.0
     array([0.0011, 0.    , 0.216 , 0.    ])
     """
-    steps = Steps(AnyDynamics(model, wrenches), period, substeps)
-    states, commands = 2 * model.num_coordinates, model.num_cables
-
-    def evaluate(*given: FloatArray) -> tuple[FloatArray, ...]:
-        return (steps.end(*_rows(*given)),)
-
-    def slopes(*given: FloatArray) -> tuple[FloatArray, ...]:
-        both = steps.derivatives(*_rows(*given))[1][0]
-        return both[:, :states], both[:, states:]
-
-    takes = {"x": (states, 1), "tension": (commands, 1)}
-    return Map("step", takes, {"x_next": (states, 1)}, evaluate, slopes)
+    return Callback.of(maps.step(model, period, substeps, wrenches))
 
 
 def tip(model: Model) -> Any:
@@ -153,18 +128,7 @@ def tip(model: Model) -> Any:
     >>> p.full().ravel().round(4)
     array([0.1583, 0.    , 0.7808])
     """
-    require_kind("model", model, Model)
-
-    def evaluate(q: FloatArray) -> tuple[FloatArray, ...]:
-        return or_nan(model.tip, q)
-
-    def slopes(q: FloatArray) -> tuple[FloatArray, ...]:
-        J, R = or_nan(lambda q: (model.tip_jacobian(q), model.tip(q)[0]), q)
-        turned = np.cross(J[3:].T[:, None, :], R.T[None, :, :])  # (d, column of R, its entries)
-        return turned.reshape(len(q), 9).T, J[:3]
-
-    gives = {"R": (3, 3), "p": (3, 1)}
-    return Map("tip", {"q": (model.num_coordinates, 1)}, gives, evaluate, slopes)
+    return Callback.of(maps.tip(model))
 
 
 def cable_lengths(model: Model) -> Any:
@@ -192,18 +156,4 @@ def cable_lengths(model: Model) -> Any:
     >>> cdcr.casadi.cable_lengths(model)([0.4, 0.0]).full().ravel().round(3)
     array([0.794, 0.806, 0.806])
     """
-    require_kind("model", model, Model)
-
-    def evaluate(q: FloatArray) -> tuple[FloatArray, ...]:
-        return or_nan(lambda q: (model.cable_lengths(q),), q)
-
-    def slopes(q: FloatArray) -> tuple[FloatArray, ...]:
-        return or_nan(lambda q: (-model.actuation_matrix(q).T,), q)
-
-    takes = {"q": (model.num_coordinates, 1)}
-    return Map("cable_lengths", takes, {"lengths": (model.num_cables, 1)}, evaluate, slopes)
-
-
-def _rows(*columns: FloatArray) -> tuple[FloatArray, ...]:
-    """Return the same numbers as arrays of one state each."""
-    return tuple(column[None] for column in columns)
+    return Callback.of(maps.cable_lengths(model))

@@ -36,6 +36,7 @@ GIVES = {
     "track": "motions from samples",
     "control": "python-control",
     "casadi": "functions for optimisers",
+    "jax": "functions under jit, vmap and grad",
     "identify": "parameters from measurements",
     "gym": "environments of Gymnasium",
     "mcap": "logs for Foxglove",
