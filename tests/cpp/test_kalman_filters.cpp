@@ -403,7 +403,9 @@ TEST_CASE("what does not fit is refused in a sentence") {
   CHECK_THROWS_SENTENCE(Loop(other, of_other, how, &filter),
                         "the estimator was made for a robot of 2 coordinates and 3 cables, but the "
                         "model has 4 coordinates and 6 cables");
-  VectorXd q(2), qd(2);
+  VectorXd q = VectorXd::Zero(2), qd = q;
+  CHECK(filter.update(0.0, {}, Vector3d::Zero(), q, qd) == Status::not_started);
+  filter.reset(q, qd, Vector3d::Zero());
   CHECK(filter.update(0.0, {}, Vector3d::Zero(), q, qd) == Status::wrong_size);
 }
 

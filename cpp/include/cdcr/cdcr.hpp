@@ -21,6 +21,7 @@
 #include "cdcr/loop.hpp"
 #include "cdcr/model.hpp"
 #include "cdcr/modes.hpp"
+#include "cdcr/momentum_observer.hpp"
 #include "cdcr/pid.hpp"
 #include "cdcr/reference_path.hpp"
 #include "cdcr/robot.hpp"

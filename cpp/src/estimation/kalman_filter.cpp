@@ -185,6 +185,7 @@ bool KalmanFilter::fits(const std::vector<Measurement>& told, const ConstVectorR
 
 Status KalmanFilter::update(double /*t*/, const std::vector<Measurement>& told,
                             const ConstVectorRef& command, VectorRef q, VectorRef qd) noexcept {
+  if (parts_->updates < 0) return Status::not_started;
   if (!fits(told, command, q, qd)) return Status::wrong_size;
   const auto begin = std::chrono::steady_clock::now();
   ++diagnostics_.updates;

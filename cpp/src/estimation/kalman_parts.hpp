@@ -40,8 +40,8 @@ struct KalmanFilter::Parts {
   Actuators actuators;
   std::vector<Waiting> waiting;  // of each sensor
   Waiting commands;
-  Index late;             // how many periods the filter is behind
-  long long updates = 0;  // since reset
+  Index late;              // how many periods the filter is behind
+  long long updates = -1;  // since reset; below zero before the first
   VectorXd given, tension, due, between;
   MatrixXd slopes;
 };
