@@ -45,6 +45,23 @@ inline Robot robot(bool gravity) {
   return robot;
 }
 
+/// Table 1, damped, upright, cut into n equal parts, a disk at the end of each.
+inline Robot in_parts(int n) {
+  Robot robot = amouri2020();
+  robot.gravity = {0.0, 0.0, -9.81};
+  const Section whole = robot.sections[0];
+  Section part = whole;
+  part.length /= n;
+  part.backbone_mass /= n;
+  part.disk_mass *= static_cast<double>(whole.num_disks) / n;
+  part.num_disks = 1;
+  part.damping = 0.02 * n;
+  part.cable_angles.clear();
+  robot.sections.assign(static_cast<std::size_t>(n), part);
+  robot.sections.back().cable_angles = whole.cable_angles;
+  return robot;
+}
+
 /// The start of every run here: bent by pi/4 towards phi = 0, at rest.
 inline State bent() {
   return {bending(quarter_pi, 0.0), VectorXd::Zero(2)};

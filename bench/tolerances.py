@@ -1,15 +1,18 @@
-"""What tolerances give and which method is the quicker: two tables.
+"""What tolerances give, which method is the quicker, and what `auto` chooses: three tables.
 
-    python bench/tolerances.py
+    python bench/tolerances.py [errors | stiffness | choices]
 
 Error over 10 s against rtol, with atol a hundredth of it, and its processor time; then robots that
-are more and more stiff, by bdf and by the explicit methods at the default tolerance.
+are more and more stiff, by bdf and by the explicit methods at rtol 1e-8; then robots and scenarios
+of the package by auto, dop853 and bdf.
 """
 
 from __future__ import annotations
 
 import statistics
+import sys
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from operator import itemgetter
 from typing import Any
@@ -118,11 +121,68 @@ def stiffness() -> str:
     return layout(["1 s at rtol 1e-8", *heads, "dopri5 over bdf", "dop853 over bdf"], rows)
 
 
+MOST_STEPS = 200_000  # after which a method is given up
+
+
+def timed(run: Callable[[str], cdcr.Trajectory]) -> list[str]:
+    """Give processor times [ms] by auto and by what it chooses from, and what it chose."""
+    took, told = {}, ""
+    for method in ("auto", "dop853", "bdf"):
+        times = []
+        for _ in range(TURNS):
+            before = time.process_time()
+            made = run(method)
+            times.append(1e3 * (time.process_time() - before))
+            if not made.success or times[-1] > 3e3:
+                break
+        took[method] = min(times) if made.success else float("inf")
+        if method == "auto" and made.stats.method is not None:
+            since = "" if made.stats.stiff is None else f" from {made.stats.stiff:.2g} s on"
+            told = f"{made.stats.method}{since}"
+    best = min(took["dop853"], took["bdf"])
+    return [*(number(one) for one in took.values()), f"{took['auto'] / best:.2f}", told]
+
+
+def choices() -> str:
+    """Compare auto with the better of dop853 and bdf, at the default tolerances."""
+    rows = []
+    for name in cdcr.robots.names():
+        robot = cdcr.robots.get(name)
+        for parts in (1, 4):
+            if parts > 1 and any(section.is_rod for section in robot.sections):
+                continue
+            model = cdcr.Model(robot.subdivide(parts) if parts > 1 else robot)
+            try:
+                cdcr.Simulator(model)
+            except ValueError:  # parts without mass have no dynamics
+                continue
+            still, pull = np.zeros(model.num_coordinates), model.rest_command()
+            pull[0] += -1e-3 if model.robot.all_cables[0].length_driven else 1.0
+
+            def swing(method: Any, model: cdcr.Model = model, still: Any = still,
+                      pull: Any = pull) -> cdcr.Trajectory:  # fmt: skip
+                return cdcr.simulate(model, still, still, t=[0.0, 1.0], tension=pull, method=method,
+                                     max_steps=MOST_STEPS)  # fmt: skip
+
+            rows.append([f"{name}, {parts} parts" if parts > 1 else name, *timed(swing)])
+    for name in cdcr.scenarios.names():
+        scenario = cdcr.scenarios.get(name)
+        if scenario.t_end > 0.0:
+
+            def scene(method: Any, scenario: Any = scenario) -> cdcr.Trajectory:
+                return scenario.simulate(method=method, max_steps=MOST_STEPS)  # type: ignore[no-any-return]
+
+            rows.append([f"scenario {name}", *timed(scene)])
+    heads = ["auto [ms]", "dop853 [ms]", "bdf [ms]", "auto over the better", "chosen"]
+    return layout(["1 s under a pull; scenarios", *heads], rows)
+
+
 def main() -> None:
-    """Print both tables."""
-    print(stiffness(), flush=True)
-    print()
-    print(errors())
+    """Print the tables asked for, or all."""
+    tables = {"stiffness": stiffness, "choices": choices, "errors": errors}
+    for name in sys.argv[1:] or tables:
+        print(tables[name](), flush=True)
+        print()
 
 
 if __name__ == "__main__":

@@ -87,7 +87,7 @@ void bind_controller(py::module_& m) {
       "...         return [max(0.0, -self.gain * q[0]), 0.0, 0.0]\n"
       ">>> model = cdcr.Model(cdcr.robots.amouri2020())\n"
       ">>> cdcr.simulate(model, [0.1, 0.0], [0.0, 0.0], t=[0.0, 1.0], controller=Spring(1.0))\n"
-      "<Trajectory: 2 samples, t = 0 to 1 s, 1 section, 3 cables, bdf, status ok>");
+      "<Trajectory: 2 samples, t = 0 to 1 s, 1 section, 3 cables, auto, status ok>");
   controller
       .def(py::init([](double period) { return new PythonController(period); }), "period"_a,
            Doc("Make a controller, of which a class derived from this one tells what it does.",

@@ -10,6 +10,7 @@
 #include "controllers.hpp"
 #include "docs.hpp"
 #include "gil.hpp"
+#include "methods.hpp"
 
 namespace cdcr::python {
 
@@ -61,6 +62,7 @@ LoopOptions read_loop(const py::dict& given) {
   LoopOptions options;
   options.step = field<double>(given, "step");
   options.substeps = field<int>(given, "substeps");
+  options.method = read_fixed_step(field<std::string>(given, "method"));
   for (const auto& one : given["actuators"].cast<std::vector<py::dict>>()) {
     options.actuators.push_back(read_actuator(one));
   }

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <tuple>
 #include <vector>
 
@@ -113,6 +114,20 @@ py::list events_of(const Trajectory& run) {
   return events;
 }
 
+/// What `automatic` chose, by its name.
+std::optional<std::string> chosen_method(const Stats& stats) {
+  if (!stats.method) return std::nullopt;
+  return *stats.method == Method::bdf ? "bdf" : "dop853";
+}
+
+Stats make_stats(long steps, long rejected, long evaluations, long jacobians, long newton_failures,
+                 long switches, const std::optional<std::string>& method,
+                 std::optional<double> stiff) {
+  Stats stats{steps, rejected, evaluations, jacobians, newton_failures, switches, {}, stiff};
+  if (method) stats.method = *method == "bdf" ? Method::bdf : Method::dop853;
+  return stats;
+}
+
 constexpr const char* an_input = "TensionInput\n    What a run takes.";
 
 }  // namespace
@@ -125,12 +140,14 @@ void bind_simulate(py::module_& m) {
       .value("bdf", Method::bdf)
       .value("adams", Method::adams)
       .value("dop853", Method::dop853)
+      .value("auto", Method::automatic)
+      .value("rosenbrock", Method::rosenbrock)
       .finalize();
 
   const Options defaults;
   py::class_<Options>(m, "Options", "Tolerances, steps and limits of a run.")
-      .def(py::init([](double rtol, double atol, double step, double max_step,
-                       std::optional<long> max_steps) {
+      .def(py::init([](std::optional<double> rtol, std::optional<double> atol, double step,
+                       double max_step, std::optional<long> max_steps) {
              Options options;
              options.rtol = rtol;
              options.atol = atol;
@@ -144,13 +161,17 @@ void bind_simulate(py::module_& m) {
            "step"_a = defaults.step, "max_step"_a = defaults.max_step,
            "max_steps"_a = defaults.max_steps,
            Doc("Take the options of ``cdcr.simulate``.",
-               {"rtol, atol : float\n    Tolerances of one step [-], [rad] and [rad/s].\n",
-                "step, max_step : float\n    Step of rk4, largest step of the others [s].\n",
+               {"rtol, atol : float or None\n    Tolerances of one step [-], [rad] and [rad/s]; "
+                "None: 1e-8, by\n"
+                "    bdf 1e-9, and a hundredth of rtol.\n",
+                "step, max_step : float\n    Step of rk4 and rosenbrock, largest step of the "
+                "others [s].\n",
                 "max_steps : int or None\n    Internal steps in one run; None: a million, and a\n"
                 "    hundred more for each stretch between break points.\n"},
                "", docs::bad_argument))
-      .def_readonly("rtol", &Options::rtol, "Relative tolerance of one step [-].")
-      .def_readonly("atol", &Options::atol, "Absolute tolerance of one step [rad], [rad/s].")
+      .def_readonly("rtol", &Options::rtol, "Relative tolerance of one step [-]; None: as said.")
+      .def_readonly("atol", &Options::atol,
+                    "Absolute tolerance of one step [rad], [rad/s]; None: as said.")
       .def_readonly("step", &Options::step, "Step of rk4 [s].")
       .def_readonly("max_step", &Options::max_step,
                     "Largest step of adaptive methods [s]; 0: no limit.")
@@ -158,37 +179,49 @@ void bind_simulate(py::module_& m) {
 
   py::class_<Stats> stats(m, "Stats", "What a run cost, counted by the integrator.");
   stats
-      .def(py::init([](long steps, long rejected, long evaluations, long jacobians,
-                       long newton_failures) {
-             return Stats{steps, rejected, evaluations, jacobians, newton_failures};
-           }),
-           "steps"_a = 0, "rejected"_a = 0, "evaluations"_a = 0, "jacobians"_a = 0,
-           "newton_failures"_a = 0,
+      .def(py::init(&make_stats), "steps"_a = 0, "rejected"_a = 0, "evaluations"_a = 0,
+           "jacobians"_a = 0, "newton_failures"_a = 0, "switches"_a = 0, "method"_a = py::none(),
+           "stiff"_a = py::none(),
            Doc("Take the counts.",
-               {"steps, rejected, evaluations, jacobians, newton_failures : int, optional\n"
-                "    See the attributes.\n"}))
+               {"steps, rejected, evaluations, jacobians, newton_failures, switches : int, "
+                "optional\n"
+                "    See the attributes.\n",
+                "method : {\"dop853\", \"bdf\"} or None, optional\n    See the attributes.\n",
+                "stiff : float or None, optional\n    See the attributes [s].\n"}))
       .def_readonly("steps", &Stats::steps, "Internal steps accepted.")
       .def_readonly("rejected", &Stats::rejected, "Steps thrown away by the error test.")
       .def_readonly("evaluations", &Stats::evaluations, "Evaluations of the equations of motion.")
       .def_readonly("jacobians", &Stats::jacobians, "Evaluations of their Jacobian.")
       .def_readonly("newton_failures", &Stats::newton_failures,
                     "Newton iterations that did not converge.")
+      .def_readonly("switches", &Stats::switches,
+                    "Of method auto: changes between its explicit and its implicit method.")
+      .def_property_readonly("method", &chosen_method, "Of method auto: what made the last steps.")
+      .def_readonly("stiff", &Stats::stiff,
+                    "Of method auto: since when stability alone held explicit steps back [s].")
       .def("__repr__", [](const Stats& s) {
+        std::ostringstream of_auto;
+        const auto method = chosen_method(s);
+        if (method) of_auto << ", switches=" << s.switches << ", method=" << *method;
+        if (s.stiff) of_auto << ", stiff=" << *s.stiff;
         return "Stats(steps=" + std::to_string(s.steps) +
                ", rejected=" + std::to_string(s.rejected) +
                ", evaluations=" + std::to_string(s.evaluations) +
                ", jacobians=" + std::to_string(s.jacobians) +
-               ", newton_failures=" + std::to_string(s.newton_failures) + ")";
+               ", newton_failures=" + std::to_string(s.newton_failures) + of_auto.str() + ")";
       });
 
   make_picklable(
       stats,
       [](const Stats& s) {
-        return py::make_tuple(s.steps, s.rejected, s.evaluations, s.jacobians, s.newton_failures);
+        return py::make_tuple(s.steps, s.rejected, s.evaluations, s.jacobians, s.newton_failures,
+                              s.switches, chosen_method(s), s.stiff);
       },
       [](const py::tuple& s) {
-        return Stats{s[0].cast<long>(), s[1].cast<long>(), s[2].cast<long>(), s[3].cast<long>(),
-                     s[4].cast<long>()};
+        return make_stats(s[0].cast<long>(), s[1].cast<long>(), s[2].cast<long>(),
+                          s[3].cast<long>(), s[4].cast<long>(), s[5].cast<long>(),
+                          s[6].cast<std::optional<std::string>>(),
+                          s[7].cast<std::optional<double>>());
       });
 
   py::class_<CommandInput>(m, "TensionInput", "Commands of the cables as a function of time.")

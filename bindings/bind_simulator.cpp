@@ -1,5 +1,6 @@
 #include <memory>
 #include <sstream>
+#include <string>
 #include <utility>
 
 #include "arrays.hpp"
@@ -7,6 +8,7 @@
 #include "cdcr/simulator.hpp"
 #include "docs.hpp"
 #include "gil.hpp"
+#include "methods.hpp"
 #include "pickling.hpp"
 
 namespace cdcr::python {
@@ -17,8 +19,8 @@ using namespace py::literals;
 /// A simulator that knows the model as Python has it.
 class PythonSimulator final : public Simulator {
  public:
-  PythonSimulator(py::object of, double step, int substeps)
-      : Simulator(read_model(of), step, substeps), model(std::move(of)) {}
+  PythonSimulator(py::object of, double step, int substeps, const std::string& name)
+      : Simulator(read_model(of), step, substeps, read_fixed_step(name)), model(std::move(of)) {}
 
   py::object model;
 };
@@ -27,12 +29,13 @@ namespace {
 
 py::tuple take_apart(const PythonSimulator& s) {
   return py::make_tuple(s.model, s.period(), s.substeps(), s.started(), to_array(s.q()),
-                        to_array(s.qd()), s.start(), s.periods());
+                        to_array(s.qd()), s.start(), s.periods(),
+                        s.method() == Method::rk4 ? "rk4" : "rosenbrock");
 }
 
 PythonSimulator* put_together(const py::tuple& state) {
-  auto simulator =
-      std::make_unique<PythonSimulator>(state[0], state[1].cast<double>(), state[2].cast<int>());
+  auto simulator = std::make_unique<PythonSimulator>(
+      state[0], state[1].cast<double>(), state[2].cast<int>(), state[8].cast<std::string>());
   if (state[3].cast<bool>()) {
     simulator->reset(to_vector(state[4]), to_vector(state[5]), state[6].cast<double>(),
                      state[7].cast<long long>());
@@ -46,15 +49,19 @@ void bind_simulator(py::module_& m) {
   py::class_<PythonSimulator> bound(
       m, "Simulator",
       "The robot inside a control loop: one period at a time, commands held over the period.\n\n"
-      "Runge-Kutta 4 on the equations of motion, cpp/README.md eq. (16). A failed step leaves the\n"
-      "last good state in place.\n\n"
+      "Runge-Kutta 4 on the equations of motion, cpp/README.md eq. (16), or linearly implicit\n"
+      "steps of second order. A failed step leaves the last good state in place.\n\n"
       "Parameters\n----------\n"
       "model : Model\n    The robot.\n"
       "step : float, default 1e-3\n    Control period [s], > 0.\n"
-      "substeps : int, default 1\n    Equal Runge-Kutta steps in each period, >= 1.\n\n"
+      "substeps : int, default 1\n    Equal steps of the method in each period, >= 1.\n"
+      "method : {\"rk4\", \"rosenbrock\"}, default \"rk4\"\n"
+      "    Explicit, or linearly implicit, which is stable whatever the step: for strong damping,\n"
+      "    many parts and rods.\n\n"
       "Raises\n------\n"
-      "ValueError\n    For a step or a number of substeps out of its range, or a robot without "
-      "inertia.\n\n"
+      "ValueError\n    For a step or a number of substeps out of its range, another method, or a "
+      "robot\n"
+      "    without inertia.\n\n"
       "Examples\n--------\n"
       ">>> import cdcr\n"
       ">>> simulator = cdcr.Simulator(cdcr.Model(cdcr.robots.amouri2020()), step=1e-3)\n"
@@ -62,11 +69,13 @@ void bind_simulator(py::module_& m) {
       ">>> simulator.step([5.0, 0.0, 0.0])\n"
       "<Status.ok: 0>");
   bound
-      .def(py::init<py::object, double, int>(), "model"_a, py::kw_only(), "step"_a = 1e-3,
-           "substeps"_a = 1,
+      .def(py::init<py::object, double, int, const std::string&>(), "model"_a, py::kw_only(),
+           "step"_a = 1e-3, "substeps"_a = 1, "method"_a = "rk4",
            Doc("Make a simulator, which has no state until `reset`.",
                {docs::model, "step : float, default 1e-3\n    Control period [s], > 0.\n",
-                "substeps : int, default 1\n    Runge-Kutta steps in each period, >= 1.\n"}))
+                "substeps : int, default 1\n    Steps of the method in each period, >= 1.\n",
+                "method : {\"rk4\", \"rosenbrock\"}, default \"rk4\"\n"
+                "    Explicit, or linearly implicit.\n"}))
       .def(
           "reset",
           [](PythonSimulator& self, const py::object& q, const py::object& qd, double time) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <stdexcept>
+#include <string>
+
 #include "cdcr/integrator.hpp"
 
 #ifdef CDCR_WITH_CVODE
@@ -15,5 +18,13 @@ inline constexpr auto* make_any_integrator = make_cvode_integrator;
 inline constexpr bool with_cvode = false;
 inline constexpr auto* make_any_integrator = make_integrator;
 #endif
+
+/// The method of a simulator, by its name.
+inline Method read_fixed_step(const std::string& name) {
+  if (name != "rk4" && name != "rosenbrock") {
+    throw std::invalid_argument("method must be 'rk4' or 'rosenbrock', got '" + name + "'");
+  }
+  return name == "rk4" ? Method::rk4 : Method::rosenbrock;
+}
 
 }  // namespace cdcr::python

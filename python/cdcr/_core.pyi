@@ -190,16 +190,16 @@ class Options(metaclass=_Bound):
     def __init__(
         self,
         *,
-        rtol: float = ...,
-        atol: float = ...,
+        rtol: float | None = None,
+        atol: float | None = None,
         step: float = ...,
         max_step: float = ...,
         max_steps: int | None = None,
     ) -> None: ...
     @property
-    def rtol(self) -> float: ...
+    def rtol(self) -> float | None: ...
     @property
-    def atol(self) -> float: ...
+    def atol(self) -> float | None: ...
     @property
     def step(self) -> float: ...
     @property
@@ -218,6 +218,9 @@ class Stats(metaclass=_Bound):
         evaluations: int = 0,
         jacobians: int = 0,
         newton_failures: int = 0,
+        switches: int = 0,
+        method: str | None = None,
+        stiff: float | None = None,
     ) -> None: ...
     @property
     def steps(self) -> int: ...
@@ -229,6 +232,12 @@ class Stats(metaclass=_Bound):
     def jacobians(self) -> int: ...
     @property
     def newton_failures(self) -> int: ...
+    @property
+    def switches(self) -> int: ...
+    @property
+    def method(self) -> str | None: ...
+    @property
+    def stiff(self) -> float | None: ...
 
 @final
 class TensionInput(metaclass=_Bound):
@@ -308,7 +317,9 @@ def rollout(
 class Simulator(metaclass=_Bound):
     """The robot inside a control loop: one period at a time, tensions held over the period."""
 
-    def __init__(self, model: Model, *, step: float = 0.001, substeps: int = 1) -> None: ...
+    def __init__(
+        self, model: Model, *, step: float = 0.001, substeps: int = 1, method: str = "rk4"
+    ) -> None: ...
     def reset(self, q: ArrayLike, qd: ArrayLike, time: float = 0.0) -> None: ...
     def step(
         self,

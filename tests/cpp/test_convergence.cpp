@@ -100,6 +100,21 @@ TEST_CASE("Runge-Kutta between its steps is of order 4 too") {
   CHECK(fitted < 4.3);
 }
 
+TEST_CASE("Rosenbrock's method is of order 2, at its steps and between them") {
+  const Model model = damped_upright();
+  for (const CommandInput& input : {no_tension(model), pulse(), ramp()}) {
+    for (const int samples : {2, 1234}) {
+      const double fitted = order(0.005, 4, [&](double step) {
+        return error_of(model, input, even_times(0.0, end, samples), Method::rosenbrock,
+                        fixed_step(step));
+      });
+      MESSAGE("fitted order of rosenbrock: ", fitted, ", samples: ", samples);
+      CHECK(fitted > 1.9);
+      CHECK(fitted < 2.2);
+    }
+  }
+}
+
 TEST_CASE("Dormand-Prince is of order 5") {
   const Model model = damped_upright();
   const double fitted = order(0.025, 5, [&](double step) {

@@ -89,7 +89,8 @@ def test_info_of_what_does_not_exist(tmp_path: Path) -> None:
         (["run", "x.toml"], "there is no scenario file x.toml"),
         (
             ["run", "step-tension", "--method", "euler"],
-            "--method must be one of 'rk4', 'dopri5', 'bdf', 'adams', 'dop853', got 'euler'",
+            "--method must be one of 'rk4', 'dopri5', 'bdf', 'adams', 'dop853', "
+            "'auto', 'rosenbrock', got 'euler'",
         ),
         (
             ["run", "step-tension", "--t-end", "-1"],

@@ -206,7 +206,9 @@ def test_signatures_of_the_core_have_names_and_defaults() -> None:
     model = cdcr.Model(cdcr.robots.amouri2020())
     assert str(inspect.signature(model.forward_dynamics)) == "(q, qd, tension, wrenches=())"
     assert str(inspect.signature(cdcr.Model.mass_matrix)) == "(self, q)"
-    assert str(inspect.signature(cdcr.Simulator)) == "(model, *, step=0.001, substeps=1)"
+    assert str(inspect.signature(cdcr.Simulator)) == (
+        "(model, *, step=0.001, substeps=1, method='rk4')"
+    )
     assert inspect.signature(cdcr.Pid).parameters["max_tension"].default == float("inf")
     assert list(inspect.signature(cdcr.Model).parameters) == ["robot", "formulation"]
 

@@ -11,7 +11,7 @@ import pytest
 
 import cdcr
 
-METHODS = ("bdf", "adams", "dopri5", "dop853", "rk4")
+METHODS = ("auto", "bdf", "adams", "dopri5", "dop853", "rk4")
 ZEROS = [0.0, 0.0]
 
 

@@ -11,7 +11,7 @@ import pytest
 
 import cdcr
 
-METHODS = ("rk4", "dopri5", "dop853", "bdf", "adams")
+METHODS = ("auto", "rk4", "dopri5", "dop853", "bdf", "adams")
 ZEROS = np.zeros(2)
 
 

@@ -28,7 +28,10 @@ def alone(i: int, t: FloatArray, method: Any = "rk4", model: cdcr.Model = MODEL)
     return cdcr.simulate(model, Q0[i], QD0[i], t=t, tension=table, method=method, step=STEP)
 
 
-@pytest.mark.parametrize("method", ["rk4", "dopri5", "dop853", "bdf", "adams"])
+METHODS = ("rk4", "rosenbrock", "auto", "dopri5", "dop853", "bdf", "adams")
+
+
+@pytest.mark.parametrize("method", METHODS)
 def test_every_motion_is_that_of_simulate(method: Any) -> None:
     runs = cdcr.rollout(MODEL, Q0, QD0, tension=PULLS, method=method, record_every=4, **RUN)
     assert runs.success

@@ -188,7 +188,8 @@ def test_methods_are_those_of_the_core() -> None:
         ),
         (
             FILE + "integrator.method = 'euler'\n",
-            'integrator.method must be "bdf", "adams", "dopri5", "dop853" or "rk4", '
+            'integrator.method must be "auto", "bdf", "adams", "dopri5", "dop853", "rk4" or '
+            '"rosenbrock", '
             "got 'euler' (string)",
         ),
         (

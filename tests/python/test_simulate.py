@@ -160,9 +160,9 @@ def test_one_time_is_enough(model: cdcr.Model) -> None:
 
 def test_a_step_limit_keeps_what_was_reached(model: cdcr.Model) -> None:
     full = run(model)
-    cut = cdcr.simulate(model, Q0, QD0, t=full.t, max_steps=100)
+    cut = cdcr.simulate(model, Q0, QD0, t=full.t, max_steps=10)
     assert cut.status is cdcr.Status.step_limit
-    assert cut.stats.steps == 100
+    assert cut.stats.steps == 10
     assert 0 < len(cut) < len(full)
     np.testing.assert_array_equal(cut.q, full.q[: len(cut)])
     assert re.match(r"^Stopped at t = [\d.]+ s \(step_limit\)\. The run needed more", cut.message)
@@ -253,7 +253,8 @@ def test_pickle(model: cdcr.Model) -> None:
     assert repr(again) == repr(found)
     assert repr(again.stats) == repr(found.stats)
     assert re.match(
-        r"^Stats\(steps=\d+, rejected=\d+, evaluations=\d+, jacobians=\d+, newton_failures=\d+\)$",
+        r"^Stats\(steps=\d+, rejected=\d+, evaluations=\d+, jacobians=\d+, newton_failures=\d+, "
+        r"switches=0, method=dop853\)$",
         repr(found.stats),
     )
     np.testing.assert_array_equal(again.model.tip(Q0)[1], model.tip(Q0)[1])

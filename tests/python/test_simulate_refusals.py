@@ -48,7 +48,8 @@ def refuses(sentence: str) -> Any:
         ({"t": "soon"}, "t must be numbers of shape (any,), got str"),
         (
             {"method": "euler"},
-            "method must be one of 'rk4', 'dopri5', 'bdf', 'adams', 'dop853', got 'euler'",
+            "method must be one of 'rk4', 'dopri5', 'bdf', 'adams', 'dop853', "
+            "'auto', 'rosenbrock', got 'euler'",
         ),
         ({"rtol": 0.0}, "rtol must be at least 1e-14 and below 1, got 0"),
         ({"rtol": 1.0}, "rtol must be at least 1e-14 and below 1, got 1"),

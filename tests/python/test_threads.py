@@ -10,7 +10,7 @@ import pytest
 
 import cdcr
 
-METHODS = ["bdf", "adams", "dopri5", "dop853", "rk4"]
+METHODS = ["auto", "bdf", "adams", "dopri5", "dop853", "rk4"]
 NUM_THREADS = 4
 
 

@@ -5,7 +5,8 @@
 
 namespace CDCR_EXPORT cdcr {
 
-/// All four methods: bdf and adams by CVODE, the others by make_integrator. In target cdcr::cvode.
+/// All methods: bdf and adams by CVODE, automatic with that bdf, the others by make_integrator. In
+/// target cdcr::cvode.
 ///
 /// bdf, of order 1 to 5, keeps its large steps under any damping. adams, of order 1 to 12, needs
 /// fewer and dearer steps, and is the more accurate of the two where the robot swings freely. Both

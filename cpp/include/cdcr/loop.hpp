@@ -14,7 +14,8 @@ namespace CDCR_EXPORT cdcr {
 
 struct LoopOptions {
   double step = 1e-3;               ///< of the plant [s]; all periods are whole numbers of it
-  int substeps = 1;                 ///< Runge-Kutta steps in each
+  int substeps = 1;                 ///< equal steps of the method in each
+  Method method = Method::rk4;      ///< of the plant: rk4 or rosenbrock, as of Simulator
   std::vector<Actuator> actuators;  ///< none, one for all cables, or one for each
   std::vector<Sensor> sensors;  ///< without one of coordinates or of rates, these are known exactly
 };

@@ -60,7 +60,7 @@ using Progress = std::function<bool(double t)>;
 /// cdcr/cvode.hpp.
 [[nodiscard]] Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
                                   const VectorXd& times, const CommandInput& input,
-                                  Method method = Method::dopri5, const Options& options = {},
+                                  Method method = Method::automatic, const Options& options = {},
                                   IntegratorFactory factory = make_integrator,
                                   const Progress& progress = {}, const WrenchInput& loads = {},
                                   const Events& events = {});
@@ -68,7 +68,7 @@ using Progress = std::function<bool(double t)>;
 /// The same under a controller, which is reset, then asked at times[0] and each period after.
 [[nodiscard]] Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
                                   const VectorXd& times, Controller& controller,
-                                  Method method = Method::dopri5, const Options& options = {},
+                                  Method method = Method::automatic, const Options& options = {},
                                   IntegratorFactory factory = make_integrator,
                                   const Progress& progress = {}, const WrenchInput& loads = {},
                                   const Events& events = {});

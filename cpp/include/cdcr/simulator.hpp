@@ -4,6 +4,7 @@
 
 #include "cdcr/dynamics.hpp"
 #include "cdcr/export.hpp"
+#include "cdcr/method.hpp"
 #include "cdcr/status.hpp"
 
 namespace CDCR_EXPORT cdcr {
@@ -14,8 +15,10 @@ namespace CDCR_EXPORT cdcr {
 /// the accessors are noexcept and allocate nothing; on failure the last good state stays.
 class Simulator {
  public:
-  /// `step` is the control period [s], made of `substeps` equal Runge-Kutta 4 steps.
-  explicit Simulator(const Model& model, double step = 1e-3, int substeps = 1);
+  /// `step` is the control period [s], made of `substeps` equal steps by rk4 or by rosenbrock,
+  /// which needs few of them where damping is strong or sections are cut into many parts.
+  explicit Simulator(const Model& model, double step = 1e-3, int substeps = 1,
+                     Method method = Method::rk4);
   ~Simulator();
   Simulator(Simulator&&) noexcept;
   Simulator& operator=(Simulator&&) noexcept;
@@ -38,8 +41,9 @@ class Simulator {
   [[nodiscard]] double time() const noexcept { return time_; }          ///< [s]
   [[nodiscard]] double period() const noexcept { return period_; }      ///< [s]
   [[nodiscard]] int substeps() const noexcept { return substeps_; }     ///< in a period
-  [[nodiscard]] bool started() const noexcept { return started_; }      ///< reset has been called
-  [[nodiscard]] double start() const noexcept { return start_; }        ///< as reset was told [s]
+  [[nodiscard]] Method method() const noexcept { return method_; }
+  [[nodiscard]] bool started() const noexcept { return started_; }       ///< reset has been called
+  [[nodiscard]] double start() const noexcept { return start_; }         ///< as reset was told [s]
   [[nodiscard]] long long periods() const noexcept { return periods_; }  ///< since start
 
  private:
@@ -50,6 +54,7 @@ class Simulator {
   double period_ = 0.0, time_ = 0.0, start_ = 0.0;
   long long periods_ = 0;
   int substeps_ = 1;
+  Method method_;
   bool started_ = false;
   VectorXd q_, qd_, force_;
   VectorXd y_, trial_;  // (q, qd) within a period

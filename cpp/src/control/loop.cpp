@@ -11,7 +11,7 @@ namespace cdcr {
 
 Loop::Loop(const Model& plant, Controller& controller, LoopOptions options, Estimator* estimator)
     : options_(std::move(options)),
-      plant_(plant, options_.step, options_.substeps),
+      plant_(plant, options_.step, options_.substeps, options_.method),
       controller_(&controller),
       estimator_(estimator),
       actuators_(plant, options_.actuators, options_.step) {
@@ -137,7 +137,9 @@ LoopRun run(Loop& loop, double duration, Index record_every, const Wrenches& wre
     ++row;
   }
   out.stats.steps = static_cast<long>(loop.plant().periods()) * loop.options().substeps;
-  out.stats.evaluations = 4 * out.stats.steps;
+  const bool implicit = loop.options().method == Method::rosenbrock;
+  out.stats.evaluations = (implicit ? 2 : 4) * out.stats.steps;
+  out.stats.jacobians = implicit ? out.stats.steps : 0;
   if (out.status != Status::ok) {
     out.message = detail::sentence("stopped at t = ", loop.time(), " s: ", message(out.status));
   }

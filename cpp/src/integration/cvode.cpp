@@ -105,7 +105,7 @@ class Cvode final : public Integrator {
   Status attempt();
 
   RobotOde& ode_;
-  Options options_;
+  Tolerances tolerances_;
   Owner<SUNContext> context_;
   Owner<N_Vector> trial_, between_;  // the end of a step, a point within it
   Owner<SUNMatrix> matrix_;
@@ -127,7 +127,7 @@ class Cvode final : public Integrator {
 // fixed-point iteration needs three times as many steps, and at 10 sixty times as many.
 Cvode::Cvode(RobotOde& ode, Method method, const Options& options)
     : ode_(ode),
-      options_(options),
+      tolerances_(options, method),
       context_(make_context()),
       trial_(make_vector(ode.num_states(), context_.get())),
       between_(make_vector(ode.num_states(), context_.get())),
@@ -150,7 +150,7 @@ Cvode::Cvode(RobotOde& ode, Method method, const Options& options)
     [[maybe_unused]] void* const left = cvode_.release();
     throw std::bad_alloc();
   }
-  require(CVodeSStolerances(cvode, options.rtol, options.atol), "CVodeSStolerances");
+  require(CVodeSStolerances(cvode, tolerances_.rtol, tolerances_.atol), "CVodeSStolerances");
   require(CVodeSetLinearSolver(cvode, linear_solver_.get(), matrix_.get()), "CVodeSetLinearSolver");
   require(CVodeSetJacFn(cvode, jacobian), "CVodeSetJacFn");
   require(CVodeSetMaxStep(cvode, options.max_step), "CVodeSetMaxStep");
@@ -231,7 +231,7 @@ Status Cvode::evaluate(double t, const double* y, VectorRef slope) {
 double Cvode::norm(const VectorXd& v) const noexcept {
   double sum = 0.0;
   for (Index i = 0; i < v.size(); ++i) {
-    const double scaled = v[i] / (options_.atol + options_.rtol * std::abs(state_[i]));
+    const double scaled = v[i] / (tolerances_.atol + tolerances_.rtol * std::abs(state_[i]));
     sum += scaled * scaled;
   }
   return std::sqrt(sum / static_cast<double>(v.size()));
@@ -338,10 +338,13 @@ Stats Cvode::stats() const noexcept {
 
 std::unique_ptr<Integrator> make_cvode_integrator(RobotOde& ode, Method method,
                                                   const Options& options) {
+  validate(options);
+  if (method == Method::automatic) {
+    return make_automatic_integrator(ode, options, make_cvode_integrator);
+  }
   if (method != Method::bdf && method != Method::adams) {
     return make_integrator(ode, method, options);
   }
-  validate(options);
   return std::make_unique<Cvode>(ode, method, options);
 }
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-
 #include "integration/embedded_pair.hpp"
 
 namespace cdcr::detail {
@@ -11,15 +9,26 @@ class Dop853 final : public EmbeddedPair {
  public:
   Dop853(RobotOde& ode, const Options& options);
 
+  /// Whether stability, rather than what moves, bounds the step just made.
+  [[nodiscard]] bool is_held_by_stability() const noexcept;
+
  private:
   void make_stages(double h) override;
   [[nodiscard]] double error_norm(double h) override;
   void prepare_interpolation(double h) override;
   void interpolate_in_step(double share, VectorXd& y) const override;
 
-  std::array<VectorXd, 16> slopes_;  // 0 and 12 those of the ends, from 13 on for dense output
-  std::array<VectorXd, 7> dense_;
-  VectorXd error_5_, error_3_;
+  /// For so many states, known when compiled; Eigen::Dynamic for any.
+  template <int N>
+  void make_stages_of(double h);
+  template <int N>
+  [[nodiscard]] double error_norm_of(double h) const;
+  template <int N>
+  void prepare_interpolation_of(double h);
+
+  MatrixXd slopes_;         // 0 and 12 those of the ends, from 13 on for dense output
+  MatrixXd dense_;          // coefficients in its columns
+  VectorXd last_argument_;  // where slope 11 was taken, at the end of the step
 };
 
 }  // namespace cdcr::detail

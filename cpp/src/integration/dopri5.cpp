@@ -10,7 +10,7 @@ constexpr double beta = 0.04;
 }  // namespace
 
 Dopri5::Dopri5(RobotOde& ode, const Options& options)
-    : EmbeddedPair(ode, options, {0.2, beta, 0.2 - 0.75 * beta, 10.0, 0.2}) {
+    : EmbeddedPair(ode, Method::dopri5, options, {0.2, beta, 0.2 - 0.75 * beta, 10.0, 0.2, 0.9}) {
   for (VectorXd* v : {&k2_, &k3_, &k4_, &k5_, &k6_, &bend_, &turn_, &fifth_}) {
     v->setZero(ode.num_states());
   }
@@ -19,32 +19,32 @@ Dopri5::Dopri5(RobotOde& ode, const Options& options)
 void Dopri5::make_stages(double h) {
   const Index n = y_.size();
   for (Index i = 0; i < n; ++i) trial_[i] = y_[i] + h * (1.0 / 5.0) * slope_[i];
-  derivative(t_ + h / 5.0, trial_, k2_);
+  derivative(t_ + h / 5.0, trial_.data(), k2_.data());
   for (Index i = 0; i < n; ++i) {
     trial_[i] = y_[i] + h * (3.0 / 40.0 * slope_[i] + 9.0 / 40.0 * k2_[i]);
   }
-  derivative(t_ + 0.3 * h, trial_, k3_);
+  derivative(t_ + 0.3 * h, trial_.data(), k3_.data());
   for (Index i = 0; i < n; ++i) {
     trial_[i] = y_[i] + h * (44.0 / 45.0 * slope_[i] - 56.0 / 15.0 * k2_[i] + 32.0 / 9.0 * k3_[i]);
   }
-  derivative(t_ + 0.8 * h, trial_, k4_);
+  derivative(t_ + 0.8 * h, trial_.data(), k4_.data());
   for (Index i = 0; i < n; ++i) {
     trial_[i] = y_[i] + h * (19372.0 / 6561.0 * slope_[i] - 25360.0 / 2187.0 * k2_[i] +
                              64448.0 / 6561.0 * k3_[i] - 212.0 / 729.0 * k4_[i]);
   }
-  derivative(t_ + 8.0 / 9.0 * h, trial_, k5_);
+  derivative(t_ + 8.0 / 9.0 * h, trial_.data(), k5_.data());
   for (Index i = 0; i < n; ++i) {
     trial_[i] =
         y_[i] + h * (9017.0 / 3168.0 * slope_[i] - 355.0 / 33.0 * k2_[i] +
                      46732.0 / 5247.0 * k3_[i] + 49.0 / 176.0 * k4_[i] - 5103.0 / 18656.0 * k5_[i]);
   }
-  derivative(t_ + h, trial_, k6_);
+  derivative(t_ + h, trial_.data(), k6_.data());
   for (Index i = 0; i < n; ++i) {
     trial_[i] =
         y_[i] + h * (35.0 / 384.0 * slope_[i] + 500.0 / 1113.0 * k3_[i] + 125.0 / 192.0 * k4_[i] -
                      2187.0 / 6784.0 * k5_[i] + 11.0 / 84.0 * k6_[i]);
   }
-  derivative(t_ + h, trial_, new_slope_);
+  derivative(t_ + h, trial_.data(), new_slope_.data());
 }
 
 double Dopri5::error_norm(double h) {

@@ -9,8 +9,6 @@
 namespace cdcr::detail {
 namespace {
 
-constexpr double safety = 0.9;
-
 double weighted_norm(const VectorXd& v, const VectorXd& y, double rtol, double atol) {
   double sum = 0.0;
   for (Index i = 0; i < v.size(); ++i) {
@@ -22,20 +20,12 @@ double weighted_norm(const VectorXd& v, const VectorXd& y, double rtol, double a
 
 }  // namespace
 
-EmbeddedPair::EmbeddedPair(RobotOde& ode, const Options& options, const Control& control)
-    : ode_(ode), options_(options), control_(control) {
+EmbeddedPair::EmbeddedPair(RobotOde& ode, Method method, const Options& options,
+                           const Control& control)
+    : ode_(ode), tolerances_(options, method), max_step_(options.max_step), control_(control) {
   for (VectorXd* v : {&y_, &trial_, &y_before_, &slope_, &new_slope_, &slope_before_}) {
     v->setZero(ode.num_states());
   }
-}
-
-void EmbeddedPair::derivative(double t, const VectorXd& y, VectorXd& dydt) {
-  ode_.derivative(t, y.data(), dydt.data());
-  ++stats_.evaluations;
-}
-
-double EmbeddedPair::tolerance(Index i) const {
-  return options_.atol + options_.rtol * std::max(std::abs(y_[i]), std::abs(trial_[i]));
 }
 
 Status EmbeddedPair::restart(double t, const VectorXd& y, double t_stop) {
@@ -47,7 +37,7 @@ Status EmbeddedPair::restart(double t, const VectorXd& y, double t_stop) {
   last_error_ = 1e-4;
   const Status status = ode_.check(y_.data());
   if (status != Status::ok) return status;
-  derivative(t_, y_, slope_);
+  derivative(t_, y_.data(), slope_.data());
   if (!slope_.allFinite()) return Status::non_finite_state;
   h_ = first_step();
   return Status::ok;
@@ -56,18 +46,18 @@ Status EmbeddedPair::restart(double t, const VectorXd& y, double t_stop) {
 /// Starting step: one that makes an explicit Euler step small, refined by the second derivative.
 /// Depends on the problem and the tolerances alone.
 double EmbeddedPair::first_step() {
-  const double rtol = options_.rtol, atol = options_.atol;
+  const double rtol = tolerances_.rtol, atol = tolerances_.atol;
   const double d0 = weighted_norm(y_, y_, rtol, atol), d1 = weighted_norm(slope_, y_, rtol, atol);
   const double h0 = d0 < 1e-5 || d1 < 1e-5 ? 1e-6 : 0.01 * d0 / d1;
   trial_ = y_ + h0 * slope_;
-  derivative(t_ + h0, trial_, new_slope_);
+  derivative(t_ + h0, trial_.data(), new_slope_.data());
   trial_ = new_slope_ - slope_;
   const double d2 = weighted_norm(trial_, y_, rtol, atol) / h0;
   const double largest = std::max(d1, d2);
   double h1 = largest <= 1e-15 ? std::max(1e-6, 1e-3 * h0)
                                : std::pow(0.01 / largest, control_.inverse_order);
   h1 = std::isfinite(h1) ? std::min(100.0 * h0, h1) : h0;
-  return options_.max_step > 0.0 ? std::min(h1, options_.max_step) : h1;
+  return max_step_ > 0.0 ? std::min(h1, max_step_) : h1;
 }
 
 Status EmbeddedPair::failure_status() const {
@@ -81,7 +71,7 @@ Status EmbeddedPair::step() {
   const double smallest =
       4.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(t_), std::abs(stop_));
   for (bool rejected = false;; rejected = true) {
-    double h = options_.max_step > 0.0 ? std::min(h_, options_.max_step) : h_;
+    double h = max_step_ > 0.0 ? std::min(h_, max_step_) : h_;
     const double left = stop_ - t_;
     const bool last = 1.01 * h >= left;  // rather a slightly longer step than a tiny one after it
     if (last) h = left;
@@ -91,7 +81,7 @@ Status EmbeddedPair::step() {
     const double error = error_norm(h);
     if (!(error <= 1.0)) {  // also for NaN
       ++stats_.rejected;
-      const double cut = safety * std::pow(error, -control_.inverse_order);
+      const double cut = control_.safety * std::pow(error, -control_.inverse_order);
       h_ = h * (std::isfinite(error) ? std::max(control_.largest_cut, cut) : control_.largest_cut);
       if (h_ < smallest) return failure_status();
       continue;
@@ -99,7 +89,7 @@ Status EmbeddedPair::step() {
     const Status status = ode_.check(trial_.data());
     if (status != Status::ok) return status;
 
-    const double wanted = safety * std::pow(std::max(error, 1e-16), -control_.exponent) *
+    const double wanted = control_.safety * std::pow(std::max(error, 1e-16), -control_.exponent) *
                           std::pow(last_error_, control_.beta);
     const double growth =
         std::clamp(wanted, control_.largest_cut, rejected ? 1.0 : control_.largest_growth);

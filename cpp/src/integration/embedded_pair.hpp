@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "cdcr/integrator.hpp"
 
 namespace cdcr::detail {
@@ -15,15 +18,18 @@ class EmbeddedPair : public Integrator {
   [[nodiscard]] const VectorXd& state() const noexcept final { return y_; }
   [[nodiscard]] Stats stats() const noexcept final { return stats_; }
 
+  [[nodiscard]] double last_step() const noexcept { return h_before_; }  ///< made [s]
+
  protected:
-  /// How steps follow the error: the constants of the reference codes.
+  /// How steps follow the error.
   struct Control {
     double inverse_order;  // of the error over the step
     double beta;           // of the error before, in the PI controller
     double exponent;       // of this one
     double largest_growth, largest_cut;
+    double safety;  // of the step over the one wanted
   };
-  EmbeddedPair(RobotOde& ode, const Options& options, const Control& control);
+  EmbeddedPair(RobotOde& ode, Method method, const Options& options, const Control& control);
 
   /// All slopes of a step from y_ and slope_: trial_ and new_slope_, its own slope.
   virtual void make_stages(double h) = 0;
@@ -34,8 +40,14 @@ class EmbeddedPair : public Integrator {
   /// State at a share of that step, 0 to 1.
   virtual void interpolate_in_step(double share, VectorXd& y) const = 0;
 
-  void derivative(double t, const VectorXd& y, VectorXd& dydt);
-  [[nodiscard]] double tolerance(Index i) const;  // of coordinate i of the step
+  void derivative(double t, const double* y, double* dydt) {
+    ode_.derivative(t, y, dydt);
+    ++stats_.evaluations;
+  }
+  /// Of coordinate i of the step.
+  [[nodiscard]] double tolerance(Index i) const {
+    return tolerances_.atol + tolerances_.rtol * std::max(std::abs(y_[i]), std::abs(trial_[i]));
+  }
 
   double t_ = 0.0, t_before_ = 0.0;
   VectorXd y_, trial_, y_before_;
@@ -46,7 +58,8 @@ class EmbeddedPair : public Integrator {
   [[nodiscard]] Status failure_status() const;
 
   RobotOde& ode_;
-  Options options_;
+  Tolerances tolerances_;
+  double max_step_;
   Control control_;
   double stop_ = 0.0, h_ = 0.0;  // h_: the next step wanted
   double h_before_ = 0.0;        // the last step made

@@ -1,62 +1,17 @@
 #include "integration/rk4.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace cdcr::detail {
 
-Rk4::Rk4(RobotOde& ode, const Options& options)
-    : ode_(ode),
-      step_size_(options.step),
-      stages_(ode.num_states()),
-      y_(VectorXd::Zero(ode.num_states())),
-      y_before_(y_),
-      slope_before_(y_) {}
-
-Status Rk4::restart(double t, const VectorXd& y, double t_stop) {
-  ode_.require_stretch(t, y, t_stop);
-  start_ = t_ = t_before_ = t;
-  stop_ = t_stop;
-  count_ = 0;
-  // A remainder below one part in 1e9 of a step is rounding error of the caller's times.
-  const double steps = std::ceil((t_stop - t) / step_size_ - 1e-9);
-  last_ = static_cast<long>(std::clamp(steps, 1.0, 9e18));
-  y_ = y_before_ = y;
-  ode_.derivative(t_, y_.data(), stages_.k1.data());
-  ++stats_.evaluations;
-  return ode_.check(y_.data());
-}
-
-Status Rk4::step() {
-  const auto f = [this](double t, const double* y, double* dydt) {
-    ode_.derivative(t, y, dydt);
-    ++stats_.evaluations;
+Status Rk4::make_step(double t, double h, const VectorXd& y, const VectorXd& slope,
+                      VectorXd& next) {
+  const auto f = [this](double at, const double* stage, double* dydt) {
+    derivative(at, stage, dydt);
   };
-  const double t_next =
-      count_ + 1 >= last_ ? stop_ : start_ + static_cast<double>(count_ + 1) * step_size_;
-  y_before_.swap(y_);
-  stages_.step(f, t_, t_next - t_, y_before_, y_);
-  Status status = ode_.check(y_.data());
-  if (status != Status::ok) {
-    const auto check = [this](const double* y) { return ode_.check(y); };
-    status = stages_.failure_status(status, check, f, t_, t_next - t_, y_before_, y_);
-    y_.swap(y_before_);
-    return status;
-  }
-  t_before_ = t_;
-  t_ = t_next;
-  slope_before_.swap(stages_.k1);
-  f(t_, y_.data(), stages_.k1.data());
-  ++count_;
-  ++stats_.steps;
-  return Status::ok;
-}
-
-void Rk4::interpolate(double t, VectorXd& y) {
-  const double h = t_ - t_before_;
-  const double s = (t - t_before_) / h, r = 1.0 - s;
-  y = r * r * (1.0 + 2.0 * s) * y_before_ + s * s * (1.0 + 2.0 * r) * y_ +
-      h * s * r * (r * slope_before_ - s * stages_.k1);
+  stages_.step(f, t, h, y, slope, next);
+  const Status status = ode_.check(next.data());
+  if (status == Status::ok) return status;
+  const auto check = [this](const double* stage) { return ode_.check(stage); };
+  return stages_.failure_status(status, check, f, t, h, y, slope, next);
 }
 
 }  // namespace cdcr::detail

@@ -151,11 +151,7 @@ class Rollout {
 
   void count_cost(const Stats& cost) {
     const std::lock_guard lock(mutex_);
-    outcome_.stats.steps += cost.steps;
-    outcome_.stats.rejected += cost.rejected;
-    outcome_.stats.evaluations += cost.evaluations;
-    outcome_.stats.jacobians += cost.jacobians;
-    outcome_.stats.newton_failures += cost.newton_failures;
+    add(outcome_.stats, cost);
   }
 
   Trajectory simulated(Index i, const Progress& progress) {

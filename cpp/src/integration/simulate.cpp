@@ -101,6 +101,7 @@ class Run {
     }
     recorder_.finish();
     out_.stats = integrator_.stats();
+    if (out_.stats.stiff) *out_.stats.stiff += start_;
     if (out_.status != Status::ok) {
       if (out_.status == Status::event) t = out_.events.back().time - start_;
       out_.message = detail::sentence("Stopped at t = ", start_ + t, " s (", name(out_.status),

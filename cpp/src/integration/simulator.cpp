@@ -1,26 +1,38 @@
 #include "cdcr/simulator.hpp"
 
 #include <cmath>
+#include <optional>
 
+#include "cdcr/linearization.hpp"
 #include "cdcr/robot_ode.hpp"
 #include "dynamics/bending.hpp"
 #include "integration/rk4.hpp"
+#include "integration/rosenbrock.hpp"
 
 namespace cdcr {
 
-struct Simulator::Stages : detail::Rk4Stages {
-  using Rk4Stages::Rk4Stages;
+struct Simulator::Stages {
+  Stages(Index num_states, Method method) : slope(num_states), rk4(num_states) {
+    if (method == Method::rosenbrock) rosenbrock.emplace(num_states);
+  }
+
+  VectorXd slope;
+  detail::Rk4Stages rk4;
+  std::optional<detail::RosenbrockStages> rosenbrock;
 };
 
-Simulator::Simulator(const Model& model, double step, int substeps)
+Simulator::Simulator(const Model& model, double step, int substeps, Method method)
     : model_(model),
       data_(model),
       period_(step),
       substeps_(substeps),
-      stages_(std::make_unique<Stages>(2 * model.num_coordinates())) {
+      method_(method),
+      stages_(std::make_unique<Stages>(2 * model.num_coordinates(), method)) {
   require_inertia(model);
   detail::require_positive("step", step, "s");
   detail::require(substeps >= 1, "substeps must be at least 1, got ", substeps);
+  detail::require(method == Method::rk4 || method == Method::rosenbrock,
+                  "method of a simulator must be rk4 or rosenbrock, whose steps are fixed");
   force_ = VectorXd::Zero(model.num_coordinates());
   q_ = qd_ = force_;
   y_ = trial_ = VectorXd::Zero(2 * model.num_coordinates());
@@ -75,19 +87,28 @@ Status Simulator::step(const ConstVectorRef& tension, const Wrenches& wrenches,
     if (!force_holds) total_force(model_, q, qd, tension, wrenches, force_);
     forward_dynamics_force(model_, data_, q, qd, force_, qdd);
   };
-  const double h = period_ / substeps_;
+  const auto check = [&](const double* y) {
+    return check_state(model_, Eigen::Map<const VectorXd>(y, 2 * m));
+  };
+  VectorXd& slope = stages_->slope;
+  const auto make_step = [&](double h) {
+    f(0.0, y_.data(), slope.data());
+    if (!stages_->rosenbrock) {
+      stages_->rk4.step(f, 0.0, h, y_, slope, trial_);
+      const Status status = check(trial_.data());
+      if (status == Status::ok) return status;
+      return stages_->rk4.failure_status(status, check, f, 0.0, h, y_, slope, trial_);
+    }
+    detail::RosenbrockStages& stages = *stages_->rosenbrock;
+    state_jacobian(model_, data_, y_.head(m), y_.tail(m), tension, wrenches, stages.jacobian);
+    stages.step(f, 0.0, h, y_, slope, trial_);
+    return stages.status_after(check, trial_);
+  };
   y_.head(m) = q_;
   y_.tail(m) = qd_;
   for (int i = 0; i < substeps_; ++i) {
-    f(0.0, y_.data(), stages_->k1.data());
-    stages_->step(f, 0.0, h, y_, trial_);
-    const Status status = check_state(model_, trial_);
-    if (status != Status::ok) {
-      const auto check = [this, m](const double* y) {
-        return check_state(model_, Eigen::Map<const VectorXd>(y, 2 * m));
-      };
-      return stages_->failure_status(status, check, f, 0.0, h, y_, trial_);
-    }
+    const Status status = make_step(period_ / substeps_);
+    if (status != Status::ok) return status;
     y_.swap(trial_);
     constexpr int substeps_between_stops = 256;
     if (i % substeps_between_stops == substeps_between_stops - 1 && stop && stop()) {

@@ -104,7 +104,7 @@ def run_command(
         str | None,
         typer.Option(
             metavar="METHOD",
-            help="Integrator: bdf, adams, dopri5, dop853 or rk4.",
+            help="Integrator: auto, bdf, adams, dopri5, dop853, rk4 or rosenbrock.",
             autocompletion=complete.methods,
         ),
     ] = None,

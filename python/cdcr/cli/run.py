@@ -101,6 +101,8 @@ class Report:
             "success": run.success,
             "status": run.status.name,
             "message": run.message,
+            "chosen_method": run.stats.method,
+            "stiff_from_s": run.stats.stiff,
             "stats": {name: getattr(run.stats, name) for name in STATS},
             "wall_time_s": self.wall_time,
         }

@@ -56,7 +56,7 @@ def self_test(*, pictures: bool, netcdf: bool) -> Iterator[Outcome]:
     yield _outcome("natural frequency", EXACT, _frequency)
     yield _outcome("tensions for a force", EXACT, _tensions)
     yield _outcome("inverse kinematics", EXACT, _inverse)
-    for method in ("rk4", "dopri5", "dop853", "bdf", "adams"):
+    for method in ("rk4", "auto", "dopri5", "dop853", "bdf", "adams"):
         if available(method):
             yield _outcome(f"integration by {method}", INTEGRATED, partial(_integration, method))
     yield _outcome("run and robot written and read", 0.0, partial(_files, netcdf=netcdf))

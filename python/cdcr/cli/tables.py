@@ -11,7 +11,7 @@ from rich.text import Text
 
 from cdcr import robots, scenarios
 from cdcr.cli.run import Report
-from cdcr.runs.stats import STATS
+from cdcr.runs.stats import STATS, chosen
 
 
 def new_table(title: str, *columns: str) -> Table:
@@ -70,7 +70,9 @@ def print_report(console: Console, report: Report) -> None:
     if scenario.description:
         console.print(Text(scenario.description))
     console.print(Text(f"Source: {scenario.source}", style="dim"))
-    told = scenario.name if run is None else f"{scenario.name}, {report.method}, {len(run)} samples"
+    told = scenario.name
+    if run is not None:
+        told += f", {report.method}{chosen(run.stats)}, {len(run)} samples"
     table = new_table(told, "", "value", "unit")
     for metric in report.metrics:
         table.add_row(Text(metric.label), _number(metric.value), metric.unit)

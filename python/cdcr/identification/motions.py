@@ -35,7 +35,7 @@ from cdcr.identification.files import read_measured
 from cdcr.identification.setup import Place, Setup
 from cdcr.model.model import Model
 from cdcr.runs.command import TensionTable
-from cdcr.runs.simulate import DEFAULT_METHOD, MethodName, find_method, simulate
+from cdcr.runs.simulate import DEFAULT_METHOD, FIXED_STEP, MethodName, find_method, simulate
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from cdcr.identification.poses import Gaps
     from cdcr.robot.robot import Robot
 
+SMOOTH = 1e-10  # rtol, so that steps do not show in differences of two runs
 Run = tuple[FloatArray, FloatArray, FloatArray]  # q, tensions and commands at the times measured
 
 
@@ -64,7 +65,7 @@ class Motion(Data):
     interpolation : {"linear", "previous"}, optional
         Of the commands between the times.
     method, rtol, step : optional
-        As in `simulate`.
+        As in `simulate`, but for an rtol of 1e-10 by default.
 
     Raises
     ------
@@ -238,8 +239,8 @@ class Motion(Data):
             asked: Any = commands[0]
         else:
             asked = TensionTable(t, commands, self.interpolation)
-        step = self.step if self.method == "rk4" else None
-        rtol = None if self.method == "rk4" else self.rtol
+        step = self.step if self.method in FIXED_STEP else None
+        rtol = None if self.method in FIXED_STEP else self.rtol or SMOOTH
         run = simulate(
             model, q0, qd0, t=times, command=asked, wrenches=self.wrenches,
             method=self.method, rtol=rtol, step=step,

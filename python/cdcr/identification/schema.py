@@ -86,11 +86,12 @@ class MotionTable(PosesTable):
     interpolation: Literal["linear", "previous"] = _optional(
         '"linear" or "previous"', "of the commands between the times"
     )
-    method: Literal["bdf", "adams", "dopri5", "dop853", "rk4"] = _optional(
-        '"bdf", "adams", "dopri5", "dop853" or "rk4"', "of the integrator"
+    method: Literal["auto", "bdf", "adams", "dopri5", "dop853", "rk4", "rosenbrock"] = _optional(
+        '"auto", "bdf", "adams", "dopri5", "dop853", "rk4" or "rosenbrock"',
+        "of the integrator",
     )
     rtol: _Positive = _optional("a number > 0 [1]", "relative tolerance of a step")
-    step: _Positive = _optional("a number > 0 [s]", "step of rk4")
+    step: _Positive = _optional("a number > 0 [s]", "step of rk4 and rosenbrock")
 
 
 class FrequenciesTable(BaseModel):

@@ -234,7 +234,9 @@ class Loop(_core.Loop):
     step : float, optional
         Of the plant [s].
     substeps : int, optional
-        Runge-Kutta steps in each.
+        Equal steps of the method in each.
+    method : {"rk4", "rosenbrock"}, optional
+        Of the plant: explicit, or linearly implicit, which is stable whatever the step.
     actuators : Actuator or sequence of Actuator, optional
         One for all cables, or one for each.
     sensors : Sensor or sequence of Sensor, optional
@@ -273,6 +275,7 @@ class Loop(_core.Loop):
         *,
         step: float = 1e-3,
         substeps: int = 1,
+        method: Literal["rk4", "rosenbrock"] = "rk4",
         actuators: Actuator | Sequence[Actuator] = (),
         sensors: Sensor | Sequence[Sensor] = (),
     ) -> None:
@@ -284,6 +287,7 @@ class Loop(_core.Loop):
             "substeps": check.whole("substeps", substeps, "a whole number >= 1"),
         }
         check.done()
+        options["method"] = str(method)
         drives = (actuators,) if isinstance(actuators, Actuator) else tuple(actuators)
         looks = (sensors,) if isinstance(sensors, Sensor) else tuple(sensors)
         for i, drive in enumerate(drives):

@@ -96,7 +96,7 @@ def rollout(
     q0, qd0 : (N, d) or (d,) array_like
         Coordinates and their rates at the start, of each motion or of all.
     step : float
-        Time from one command to the next, and of a step of rk4 [s].
+        Time from one command to the next, and of a step of rk4 and rosenbrock [s].
     steps : int
         How many of these each motion has.
     tension, command : (num_cables,), (N, num_cables) or (N, steps, num_cables) array_like, optional
@@ -116,8 +116,8 @@ def rollout(
         Numbers of the robot that differ from motion to motion, by path as in `cdcr.sweep`:
         ``{"sections.*.youngs_modulus": ..., "payload": ...}``, in SI units [Pa], [kg]. Sections and
         cables count from 1.
-    method : {"rk4", "dopri5", "dop853", "bdf", "adams"}, optional
-        As in `simulate`; rk4 has the given step.
+    method : {"rk4", "rosenbrock", "auto", "dopri5", "dop853", "bdf", "adams"}, optional
+        As in `simulate`; rk4 and rosenbrock have the given step.
     record_every : int, optional
         Steps from one row of the result to the next, a divisor of `steps`.
     threads : int, optional

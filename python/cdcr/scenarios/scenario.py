@@ -91,9 +91,11 @@ class Scenario:
     formulation : str
         Of the model's equations.
     method : str
-        Integration method: "bdf", "adams", "dopri5", "dop853" or "rk4".
+        Integration method: "auto", "bdf", "adams", "dopri5", "dop853", "rk4"
+        or "rosenbrock".
     rtol, atol, step, max_step, max_steps : optional
-        Tolerances of the adaptive methods, step of rk4 [s], largest step [s] and number of steps.
+        Tolerances of the adaptive methods, step of rk4 and rosenbrock [s], largest step [s] and
+        number of steps.
     summarize : callable
         From scenario and run, None where nothing runs, to the findings of `summary`.
     plot : callable

@@ -264,7 +264,10 @@ class LoopTable(BaseModel):
     model_config = STRICT
 
     step: float = _positive("a number > 0 [s]", "of the robot; all periods are multiples of it")
-    substeps: int = optional("a whole number > 0", "Runge-Kutta steps in each", gt=0)
+    substeps: int = optional("a whole number > 0", "equal steps of the method in each", gt=0)
+    method: Literal["rk4", "rosenbrock"] = optional(
+        '"rk4" or "rosenbrock"', "explicit, or linearly implicit, which is stable whatever the step"
+    )
     actuators: list[dict[str, Any]] = optional(
         "tables [[loop.actuators]]", "one for all cables, or one for each", min_length=1
     )

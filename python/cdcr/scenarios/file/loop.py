@@ -72,7 +72,7 @@ def read_loop(
             _sensor(one, model, f"sensors[{i}]") for i, one in enumerate(table.get("sensors", ()))
         ]
         options: dict[str, Any] = {"actuators": actuators, "sensors": sensors}
-        options |= {key: table[key] for key in ("substeps",) if key in table}
+        options |= {key: table[key] for key in ("substeps", "method") if key in table}
         closed = ClosedLoop(controller, float(table.get("step", STEP)), options)
         closed.make(model)
     return closed

@@ -5,7 +5,7 @@
     tension = [5.0, 0.0, 0.0]       # of each cable [N]; or tables, see `cdcr new`
 
     [integrator]
-    method = "dopri5"               # or "dop853", "bdf", "adams", "rk4"
+    method = "dopri5"               # or "auto", "dop853", "bdf", "adams", "rk4", "rosenbrock"
 
     [initial]                       # straight and at rest without it
     theta_deg = [45.0]              # of each section; or theta [rad], or q [rad]
@@ -30,7 +30,7 @@ from cdcr.files.refusals import with_lines
 from cdcr.files.toml import Faults, read_toml, refuse, schema_errors
 from cdcr.model.model import Model
 from cdcr.runs.command import TensionTable
-from cdcr.runs.simulate import integrator_options
+from cdcr.runs.simulate import DEFAULT_METHOD, FIXED_STEP, integrator_options
 from cdcr.scenarios.file.controller import read_controller
 from cdcr.scenarios.file.loop import read_loop
 from cdcr.scenarios.file.robot import read_robot
@@ -141,14 +141,17 @@ def _integrator(table: Mapping[str, Any], file: Path) -> dict[str, Any]:
     from cdcr.scenarios.file.schema import IntegratorTable
 
     refuse(str(file), schema_errors(IntegratorTable, table, "integrator"))
-    is_fixed = table.get("method") == "rk4"
+    is_fixed = table.get("method") in FIXED_STEP
     pointless = [key for key in ("rtol", "atol", "max_step") if is_fixed and key in table]
     refuse(
         str(file),
-        [f"integrator.{key} is none of rk4, whose steps are all step" for key in pointless],
+        [
+            f"integrator.{key} is none of {table['method']}, whose steps are all step"
+            for key in pointless
+        ],
     )
     with error_prefix(f"{file}, [integrator]"):
-        integrator_options(**{"method": "bdf"} | dict(table))
+        integrator_options(**{"method": DEFAULT_METHOD} | dict(table))
     return dict(table)
 
 
@@ -216,7 +219,7 @@ def _input(table: Mapping[str, Any], model: Model, file: Path) -> dict[str, Any]
         if "loop" not in table:
             return {"controller": loop} | shown
         closed = read_loop(table["loop"], loop, model, file)
-        fixed = {"method": "rk4", "step": closed.step}
+        fixed = {"method": closed.options.get("method", "rk4"), "step": closed.step}
         return {"controller": loop, "input_source": closed} | shown | fixed
     if "trajectory" in table:
         t_end = table["t_end"]

@@ -94,13 +94,13 @@ class IntegratorTable(BaseModel):
 
     model_config = STRICT
 
-    method: Literal["bdf", "adams", "dopri5", "dop853", "rk4"] = optional(
-        '"bdf", "adams", "dopri5", "dop853" or "rk4"',
-        "all but rk4 choose their steps",
+    method: Literal["auto", "bdf", "adams", "dopri5", "dop853", "rk4", "rosenbrock"] = optional(
+        '"auto", "bdf", "adams", "dopri5", "dop853", "rk4" or "rosenbrock"',
+        "all but the last two choose their steps",
     )
     rtol: float = _positive("a number > 0 [1]", "relative tolerance of a step")
     atol: float = _positive("a number > 0 [rad], [rad/s]", "absolute tolerance of a step")
-    step: float = _positive("a number > 0 [s]", "step of rk4")
+    step: float = _positive("a number > 0 [s]", "step of rk4 and rosenbrock")
     max_step: float = _positive("a number > 0 [s]", "largest step")
     max_steps: int = optional(
         "a whole number > 0", "number of steps after which the run is given up", gt=0, lt=2**63
