@@ -37,6 +37,7 @@ GIVES = {
     "control": "python-control",
     "casadi": "functions for optimisers",
     "jax": "functions under jit, vmap and grad",
+    "mpc": "predictive control",
     "identify": "parameters from measurements",
     "gym": "environments of Gymnasium",
     "mcap": "logs for Foxglove",

@@ -127,7 +127,7 @@ class Steps:
         def rate(x: FloatArray, S: FloatArray) -> tuple[FloatArray, FloatArray]:
             q, qd = x[:, :d], x[:, d:]
             by_q, by_qd, by_u = self.dynamics.derivatives(q, qd, u)
-            slope = np.concatenate([S[:, d:], by_q @ S[:, :d] + by_qd @ S[:, d:]], axis=1)
+            slope = np.concatenate([S[:, d:], np.concatenate([by_q, by_qd], axis=2) @ S], axis=1)
             slope[:, d:, 2 * d :] += by_u
             return np.hstack([qd, self.dynamics.accelerations(q, qd, u)]), slope
 
