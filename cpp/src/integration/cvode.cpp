@@ -11,7 +11,9 @@
 
 #include "base/arguments.hpp"
 #include "dynamics/bending.hpp"
+#include "integration/half_newton.hpp"
 #include "integration/small_vector.hpp"
+#include "integration/streak.hpp"
 #include "integration/sundials_handles.hpp"
 #include "integration/sundials_spare.hpp"
 
@@ -19,25 +21,7 @@ namespace cdcr {
 namespace {
 
 using detail::Owner;
-
-/// Counts what happens in step after step: `most` times with no more than `most_free` steps free
-/// of it between any two.
-class Streak {
- public:
-  void happens() noexcept {
-    ++count_;
-    free_ = 0;
-  }
-  void step() noexcept {
-    if (++free_ > most_free) count_ = 0;
-  }
-  [[nodiscard]] bool too_long() const noexcept { return count_ >= most; }
-
- private:
-  static constexpr int most = 20;
-  static constexpr int most_free = 40;  // a step cut grows again after its order, 12, plus one
-  int count_ = 0, free_ = 0;
-};
+using detail::Streak;
 
 /// For calls that fail only when this file is wrong or memory has run out.
 void require(int flag, const char* call) {
@@ -93,6 +77,7 @@ class Cvode final : public Integrator {
   static int derivative(double t, N_Vector y, N_Vector dydt, void* self) noexcept;
   static int jacobian(double t, N_Vector y, N_Vector dydt, SUNMatrix J, void* self, N_Vector,
                       N_Vector, N_Vector) noexcept;
+  static int weights(N_Vector y, N_Vector weight, void* self) noexcept;
   template <typename Function>
   int guarded(Function function) noexcept;
 
@@ -110,6 +95,7 @@ class Cvode final : public Integrator {
   Owner<N_Vector> trial_, between_;  // the end of a step, a point within it
   Owner<SUNMatrix> matrix_;
   detail::Spare spare_;
+  detail::HalfNewton newton_;
   Owner<SUNLinearSolver> linear_solver_;
   Owner<void*> cvode_;
 
@@ -134,7 +120,8 @@ Cvode::Cvode(RobotOde& ode, Method method, const Options& options)
       matrix_(make_matrix(ode.num_states(), context_.get())),
       spare_(make_vector(ode.num_states(), context_.get()),
              make_matrix(ode.num_states(), context_.get())),
-      linear_solver_(own(SUNLinSol_Dense(trial_.get(), matrix_.get(), context_.get()))),
+      newton_(ode.num_states()),
+      linear_solver_(own(newton_.make(context_.get()))),
       cvode_(own(CVodeCreate(method == Method::bdf ? CV_BDF : CV_ADAMS, context_.get()))),
       state_(VectorXd::Zero(ode.num_states())),
       slope_(state_),
@@ -150,7 +137,7 @@ Cvode::Cvode(RobotOde& ode, Method method, const Options& options)
     [[maybe_unused]] void* const left = cvode_.release();
     throw std::bad_alloc();
   }
-  require(CVodeSStolerances(cvode, tolerances_.rtol, tolerances_.atol), "CVodeSStolerances");
+  require(CVodeWFtolerances(cvode, weights), "CVodeWFtolerances");
   require(CVodeSetLinearSolver(cvode, linear_solver_.get(), matrix_.get()), "CVodeSetLinearSolver");
   require(CVodeSetJacFn(cvode, jacobian), "CVodeSetJacFn");
   require(CVodeSetMaxStep(cvode, options.max_step), "CVodeSetMaxStep");
@@ -187,6 +174,14 @@ int Cvode::jacobian(double t, N_Vector y, N_Vector /*dydt*/, SUNMatrix J, void* 
     me.ode_.jacobian(t, NV_DATA_S(y), SM_DATA_D(J));
     return Eigen::Map<const VectorXd>(SM_DATA_D(J), SM_LDATA_D(J)).allFinite();
   });
+}
+
+int Cvode::weights(N_Vector y, N_Vector weight, void* self) noexcept {
+  const Tolerances& of = static_cast<Cvode*>(self)->tolerances_;
+  for (sunindextype i = 0; i < NV_LENGTH_S(y); ++i) {
+    NV_Ith_S(weight, i) = 1.0 / (of.atol + of.rtol * std::abs(NV_Ith_S(y, i)));
+  }
+  return 0;
 }
 
 Status Cvode::restart(double t, const VectorXd& y, double t_stop) {
