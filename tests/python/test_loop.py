@@ -133,6 +133,22 @@ REFUSALS: dict[str, tuple[Any, str]] = {
         lambda: cdcr.Sensor(kind="curvature", places=cast("Any", [3])),
         "places[0] must be an index of a section and a fraction, got 3 (int)",
     ),
+    "one place": (
+        lambda: cdcr.Sensor(kind="curvature", places=cast("Any", 3)),
+        "places must be a sequence of places, got 3 (int)",
+    ),
+    "no actuators": (
+        lambda: cdcr.Loop(MODEL, PID, actuators=NONE),
+        "actuators must be a cdcr.Actuator or a sequence of them, got None",
+    ),
+    "no sensors": (
+        lambda: cdcr.Loop(MODEL, PID, sensors=cast("Any", 3)),
+        "sensors must be a cdcr.Sensor or a sequence of them, got 3 (int)",
+    ),
+    "ragged gain": (
+        lambda: cdcr.Pid(MODEL, kp=cast("Any", [[1.0], [2.0, 3.0]])),
+        "kp must be numbers, got",
+    ),
     "winch": (
         lambda: cdcr.Actuator(winch=cast("Any", 3.0)),
         "winch must be a cdcr.Winch, got float",

@@ -30,6 +30,18 @@ def _numbers(given: dict[str, Any]) -> dict[str, float]:
     return found
 
 
+def _several(item: str, given: object, kind: type) -> tuple[Any, ...]:
+    """Return one thing or a sequence of them as a tuple, or refuse what is of another kind."""
+    if isinstance(given, kind):
+        return (given,)
+    check = Check()
+    found = check.items(item, given, f"a cdcr.{kind.__name__} or a sequence of them")
+    check.done()
+    for i, one in enumerate(found):
+        require_kind(f"{item}[{i}]", one, kind)
+    return found
+
+
 @by_keyword
 @dataclass(frozen=True, kw_only=True)
 class Winch:
@@ -162,7 +174,7 @@ class Sensor:
         _numbers({name: getattr(self, name) for name in ("period", "delay", "noise", "bias")})
         check = Check()
         check.whole("seed", self.seed, "a whole number >= 0", low=0, high=2**63 - 1)
-        for i, place in enumerate(self.places):
+        for i, place in enumerate(check.items("places", self.places, "a sequence of places")):
             pair = check.items(f"places[{i}]", place, "an index of a section and a fraction")
             if len(pair) != 2:
                 check.refuse(f"places[{i}]", "an index of a section and a fraction", place)
@@ -288,12 +300,8 @@ class Loop(_core.Loop):
         }
         check.done()
         options["method"] = str(method)
-        drives = (actuators,) if isinstance(actuators, Actuator) else tuple(actuators)
-        looks = (sensors,) if isinstance(sensors, Sensor) else tuple(sensors)
-        for i, drive in enumerate(drives):
-            require_kind(f"actuators[{i}]", drive, Actuator)
-        for i, look in enumerate(looks):
-            require_kind(f"sensors[{i}]", look, Sensor)
+        drives = _several("actuators", actuators, Actuator)
+        looks = _several("sensors", sensors, Sensor)
         options["actuators"] = [asdict(one) for one in drives]
         options["sensors"] = [asdict(one) | {"places": list(one.places)} for one in looks]
         super().__init__(model, controller, options)

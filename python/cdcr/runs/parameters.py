@@ -40,6 +40,9 @@ class Variation:
     def __init__(self, model: Model, parameters: Mapping[str, ArrayLike]) -> None:
         self.model = model
         self.values: dict[str, FloatArray] = {}
+        if not isinstance(parameters, Mapping):
+            got = type(parameters).__name__
+            raise TypeError(f"parameters must be a mapping of paths to arrays, got {got}")
         table = _plain(model.robot)
         for path, given in parameters.items():
             if not find(table, str(path)):
