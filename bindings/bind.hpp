@@ -11,13 +11,20 @@
 
 namespace cdcr {
 class ComputedTorque;
+class Estimator;
+class ExtendedKalman;
+class KalmanFilter;
+class MomentumObserver;
 class Pid;
 class StateFeedback;
 class TaskSpace;
 class TrackingController;
+class UnscentedKalman;
 }  // namespace cdcr
 
 namespace cdcr::python {
+template <class Law>
+class Estimating;
 template <class Law>
 class Tracking;
 class PythonLoop;
@@ -30,8 +37,13 @@ CDCR_BOUND_CLASS(cdcr::Cable);
 CDCR_BOUND_CLASS(cdcr::CommandInput);
 CDCR_BOUND_CLASS(cdcr::Controller);
 CDCR_BOUND_CLASS(cdcr::Equilibrium);
+CDCR_BOUND_CLASS(cdcr::Estimator);
+CDCR_BOUND_CLASS(cdcr::KalmanFilter);
 CDCR_BOUND_CLASS(cdcr::Model);
 CDCR_BOUND_CLASS(cdcr::Options);
+CDCR_BOUND_CLASS(cdcr::python::Estimating<cdcr::ExtendedKalman>);
+CDCR_BOUND_CLASS(cdcr::python::Estimating<cdcr::MomentumObserver>);
+CDCR_BOUND_CLASS(cdcr::python::Estimating<cdcr::UnscentedKalman>);
 CDCR_BOUND_CLASS(cdcr::python::Tracking<cdcr::ComputedTorque>);
 CDCR_BOUND_CLASS(cdcr::python::Tracking<cdcr::Pid>);
 CDCR_BOUND_CLASS(cdcr::python::Tracking<cdcr::StateFeedback>);
@@ -67,6 +79,7 @@ void bind_modes(PyModel& model);                          ///< called by bind_mo
 void bind_control(pybind11::module_& m);
 void bind_reference_path(pybind11::module_& m);  ///< called by bind_control
 void bind_controllers(pybind11::module_& m);     ///< called by bind_control
+void bind_estimators(pybind11::module_& m);
 void bind_loop(pybind11::module_& m);
 void bind_simulate(pybind11::module_& m);
 void bind_simulator(pybind11::module_& m);

@@ -56,7 +56,9 @@ if TYPE_CHECKING:
     from cdcr.motion.inverse import InverseRun, inverse_run
     from cdcr.motion.reference import Reference
     from cdcr.runs.controllers import ComputedTorque, StateFeedback, TaskSpace
-    from cdcr.runs.loop import Actuator, Loop, LoopRun, Sensor, Winch
+    from cdcr.runs.estimators import ExtendedKalman, MomentumObserver, UnscentedKalman
+    from cdcr.runs.loop import Loop, LoopRun
+    from cdcr.runs.parts import Actuator, Sensor, Winch
     from cdcr.runs.pid import Pid
     from cdcr.runs.rollout import rollout
     from cdcr.runs.rollout_result import Rollout, RolloutFailure
@@ -74,6 +76,7 @@ __all__ = [
     "ConvergenceError",
     "Derivatives",
     "Equilibrium",
+    "ExtendedKalman",
     "InfeasibleError",
     "InverseKinematics",
     "InverseRun",
@@ -81,6 +84,7 @@ __all__ = [
     "LoopRun",
     "Model",
     "Modes",
+    "MomentumObserver",
     "PathReport",
     "Pid",
     "Reference",
@@ -98,6 +102,7 @@ __all__ = [
     "TaskSpace",
     "TensionTable",
     "Trajectory",
+    "UnscentedKalman",
     "Winch",
     "Wrench",
     "__version__",
@@ -131,20 +136,23 @@ _ROOMS = frozenset({
     "scenarios", "sweeps",
 })  # fmt: skip
 _LATER = {
-    "Actuator": "runs.loop",
+    "Actuator": "runs.parts",
     "ComputedTorque": "runs.controllers",
+    "ExtendedKalman": "runs.estimators",
     "InverseRun": "motion.inverse",
     "Loop": "runs.loop",
     "LoopRun": "runs.loop",
+    "MomentumObserver": "runs.estimators",
     "PathReport": "motion.feasibility",
     "Pid": "runs.pid",
     "Reference": "motion.reference",
     "Rollout": "runs.rollout_result",
     "RolloutFailure": "runs.rollout_result",
-    "Sensor": "runs.loop",
+    "Sensor": "runs.parts",
     "StateFeedback": "runs.controllers",
     "TaskSpace": "runs.controllers",
-    "Winch": "runs.loop",
+    "UnscentedKalman": "runs.estimators",
+    "Winch": "runs.parts",
     "check_path": "motion.feasibility",
     "identify": "identification",
     "inverse_run": "motion.inverse",

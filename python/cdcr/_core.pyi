@@ -8,12 +8,17 @@ from numpy.typing import ArrayLike
 
 from cdcr._core_control import ComputedTorque as ComputedTorque
 from cdcr._core_control import Controller as Controller
+from cdcr._core_control import Estimator as Estimator
+from cdcr._core_control import ExtendedKalman as ExtendedKalman
+from cdcr._core_control import KalmanFilter as KalmanFilter
 from cdcr._core_control import Loop as Loop
+from cdcr._core_control import MomentumObserver as MomentumObserver
 from cdcr._core_control import Pid as Pid
 from cdcr._core_control import ReferencePath as ReferencePath
 from cdcr._core_control import StateFeedback as StateFeedback
 from cdcr._core_control import TaskSpace as TaskSpace
 from cdcr._core_control import TrackingController as TrackingController
+from cdcr._core_control import UnscentedKalman as UnscentedKalman
 from cdcr._core_robot import Cable as Cable
 from cdcr._core_robot import CoreWrench as CoreWrench
 from cdcr._core_robot import Loads as Loads

@@ -101,6 +101,32 @@ TEST_CASE("slopes of accelerations with force and shares, and of every sensor, b
   }
 }
 
+TEST_CASE("shares of payload and stiffness move as a robot that has as much of them") {
+  for (const NamedRobot& sample : controlled_robots()) {
+    CAPTURE(sample.name);
+    const Model model(sample.robot);
+    Robot changed = sample.robot;
+    changed.payload += 0.4 * 0.05;
+    for (Section& section : changed.sections) section.youngs_modulus *= 1.0 + 0.3 * 0.5;
+    const Model truth(changed);
+    Data data(truth);
+    Random random;
+    const Index d = model.num_coordinates();
+    const VectorXd q = random.vector(d, 0.2), qd = random.vector(d, 0.5);
+    VectorXd command = model.straight_lengths(), x(2 * d + 2), found(d), wanted(d);
+    for (Index j = 0; j < command.size(); ++j) {
+      const bool by_length = model.cables()[static_cast<std::size_t>(j)].length_driven();
+      command[j] = by_length ? command[j] - 0.02 : 2.0;
+    }
+    x << q, qd, 0.4, 0.3;
+    const std::vector<Model> variants{heavier(sample.robot), stiffer(sample.robot)};
+    detail::AugmentedMotion motion(model, variants, std::nullopt, step, 1);
+    motion.accelerate(x, command, found);
+    forward_dynamics(truth, data, q, qd, command, wanted);
+    CHECK(residual(found, wanted) <= 1e-12);
+  }
+}
+
 /// A robot that is shaken as the filter believes, and a filter that begins as wrong as it believes:
 /// the means, over a run, of squared errors and innovations over what the filter expects.
 struct Consistency {

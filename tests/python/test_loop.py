@@ -125,8 +125,8 @@ REFUSALS: dict[str, tuple[Any, str]] = {
     ),
     "kind": (
         lambda: cdcr.Sensor(kind=cast("Any", "gps")),
-        "kind must be one of 'coordinates', 'rates', 'lengths', 'tensions', 'tip', 'curvature', "
-        "got 'gps'",
+        "kind must be one of 'coordinates', 'rates', 'lengths', 'tensions', 'tip', 'orientation', "
+        "'curvature', got 'gps'",
     ),
     "noise": (lambda: cdcr.Sensor(kind="tip", noise=NONE), "noise must be a number, got None"),
     "places": (

@@ -130,11 +130,11 @@ def tables() -> set[str]:
     from pydantic import BaseModel
 
     from cdcr.identification import schema as identify
-    from cdcr.scenarios.file import control_schema, schema, shape_schema
+    from cdcr.scenarios.file import control_schema, estimator_schema, schema, shape_schema
 
     bases = {"BaseModel", "TensionShape"}
     homes = {"schema": schema, "shape_schema": shape_schema, "identify": identify}
-    homes["control_schema"] = control_schema
+    homes |= {"control_schema": control_schema, "estimator_schema": estimator_schema}
     return {
         f"{home}:{name}"
         for home, module in homes.items()

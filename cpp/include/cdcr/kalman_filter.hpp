@@ -36,7 +36,7 @@ struct KalmanOptions {
   /// difference is estimated too, 0 for the filter's model and 1 for the variant.
   std::vector<Model> variants;
   double share_noise = 0.0;      ///< root of the density of its random walk [1/s^0.5], >= 0
-  double share_deviation = 1.0;  ///< standard deviation at reset, about zero, >= 0
+  double share_deviation = 0.3;  ///< standard deviation at reset, about zero, >= 0
 };
 
 /// Estimates the state of a robot from any of its sensors, by a model of how it moves,
@@ -68,6 +68,8 @@ class KalmanFilter : public Estimator {
   [[nodiscard]] const MatrixXd& covariance() const noexcept { return P_; }
   [[nodiscard]] const Model& model() const noexcept;
   [[nodiscard]] const KalmanOptions& options() const noexcept { return options_; }
+  /// Values that a sensor tells.
+  [[nodiscard]] Index measurement_size(std::size_t sensor) const noexcept;
 
  protected:
   /// What its laws share; private to the library.

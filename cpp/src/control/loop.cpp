@@ -44,6 +44,7 @@ void Loop::reset(const VectorXd& q, const VectorXd& qd, double start, const Vect
   told_qd_ = qd;
   if (estimator_ != nullptr) estimator_->reset(q, qd, asked_);
   controller_->reset();
+  controller_->hold(asked_);
   status_ = Status::ok;
 }
 

@@ -132,6 +132,10 @@ const Model& KalmanFilter::model() const noexcept {
   return parts_->motion.model();
 }
 
+Index KalmanFilter::measurement_size(std::size_t sensor) const noexcept {
+  return parts_->sensors[sensor].value().size();
+}
+
 void KalmanFilter::require_fit(const Model& model, const std::vector<Sensor>& sensors) const {
   require(model.num_coordinates() == this->model().num_coordinates() &&
               model.num_cables() == this->model().num_cables(),
