@@ -20,7 +20,12 @@ from cdcr.robot.robot import Robot
 
 # What the powers left out may add, beside the largest value of a function in a piece.
 _TAIL = {"powers": 1e-17, "float_powers": 3e-9}
-_ENDS = (".h", ".c", "_derivatives.c")
+# What the files' names end in, and the templates that each is made of.
+_PARTS = {
+    ".h": ("robot.h",),
+    ".c": ("vectors.c", "chain.c", "robot.c"),
+    "_derivatives.c": ("derivatives.c",),
+}
 _IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 
 
@@ -76,7 +81,7 @@ def write_c(
 
 def files_of(folder: Path, name: str) -> list[Path]:
     """Return the header and the sources that `write_c` writes."""
-    return [folder / f"{name}{end}" for end in _ENDS]
+    return [folder / f"{name}{end}" for end in _PARTS]
 
 
 def c_texts(
@@ -113,7 +118,10 @@ def c_texts(
     }
     values["tables"] = "\n".join(_constants(robot, model, arcs, shapes, limit))
     template = files("cdcr.export") / "c_template"
-    sources = [(template / f"robot{end}").read_text(encoding="utf-8") for end in _ENDS]
+    sources = [
+        "\n".join((template / part).read_text(encoding="utf-8") for part in names)
+        for names in _PARTS.values()
+    ]
     return [_filled(source, values) for source in sources]
 
 
