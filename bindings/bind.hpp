@@ -74,6 +74,7 @@ void bind_cables(PyModel& model);                         ///< called by bind_mo
 void bind_kinematics(PyModel& model);                     ///< called by bind_model
 void bind_dynamics(PyModel& model);                       ///< called by bind_model
 void bind_energy(PyModel& model);                         ///< called by bind_model
+void bind_tables(PyModel& model);                         ///< called by bind_model
 void bind_statics(pybind11::module_& m, PyModel& model);  ///< called by bind_model
 void bind_modes(PyModel& model);                          ///< called by bind_model
 void bind_control(pybind11::module_& m);

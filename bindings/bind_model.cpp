@@ -98,6 +98,7 @@ void bind_model(py::module_& m) {
   bind_kinematics(model);
   bind_dynamics(model);
   bind_energy(model);
+  bind_tables(model);
   bind_statics(m, model);
   bind_modes(model);
 }
