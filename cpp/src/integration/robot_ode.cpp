@@ -8,6 +8,7 @@
 #include "cdcr/dynamics.hpp"
 #include "cdcr/linearization.hpp"
 #include "dynamics/bending.hpp"
+#include "dynamics/parts.hpp"
 
 namespace cdcr {
 namespace {
@@ -90,6 +91,13 @@ void RobotOde::update_command(double t, const ConstVectorRef& q, const ConstVect
 }
 
 void RobotOde::derivative(double t, const double* y, double* dydt) {
+  if (command_holds_ && model_->has_closed_form() && force_is_constant(*model_, wrenches_)) {
+    dydt[0] = y[2];
+    dydt[1] = y[3];
+    detail::closed_form::forward_dynamics(detail::single_of(*model_), y, y + 2, force_.data(),
+                                          dydt + 2);
+    return;
+  }
   const Index m = model_->num_coordinates();
   const Eigen::Map<const VectorXd> q(y, m), qd(y + m, m);
   Eigen::Map<VectorXd> qdd(dydt + m, m);
