@@ -300,7 +300,7 @@ def _effort_matrix(N: int, m: int, tension_weight: float, change_weight: float) 
     along = np.diag(np.full(N, 2.0 * change_weight + tension_weight))
     along[-1, -1] -= change_weight
     along -= change_weight * (np.eye(N, k=1) + np.eye(N, k=-1))
-    return np.kron(along, np.eye(m))
+    return np.asarray(np.kron(along, np.eye(m)), dtype=np.float64)
 
 
 def _shifted(plan: Plan, part: float) -> Plan:
