@@ -12,6 +12,7 @@ from cdcr.base.check import Check, require_kind
 from cdcr.base.keywords import by_keyword
 from cdcr.model.model import Model
 from cdcr.model.wrench import Wrench
+from cdcr.robot.units import ask_about_commands
 from cdcr.runs.parts import Actuator, Sensor, as_dicts
 from cdcr.runs.trajectory import Trajectory
 
@@ -191,6 +192,7 @@ class Loop(_core.Loop):
         found = self._sampled(duration, every, wrenches)
         names = ("t", "q", "qd", "tension", "command", "status", "message", "stats")
         run = Trajectory(model=self.model, method="rk4", **{name: found[name] for name in names})
+        ask_about_commands(self.model.robot, found["asked"])
         if throw and not run.success:
             raise RuntimeError(run.message)
         told = found["told_q"], found["told_qd"], tuple(found["told"])

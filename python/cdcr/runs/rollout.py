@@ -14,6 +14,7 @@ from cdcr.base.arrays import FloatArray, finite
 from cdcr.base.check import Check, require_kind
 from cdcr.model.model import Model
 from cdcr.model.wrench import Wrench, loads
+from cdcr.robot.units import ask_about_commands
 from cdcr.runs.lockstep import BatchController, run_in_lockstep
 from cdcr.runs.parameters import Variation
 from cdcr.runs.rollout_result import Rollout, RolloutFailure
@@ -194,6 +195,7 @@ def rollout(
     commands = None
     if controller is None:
         commands = _commands(first, name, asked, whole["steps"])
+        ask_about_commands(first.robot, commands)
     drivers = _drivers(controller)
     together = controller is not None and not drivers and callable(controller)
     motions = _count(
