@@ -20,9 +20,9 @@ namespace {
 
 LoopOptions read_loop(const py::dict& given) {
   LoopOptions options;
-  options.step = field<double>(given, "step");
-  options.substeps = field<int>(given, "substeps");
-  options.method = read_fixed_step(field<std::string>(given, "method"));
+  options.step = given["step"].cast<double>();
+  options.substeps = given["substeps"].cast<int>();
+  options.method = read_fixed_step(given["method"].cast<std::string>());
   options.actuators = read_actuators(given);
   options.sensors = read_sensors(given);
   return options;
