@@ -85,6 +85,11 @@ const Fields<Section>& section_fields() {
       {"cable_stiffness", &Section::cable_stiffness},
       {"cable_damping", &Section::cable_damping},
       {"cable_friction", &Section::cable_friction},
+      {"cable_entry_friction", &Section::cable_entry_friction},
+      {"cable_sheath_friction", &Section::cable_sheath_friction},
+      {"cable_viscosity", &Section::cable_viscosity},
+      {"cable_pretension", &Section::cable_pretension},
+      {"cable_backlash", &Section::cable_backlash},
       {"damping", &Section::damping},
       {"bending_order", &Section::bending_order},
       {"twist_order", &Section::twist_order},
@@ -113,6 +118,11 @@ const Fields<Cable>& cable_fields() {
       {"stiffness", &Cable::stiffness},
       {"damping", &Cable::damping},
       {"friction", &Cable::friction},
+      {"entry_friction", &Cable::entry_friction},
+      {"sheath_friction", &Cable::sheath_friction},
+      {"viscosity", &Cable::viscosity},
+      {"pretension", &Cable::pretension},
+      {"backlash", &Cable::backlash},
       {"radii", &Cable::radii},
       {"angles", &Cable::angles},
       {"start_section", &Cable::start_section},
@@ -130,6 +140,7 @@ const Fields<Robot>& robot_fields() {
       {"payload_inertia", &Robot::payload_inertia},
       {"sliding_speed", &Robot::sliding_speed},
       {"tool", &Robot::tool},
+      {"presliding_stiffness", &Robot::presliding_stiffness},
   };
   return fields;
 }

@@ -2,9 +2,11 @@
 
 #include <cmath>
 
+#include "cdcr/cable_friction.hpp"
 #include "cdcr/robot_ode.hpp"
 #include "dynamics/bending.hpp"
 #include "integration/rk4.hpp"
+#include "loads/total_force.hpp"
 
 namespace cdcr {
 
@@ -17,13 +19,15 @@ Simulator::Simulator(const Model& model, double step, int substeps)
       data_(model),
       period_(step),
       substeps_(substeps),
-      stages_(std::make_unique<Stages>(2 * model.num_coordinates())) {
+      stages_(std::make_unique<Stages>(2 * model.num_coordinates() + model.num_deflections())) {
   require_inertia(model);
   detail::require_positive("step", step, "s");
   detail::require(substeps >= 1, "substeps must be at least 1, got ", substeps);
   force_ = VectorXd::Zero(model.num_coordinates());
   q_ = qd_ = force_;
-  y_ = trial_ = VectorXd::Zero(2 * model.num_coordinates());
+  deflection_ = VectorXd::Zero(model.num_deflections());
+  felt_ = felt_trial_ = VectorXd::Zero(model.num_cables());
+  y_ = trial_ = VectorXd::Zero(2 * model.num_coordinates() + model.num_deflections());
 }
 
 Simulator::~Simulator() = default;
@@ -38,10 +42,18 @@ void Simulator::reset(const VectorXd& q, const VectorXd& qd, double start, long 
   detail::require_bending("q", model_, q);
   q_ = q;
   qd_ = qd;
-  y_ << q, qd;
+  deflection_.setZero();
+  rest_command(model_, felt_);
   start_ = start;
   set_clock(periods);
   started_ = true;
+}
+
+void Simulator::set_memory(const VectorXd& deflection, const VectorXd& felt) {
+  detail::require_finite("deflection", deflection, model_.num_deflections());
+  detail::require_finite("felt", felt, model_.num_cables());
+  deflection_ = deflection;
+  felt_ = felt;
 }
 
 void Simulator::set_clock(long long periods) noexcept {
@@ -67,25 +79,34 @@ Status Simulator::step(const ConstVectorRef& tension, const Wrenches& wrenches,
 
   const Index m = model_.num_coordinates();
   const bool force_holds = force_is_constant(model_, wrenches);
+  const bool remembers = model_.num_deflections() > 0;
+  felt_trial_ = felt_;
+  follow_with_play(model_, tension, felt_trial_);
   if (force_holds) total_force(model_, q_, qd_, tension, wrenches, force_);
   const auto f = [&](double /*t*/, const double* y, double* dydt) {
     const Eigen::Map<const VectorXd> q(y, m), qd(y + m, m);
     Eigen::Map<VectorXd> rate(dydt, m), qdd(dydt + m, m);
     rate = qd;
-    if (!force_holds) total_force(model_, q, qd, tension, wrenches, force_);
+    if (remembers) {
+      detail::total_force(model_, y, y + m, felt_trial_.data(), y + 2 * m, wrenches, force_.data(),
+                          dydt + 2 * m);
+    } else if (!force_holds) {
+      total_force(model_, q, qd, felt_trial_, wrenches, force_);
+    }
     forward_dynamics_force(model_, data_, q, qd, force_, qdd);
   };
   const double h = period_ / substeps_;
   y_.head(m) = q_;
-  y_.tail(m) = qd_;
+  y_.segment(m, m) = qd_;
+  y_.tail(deflection_.size()) = deflection_;
   for (int i = 0; i < substeps_; ++i) {
     f(0.0, y_.data(), stages_->k1.data());
     stages_->step(f, 0.0, h, y_, trial_);
-    const Status status = check_state(model_, trial_);
+    const auto check = [this, m](const double* y) {
+      return check_state(model_, Eigen::Map<const VectorXd>(y, 2 * m));
+    };
+    const Status status = check(trial_.data());
     if (status != Status::ok) {
-      const auto check = [this, m](const double* y) {
-        return check_state(model_, Eigen::Map<const VectorXd>(y, 2 * m));
-      };
       return stages_->failure_status(status, check, f, 0.0, h, y_, trial_);
     }
     y_.swap(trial_);
@@ -95,7 +116,9 @@ Status Simulator::step(const ConstVectorRef& tension, const Wrenches& wrenches,
     }
   }
   q_ = y_.head(m);
-  qd_ = y_.tail(m);
+  qd_ = y_.segment(m, m);
+  deflection_ = y_.tail(deflection_.size());
+  felt_ = felt_trial_;
   set_clock(periods_ + 1);
   return Status::ok;
 }
