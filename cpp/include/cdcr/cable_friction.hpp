@@ -2,7 +2,7 @@
 
 #include "cdcr/cables.hpp"
 
-// Friction of cables that remembers, cpp/friction.md eqs. (102) to (109), in models that have
+// Friction of cables that remembers, cpp/friction.md eqs. (105) to (112), in models that have
 // num_deflections(): deflection (num_cables) [m] is how far each cable has gone since it stuck,
 // or what is left of that while it slides. All functions are real-time safe; sizes are the
 // caller's duty. The functions of cdcr/cables.hpp, which know no history, take the law of the
@@ -25,7 +25,7 @@ void cable_force(const Model& model, const ConstVectorRef& q, const ConstVectorR
 [[nodiscard]] double deflection_energy(const Model& model,
                                        const ConstVectorRef& deflection) noexcept;
 
-/// Play of drives, eq. (109): moves what each cable feels (num_cables) as far as the drive takes
+/// Play of drives, eq. (112): moves what each cable feels (num_cables) as far as the drive takes
 /// it along, to within half the backlash of its command.
 void follow_with_play(const Model& model, const ConstVectorRef& command, VectorRef felt) noexcept;
 

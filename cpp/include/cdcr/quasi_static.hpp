@@ -36,7 +36,7 @@ struct QuasiStaticStart {
 };
 
 /// Follows commands (T, num_cables), tensions [N] or lengths [m], one after another, at rest at
-/// each: friction remembers the way, cpp/friction.md eqs. (110) to (112).
+/// each: friction remembers the way, cpp/friction.md eqs. (113) to (115).
 ///
 /// Each cable sticks or slides from one sample to the next, without time: a return mapping per
 /// sample. A cable that sticks gives way by Robot::presliding_stiffness; where that is zero, by

@@ -7,7 +7,7 @@
 namespace cdcr::detail {
 
 /// Tension that is left within the entry of a cable pulled in at a speed [m/s], by the law without
-/// memory, eq. (102).
+/// memory, eq. (105).
 template <class S>
 [[nodiscard]] S entry_tension(const Model& model, Index j, const S& tension, const S& speed) {
   const Cable& cable = model.cables()[static_cast<std::size_t>(j)];

@@ -4,7 +4,7 @@
 
 #include "loads/cable_force.hpp"
 
-// Friction of cables that remembers, cpp/friction.md eqs. (102) to (108), on any scalar.
+// Friction of cables that remembers, cpp/friction.md eqs. (105) to (111), on any scalar.
 
 namespace cdcr::detail {
 
@@ -13,7 +13,7 @@ inline constexpr double elastic_share = 0.5;
 /// What a deflection loses of the way slid, where friction is beyond full; and so at most.
 inline constexpr double greatest_loss = 2.0;
 
-/// g(h) of eq. (107): what is lost of the way at a share h of the full friction.
+/// g(h) of eq. (110): what is lost of the way at a share h of the full friction.
 template <class S>
 [[nodiscard]] S lost_share(const S& h) {
   const S t = (h - elastic_share) * (1.0 / (1.0 - elastic_share));
@@ -45,7 +45,7 @@ struct CapstanFactors {
 };
 
 /// The mean tensions of a cable in its sections, at full sliding either way and at a friction in
-/// between, eqs. (102) to (105).
+/// between, eqs. (105) to (108).
 template <class S>
 class FrictionProfile {
  public:
@@ -84,7 +84,7 @@ class FrictionProfile {
     if (most_out_ > 0.0) of_out_ = 1.0 / most_out_;
   }
   [[nodiscard]] const S& friction() const { return friction_; }
-  /// c_k of eq. (104): what section k misses of the tension, over the friction.
+  /// c_k of eq. (107): what section k misses of the tension, over the friction.
   [[nodiscard]] S share(int k) const { return of_in_ * lost_in_[k] + of_out_ * lost_out_[k]; }
   /// Mean tension in section k [N].
   [[nodiscard]] S mean(int k) const { return F_ - friction_ * share(k); }

@@ -77,7 +77,7 @@ void SlowStep::balance(const VectorXd& q, Wanted wanted) noexcept {
   }
 }
 
-/// The return mapping of one cable, eq. (111).
+/// The return mapping of one cable, eq. (114).
 void SlowStep::add_cable(CableGeometry<double>& at, Index j, const VectorXd& q,
                          Wanted wanted) noexcept {
   const Cable& cable = model_.cables()[static_cast<std::size_t>(j)];
@@ -128,7 +128,7 @@ void SlowStep::add_cable(CableGeometry<double>& at, Index j, const VectorXd& q,
   add_stiffness(at, j, q, profile, cable.length_driven() && tension > 0.0, way);
 }
 
-/// Takes the derivative of a cable's force from K, eq. (112).
+/// Takes the derivative of a cable's force from K, eq. (115).
 void SlowStep::add_stiffness(const CableGeometry<double>& at, Index j, const VectorXd& q,
                              const FrictionProfile<double>& profile, bool taut,
                              Sliding way) noexcept {

@@ -8,7 +8,7 @@
 namespace cdcr::detail {
 
 /// One step of a robot at rest under changed commands, friction remembering the way:
-/// cpp/friction.md eqs. (110) to (112). Newton's method on the unbalanced force, which bends where
+/// cpp/friction.md eqs. (113) to (115). Newton's method on the unbalanced force, which bends where
 /// a cable begins to slide. Refers to its arguments, which must outlive it; a step allocates
 /// nothing.
 class SlowStep {

@@ -97,7 +97,7 @@ def quasi_static(
     From sample to sample each cable sticks or slides, without time: pulled and let go, the robot
     does not come back the way it went. A cable that sticks gives way by `presliding_stiffness` of
     the robot, or hardly where that is zero. Without friction these are the points
-    of rest that `Model.equilibrium` finds. cpp/friction.md eqs. (110) to (112).
+    of rest that `Model.equilibrium` finds. cpp/friction.md eqs. (113) to (115).
 
     Parameters
     ----------
