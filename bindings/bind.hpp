@@ -77,6 +77,7 @@ void bind_energy(PyModel& model);                         ///< called by bind_mo
 void bind_tables(PyModel& model);                         ///< called by bind_model
 void bind_statics(pybind11::module_& m, PyModel& model);  ///< called by bind_model
 void bind_modes(PyModel& model);                          ///< called by bind_model
+void bind_quasi_static(pybind11::module_& m);
 void bind_control(pybind11::module_& m);
 void bind_reference_path(pybind11::module_& m);  ///< called by bind_control
 void bind_controllers(pybind11::module_& m);     ///< called by bind_control

@@ -76,7 +76,9 @@ void bind_model(py::module_& m) {
           "rest)^T K\n"
           "(q - rest), cpp/README.md eq. (14) and cpp/rods.md eq. (52).")
       .def_property_readonly("has_friction", &Model::has_friction,
-                             "Whether a cable rubs in its holes.")
+                             "Whether a cable rubs in its holes or at its entry.")
+      .def_property_readonly("num_deflections", &Model::num_deflections,
+                             "Deflections that friction remembers: one for each cable, or 0.")
       .def(
           "actuation_matrix",
           [](const Model& self, const py::object& q) {

@@ -282,6 +282,9 @@ void bind_simulate(py::module_& m) {
       .def_property_readonly(
           "command", [](const Trajectory& self) { return to_rows(self.command); },
           "What was asked of the cables (N, num_cables), [N] or [m].")
+      .def_property_readonly(
+          "deflection", [](const Trajectory& self) { return to_rows(self.deflection); },
+          "Of cables whose friction remembers (N, num_deflections) [m].")
       .def_property_readonly("slack_events", &slack_events,
                              "Time [s], cable and whether slack, in the order of time.")
       .def_property_readonly(

@@ -19,6 +19,7 @@ PYBIND11_MODULE(_core, m) {
   cdcr::python::bind_coordinates(m);
   cdcr::python::bind_wrench(m);
   cdcr::python::bind_model(m);
+  cdcr::python::bind_quasi_static(m);
   cdcr::python::bind_control(m);
   cdcr::python::bind_simulate(m);
   cdcr::python::bind_simulator(m);

@@ -20,6 +20,7 @@ PAPERS = {
     "cpp/derivatives.md": ":doc:`derivatives </explanation/derivatives>`",
     "cpp/control.md": ":doc:`control </explanation/control>`",
     "cpp/estimation.md": ":doc:`estimation </explanation/estimation>`",
+    "cpp/friction.md": ":doc:`friction </explanation/friction>`",
 }
 FILE = Path(__file__).parents[1] / "reference" / "examples.txt"
 

@@ -32,6 +32,7 @@ from cdcr.model.derivatives import Derivatives
 from cdcr.model.inverse_kinematics import InverseKinematics
 from cdcr.model.model import Model
 from cdcr.model.modes import Modes
+from cdcr.model.quasi_static import QuasiStatic, quasi_static
 from cdcr.model.stability import stable_step
 from cdcr.model.statics import ConvergenceError, InfeasibleError
 from cdcr.model.wrench import Wrench
@@ -87,6 +88,7 @@ __all__ = [
     "MomentumObserver",
     "PathReport",
     "Pid",
+    "QuasiStatic",
     "Reference",
     "ReferencePath",
     "Robot",
@@ -117,6 +119,7 @@ __all__ = [
     "merge_state",
     "paper",
     "polar",
+    "quasi_static",
     "robots",
     "rollout",
     "rollout_to_zarr",

@@ -15,6 +15,7 @@ RODS = (CPP / "rods.md").read_text()
 DERIVATIVES = (CPP / "derivatives.md").read_text()
 CONTROL = (CPP / "control.md").read_text()
 ESTIMATION = (CPP / "estimation.md").read_text()
+FRICTION = (CPP / "friction.md").read_text()
 ORIGIN = (ROOT / "docs" / "origin-paper.md").read_text()
 
 
@@ -23,7 +24,7 @@ def blocks(document: str, language: str) -> list[str]:
     return re.findall(rf"^```{language}\n(.*?)^```", document, re.MULTILINE | re.DOTALL)
 
 
-PAGES = (README, SECTIONS, RODS, DERIVATIVES, CONTROL, ESTIMATION)
+PAGES = (README, SECTIONS, RODS, DERIVATIVES, CONTROL, ESTIMATION, FRICTION)
 FORMULAS = "".join(block for page in PAGES for block in blocks(page, "text"))
 EQUATIONS = [int(number) for number in re.findall(r" \((\d+)\)$", FORMULAS, re.MULTILINE)]
 
@@ -51,7 +52,7 @@ def quoted(text: str) -> list[int]:
 
 
 def test_equations_are_numbered_in_order() -> None:
-    assert list(range(1, 105)) == EQUATIONS
+    assert list(range(1, 116)) == EQUATIONS
 
 
 def test_equations_quoted_by_the_sources_exist() -> None:

@@ -115,6 +115,7 @@ PUBLIC: dict[str, Callable[[], Any]] = {
     "ComputedTorque": lambda: cdcr.ComputedTorque(MODEL, kp=np.ones(6), max_tension=20.0),
     "StateFeedback": lambda: cdcr.StateFeedback(MODEL, gain=np.ones((9, 12))),
     "TaskSpace": lambda: cdcr.TaskSpace(MODEL, pretension=np.ones(9)),
+    "QuasiStatic": lambda: cdcr.quasi_static(MODEL, np.ones((2, 9))),
     "ReferencePath": lambda: PATH,
     "ReferencePath of a circle": lambda: cdcr.ReferencePath.circle([0.0], [1.0], [2.0], 1.0, 2.0),
     "LoopRun": loop_run,

@@ -15,6 +15,7 @@ class Recorder {
     out_.qd.resize(times.size(), m);
     out_.tension.resize(times.size(), ode.model().num_cables());
     out_.command.resize(times.size(), ode.model().num_cables());
+    out_.deflection.resize(times.size(), ode.model().num_deflections());
     tension_.resize(ode.model().num_cables());
     command_.resize(ode.model().num_cables());
   }
@@ -26,7 +27,8 @@ class Recorder {
   void record(const VectorXd& y) {
     const Index m = out_.q.cols();
     out_.q.row(next_) = y.head(m).transpose();
-    out_.qd.row(next_) = y.tail(m).transpose();
+    out_.qd.row(next_) = y.segment(m, m).transpose();
+    out_.deflection.row(next_) = y.tail(out_.deflection.cols()).transpose();
     ode_.cables(times_[next_], y, command_, tension_);
     out_.tension.row(next_) = tension_.transpose();
     out_.command.row(next_) = command_.transpose();
@@ -54,6 +56,7 @@ class Recorder {
     out_.qd.conservativeResize(next_, Eigen::NoChange);
     out_.tension.conservativeResize(next_, Eigen::NoChange);
     out_.command.conservativeResize(next_, Eigen::NoChange);
+    out_.deflection.conservativeResize(next_, Eigen::NoChange);
   }
 
  private:

@@ -82,7 +82,9 @@ class Run {
         hits_(events.size(), 0) {}
 
   Trajectory go(const VectorXd& q0, const VectorXd& qd0) {
-    y_ << q0, qd0;
+    y_.setZero();  // no deflections
+    y_.head(q0.size()) = q0;
+    y_.segment(q0.size(), qd0.size()) = qd0;
     detail::require_bending("q0", ode_.model(), q0);
     double t = 0.0;
     while (true) {
@@ -169,7 +171,7 @@ class Run {
       }
       const Event& event = events_[static_cast<std::size_t>(i)];
       if (event.direction != 0 && crossing.rising != (event.direction > 0)) continue;
-      out_.events.push_back({start_ + crossing.time, i, y.head(m), y.tail(m)});
+      out_.events.push_back({start_ + crossing.time, i, y.head(m), y.segment(m, m)});
       const int count = ++hits_[static_cast<std::size_t>(i)];
       ends = ends || (event.terminal > 0 && count >= event.terminal);
     }
@@ -182,7 +184,7 @@ class Run {
     ode_.pulls(t, y.data(), values.data());
     for (std::size_t i = 0; i < events_.size(); ++i) {
       double& value = values[num_slack_ + static_cast<Index>(i)];
-      value = events_[i].function(start_ + t, y.head(m), y.tail(m));
+      value = events_[i].function(start_ + t, y.head(m), y.segment(m, m));
       detail::require(std::isfinite(value), "event ", i + 1, " must give finite values, got ",
                       value, " at t = ", start_ + t, " s");
     }

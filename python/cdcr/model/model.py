@@ -146,9 +146,10 @@ class Model(StateSpaceModel):
 
         Newton's method, downhill in energy where all loads have one; where that fails, the load
         grows from nothing to all, then other starts are tried. Friction of cables is left out: with
-        it the robot rests anywhere in a range of shapes about this one, and the answer with
-        ``throw=False`` tells so. The answer may be unstable when gravity is strong and the
-        start is a point of rest; with ``throw=False`` it tells.
+        it the robot rests anywhere in a range of shapes about this one. A warning says so; with
+        ``throw=False`` the answer does. `quasi_static` remembers the way, and has friction. The
+        answer may be unstable when gravity is strong and the start is a point of rest; with
+        ``throw=False`` it tells.
 
         Parameters
         ----------
@@ -177,7 +178,7 @@ class Model(StateSpaceModel):
         found = self.find_equilibrium(tension, q0, wrenches)
         if tension is not None:
             ask_about_commands(self.robot, finite(tension, "tension"))
-        return checked_equilibrium(found) if throw else found
+        return checked_equilibrium(found, warn=True) if throw else found
 
     def modes(
         self,

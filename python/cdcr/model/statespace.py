@@ -121,12 +121,16 @@ class StateSpaceModel(ShapeModel):
         0.0206 m/N
         """
         from cdcr.model.signals import find_outputs, input_names, state_names
+        from cdcr.model.statics import checked_equilibrium
 
         chosen = find_outputs(outputs)
         control: Any = require("control", "control")
         model = cast("Model", self)
         command = model.rest_command() if tension is None else tension
-        shape = model.equilibrium(command, wrenches=wrenches) if q is None else finite(q, "q")
+        if q is None:
+            shape = checked_equilibrium(model.find_equilibrium(command, wrenches=wrenches))
+        else:
+            shape = finite(q, "q")
         if shape.shape != (model.num_coordinates,):
             raise ValueError(f"q must have shape ({model.num_coordinates},), got {shape.shape}")
         rates = np.zeros(model.num_coordinates) if qd is None else qd

@@ -206,6 +206,7 @@ def simulate(
         command=raw.command,
         slack_events=tuple(SlackEvent(*event) for event in raw.slack_events),
         events=tuple(EventRecord(*event) for event in raw.events),
+        deflection=raw.deflection if model.num_deflections else None,
     )
     warn_beyond_taylor_range(model, run.q)
     if run.stats.stiff is not None and not _core.with_cvode:

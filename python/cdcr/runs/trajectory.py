@@ -52,6 +52,8 @@ class Trajectory(Pictures, ReadOnlyArrays):
         When length-driven cables turned slack or taut.
     events : tuple of EventRecord
         The events of `simulate`, in the order of time.
+    deflection : ndarray, shape (N, num_cables), optional
+        Of cables whose friction remembers, against where they stick [m]; files do not keep it.
     """
 
     model: Model
@@ -66,6 +68,7 @@ class Trajectory(Pictures, ReadOnlyArrays):
     command: FloatArray = None  # type: ignore[assignment]  # the tensions
     slack_events: tuple[SlackEvent, ...] = ()
     events: tuple[EventRecord, ...] = ()
+    deflection: FloatArray | None = None
 
     def __post_init__(self) -> None:
         """Take copies nobody else can write to, and check that they fit together."""
@@ -80,6 +83,8 @@ class Trajectory(Pictures, ReadOnlyArrays):
             if array.shape != shape:
                 raise ValueError(f"{name} must have shape {shape}, got {array.shape}")
             object.__setattr__(self, name, read_only(array))
+        if self.deflection is not None:
+            object.__setattr__(self, "deflection", read_only(np.array(self.deflection)))
         if rows == 0:
             raise ValueError(f"a run must have at least one sample, got none. {self.message}")
 
@@ -150,7 +155,13 @@ class Trajectory(Pictures, ReadOnlyArrays):
     @cached_property
     def friction_power(self) -> FloatArray:
         """Heat that friction of the cables makes (N,) [W], never negative."""
-        return read_only(self.model.friction_power(self.q, self.qd, self.command))
+        if not self.model.num_deflections:
+            return read_only(self.model.friction_power(self.q, self.qd, self.command))
+        if self.deflection is None:
+            raise ValueError(
+                "this run does not hold what its friction remembered: simulate it again"
+            )
+        return read_only(self.model.friction_power(self.q, self.qd, self.command, self.deflection))
 
     @property
     def energy_error(self) -> FloatArray:
