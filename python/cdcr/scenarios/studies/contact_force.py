@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import lru_cache
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from cdcr.base.arrays import FloatArray
 from cdcr.runs.parts import Sensor
 from cdcr.runs.trajectory import Trajectory
-from cdcr.scenarios.file.estimator import EstimatorMaker
-from cdcr.scenarios.file.loop import ClosedLoop
 from cdcr.scenarios.metrics import Metric, run_metrics
 
 if TYPE_CHECKING:
@@ -20,10 +18,10 @@ if TYPE_CHECKING:
 
 NAMES = ("momentum observer", "Kalman filter, from lengths")
 LENGTHS = Sensor(kind="lengths", noise=1e-5)
-FILTER = EstimatorMaker(
-    "extended-kalman",
-    {"period": 1e-3, "actuators": True, "force_at": (2, 1.0), "force_noise": 0.1},
-)
+FILTER: dict[str, Any] = {
+    "kind": "extended-kalman",
+    "options": {"period": 1e-3, "actuators": True, "force_at": (2, 1.0), "force_noise": 0.1},
+}
 SETTLED = 0.5  # share of the run
 
 
@@ -35,9 +33,10 @@ def truth(scenario: Scenario) -> FloatArray:
 @lru_cache(maxsize=1)
 def forces(scenario: Scenario, t_end: float) -> tuple[FloatArray, dict[str, FloatArray]]:
     """Return times and the forces (N, 3) [N] that each finds, by name."""
-    model, closed = scenario.model, cast(ClosedLoop, scenario.input_source)
+    model = scenario.model
+    closed: Any = scenario.input_source
     options = closed.options | {"sensors": [LENGTHS]}
-    loops = closed, replace(closed, options=options, estimator=FILTER)
+    loops = closed, replace(closed, options=options, estimator=replace(closed.estimator, **FILTER))
     start, t = (scenario.start(model), scenario.qd0), scenario.times(t_end)
     found = {}
     for name, one in zip(NAMES, loops, strict=True):

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import lru_cache
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from cdcr.base.arrays import FloatArray
 from cdcr.runs.loop import LoopRun
 from cdcr.runs.trajectory import Trajectory
-from cdcr.scenarios.file.loop import ClosedLoop
 from cdcr.scenarios.metrics import Metric, run_metrics
 
 if TYPE_CHECKING:
@@ -21,10 +20,9 @@ NAMES = ("extended filter", "unscented filter", "lengths alone")
 LATE = 0.5  # share of the run after which errors of the start have gone
 
 
-def _loops(closed: ClosedLoop) -> dict[str, ClosedLoop]:
-    made = closed.estimator
-    assert made is not None
-    unscented = replace(closed, estimator=replace(made, kind="unscented-kalman"))
+def _loops(closed: Any) -> dict[str, Any]:
+    """Return the scenario's loop, and the same with other filters."""
+    unscented = replace(closed, estimator=replace(closed.estimator, kind="unscented-kalman"))
     alone = replace(closed, options=closed.options | {"sensors": closed.options["sensors"][:1]})
     return dict(zip(NAMES, (closed, unscented, alone), strict=True))
 
@@ -32,9 +30,9 @@ def _loops(closed: ClosedLoop) -> dict[str, ClosedLoop]:
 @lru_cache(maxsize=1)
 def runs(scenario: Scenario, t_end: float) -> dict[str, LoopRun]:
     """Return the loops with each filter, by name."""
-    model, closed = scenario.model, cast(ClosedLoop, scenario.input_source)
+    model, loops = scenario.model, _loops(scenario.input_source)
     start, t = (scenario.start(model), scenario.qd0), scenario.times(t_end)
-    return {name: one.run_loop(model, *start, t) for name, one in _loops(closed).items()}
+    return {name: one.run_loop(model, *start, t) for name, one in loops.items()}
 
 
 def error(run: LoopRun) -> FloatArray:
@@ -46,7 +44,7 @@ def error(run: LoopRun) -> FloatArray:
 def summarize(scenario: Scenario, run: Trajectory) -> tuple[Metric, ...]:
     """Return what every run shows, errors, and how honest the filter is."""
     found = runs(scenario, float(run.t[-1]))
-    late = run.t[:-1] >= LATE * run.t[-1]
+    late = found[NAMES[0]].trajectory.t[:-1] >= LATE * run.t[-1]
     metrics = [*run_metrics(scenario, run)]
     for key, name in zip(("extended", "unscented", "lengths"), NAMES, strict=True):
         root = float(np.sqrt(np.mean(error(found[name])[late] ** 2)))
