@@ -11,6 +11,7 @@
 
 namespace cdcr {
 class ComputedTorque;
+class ParameterSet;
 class Pid;
 class StateFeedback;
 class TaskSpace;
@@ -32,6 +33,7 @@ CDCR_BOUND_CLASS(cdcr::Controller);
 CDCR_BOUND_CLASS(cdcr::Equilibrium);
 CDCR_BOUND_CLASS(cdcr::Model);
 CDCR_BOUND_CLASS(cdcr::Options);
+CDCR_BOUND_CLASS(cdcr::ParameterSet);
 CDCR_BOUND_CLASS(cdcr::python::Tracking<cdcr::ComputedTorque>);
 CDCR_BOUND_CLASS(cdcr::python::Tracking<cdcr::Pid>);
 CDCR_BOUND_CLASS(cdcr::python::Tracking<cdcr::StateFeedback>);
@@ -58,12 +60,13 @@ void bind_robot(pybind11::module_& m);
 void bind_coordinates(pybind11::module_& m);
 void bind_wrench(pybind11::module_& m);
 void bind_model(pybind11::module_& m);
-void bind_cables(PyModel& model);                         ///< called by bind_model
-void bind_kinematics(PyModel& model);                     ///< called by bind_model
-void bind_dynamics(PyModel& model);                       ///< called by bind_model
-void bind_energy(PyModel& model);                         ///< called by bind_model
-void bind_statics(pybind11::module_& m, PyModel& model);  ///< called by bind_model
-void bind_modes(PyModel& model);                          ///< called by bind_model
+void bind_cables(PyModel& model);                            ///< called by bind_model
+void bind_kinematics(PyModel& model);                        ///< called by bind_model
+void bind_dynamics(PyModel& model);                          ///< called by bind_model
+void bind_energy(PyModel& model);                            ///< called by bind_model
+void bind_statics(pybind11::module_& m, PyModel& model);     ///< called by bind_model
+void bind_modes(PyModel& model);                             ///< called by bind_model
+void bind_parameters(pybind11::module_& m, PyModel& model);  ///< called by bind_model
 void bind_control(pybind11::module_& m);
 void bind_reference_path(pybind11::module_& m);  ///< called by bind_control
 void bind_controllers(pybind11::module_& m);     ///< called by bind_control

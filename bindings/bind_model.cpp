@@ -100,6 +100,7 @@ void bind_model(py::module_& m) {
   bind_energy(model);
   bind_statics(m, model);
   bind_modes(model);
+  bind_parameters(m, model);
 }
 
 }  // namespace cdcr::python

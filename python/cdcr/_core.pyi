@@ -145,6 +145,21 @@ class Model(metaclass=_Bound):
         tension: ArrayLike,
         wrenches: Wrench | Sequence[Wrench],
     ) -> tuple[_FloatArray, _FloatArray, _FloatArray, _FloatArray]: ...
+    def _parameter_derivatives(
+        self,
+        q: ArrayLike,
+        qd: ArrayLike,
+        tension: ArrayLike,
+        wrenches: Wrench | Sequence[Wrench],
+        parameters: ParameterSet,
+    ) -> _FloatArray: ...
+    def _equilibrium_derivatives(
+        self,
+        q: ArrayLike,
+        tension: ArrayLike,
+        wrenches: Wrench | Sequence[Wrench],
+        parameters: ParameterSet,
+    ) -> _FloatArray: ...
     def wrench_force(self, q: ArrayLike, wrenches: Wrench | Sequence[Wrench]) -> _FloatArray: ...
     def cable_tensions(self, q: ArrayLike, qd: ArrayLike, tension: ArrayLike) -> _FloatArray: ...
     def tensions_along(self, q: ArrayLike, qd: ArrayLike, tension: ArrayLike) -> _FloatArray: ...
@@ -185,6 +200,21 @@ class Model(metaclass=_Bound):
         seeds: int,
         iterations: int,
     ) -> tuple[_FloatArray, _FloatArray, _FloatArray, float, float, float, bool, int, int, str]: ...
+
+class ParameterSet(metaclass=_Bound):
+    def __init__(
+        self,
+        model: Model,
+        parameters: Sequence[tuple[str, float, float, Callable[[float], Robot]]],
+    ) -> None: ...
+    @staticmethod
+    def of_sides(
+        model: Model, parameters: Sequence[tuple[str, Model, Model, float]]
+    ) -> ParameterSet: ...
+    def __len__(self) -> int: ...
+    @property
+    def names(self) -> list[str]: ...
+    def is_exact(self, parameter: int) -> bool: ...
 
 class Options(metaclass=_Bound):
     def __init__(
@@ -254,6 +284,8 @@ class Trajectory(metaclass=_Bound):
     @property
     def command(self) -> _FloatArray: ...
     @property
+    def sensitivities(self) -> _FloatArray: ...
+    @property
     def slack_events(self) -> list[tuple[float, int, bool]]: ...
     @property
     def events(self) -> list[tuple[float, int, _FloatArray, _FloatArray]]: ...
@@ -275,6 +307,7 @@ def simulate(
     progress: Callable[[float], object] | None,
     loads: Loads,
     events: Sequence[tuple[Callable[..., object], int, int]],
+    sensitivities: tuple[Any, ...] | None,
 ) -> Trajectory: ...
 def simulate_controlled(
     model: Model,

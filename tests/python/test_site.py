@@ -226,7 +226,15 @@ def test_what_has_no_meaning_is_refused() -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["README.md", "several-sections.md", "rods.md", "derivatives.md", "control.md"]
+    "name",
+    [
+        "README.md",
+        "several-sections.md",
+        "rods.md",
+        "derivatives.md",
+        "control.md",
+        "sensitivities.md",
+    ],
 )
 def test_all_numbered_equations_are_set(name: str) -> None:
     text = (ROOT / "cpp" / name).read_text(encoding="utf-8")
