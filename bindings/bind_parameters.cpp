@@ -67,7 +67,7 @@ py::array_t<double> differentiate_equilibrium(const Model& self, const py::objec
 void bind_parameters(py::module_& m, PyModel& model) {
   py::class_<ParameterSet>(m, "ParameterSet",
                            "Parameters of a model, ready for derivatives: cpp/sensitivities.md "
-                           "eqs. (94) to (96).")
+                           "eqs. (116) to (118).")
       .def(py::init(&make_set), "model"_a, "parameters"_a,
            Doc("Make the models beside it.",
                {docs::model,

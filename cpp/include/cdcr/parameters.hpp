@@ -28,7 +28,7 @@ struct ParameterSides {
 };
 
 /// Parameters of a model, with the models beside it that their derivatives are made of
-/// (cpp/sensitivities.md eqs. (94) to (96)).
+/// (cpp/sensitivities.md eqs. (116) to (118)).
 ///
 /// The equations of motion are polynomials of second degree in masses, stiffnesses, damping,
 /// gravity and the like: their derivative is a difference of two, exact to rounding. Of all else,
@@ -82,14 +82,14 @@ void imbalance_derivatives(const ParameterSet& parameters, ParameterData& room,
                            const ConstVectorRef& qdd, const ConstVectorRef& command,
                            const Wrenches& wrenches, MatrixRef slopes) noexcept;
 
-/// d(qdd)/dp (d, size) of forward_dynamics at a state, cpp/sensitivities.md eq. (94). NaN where the
+/// d(qdd)/dp (d, size) of forward_dynamics at a state, cpp/sensitivities.md eq. (116). NaN where the
 /// mass matrix is singular. Real-time safe.
 void parameter_derivatives(const Model& model, Data& data, const ParameterSet& parameters,
                            ParameterData& room, const ConstVectorRef& q, const ConstVectorRef& qd,
                            const ConstVectorRef& command, const Wrenches& wrenches,
                            MatrixRef slopes) noexcept;
 
-/// dq/dp (d, size) of an equilibrium q under constant commands and wrenches, eq. (97); infinite or
+/// dq/dp (d, size) of an equilibrium q under constant commands and wrenches, eq. (119); infinite or
 /// NaN where the stiffness is singular. It allocates.
 [[nodiscard]] MatrixXd equilibrium_derivatives(const Model& model, const ParameterSet& parameters,
                                                const VectorXd& q, const VectorXd& command,

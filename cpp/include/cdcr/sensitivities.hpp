@@ -29,7 +29,7 @@ struct Sensitivities {
 /// d(q, qd)/dp (2d, k) at t[i], row by row.
 ///
 /// The steps and states are those of the run without. In each step the variational equation,
-/// cpp/sensitivities.md eq. (98), is solved along them by a method of its own: Radau IIA of order
+/// cpp/sensitivities.md eq. (120), is solved along them by a method of its own: Radau IIA of order
 /// 5, or 9 where the run's method is of higher order. Throws also for a command that is a function,
 /// which may be feedback.
 [[nodiscard]] Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,

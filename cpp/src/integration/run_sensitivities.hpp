@@ -8,7 +8,7 @@
 namespace cdcr::detail {
 
 /// Derivatives of the states of a run, carried along with it: S = d(q, qd)/dp of the variational
-/// equation, cpp/sensitivities.md eq. (98), which is linear, so that each step of the run costs it
+/// equation, cpp/sensitivities.md eq. (120), which is linear, so that each step of the run costs it
 /// one solution of linear equations.
 class RunSensitivities {
  public:

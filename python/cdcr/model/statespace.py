@@ -70,7 +70,7 @@ class StateSpaceModel(ShapeModel):
         parameters: str | Sequence[str],
         wrenches: Wrench | Sequence[Wrench] = (),
     ) -> FloatArray:
-        """Differentiate `forward_dynamics` by numbers of the robot, cpp/sensitivities.md eq. (94).
+        """Differentiate `forward_dynamics` by numbers of the robot, cpp/sensitivities.md eq. (116).
 
         Exact to rounding by masses, stiffnesses, damping, gravity and the like; by all else, such
         as lengths and diameters, to about 1e-12, of rods to about 1e-9.
@@ -123,7 +123,7 @@ class StateSpaceModel(ShapeModel):
         parameters: str | Sequence[str],
         wrenches: Wrench | Sequence[Wrench] = (),
     ) -> FloatArray:
-        """Differentiate `equilibrium` by numbers of the robot, cpp/sensitivities.md eq. (97).
+        """Differentiate `equilibrium` by numbers of the robot, cpp/sensitivities.md eq. (119).
 
         As accurate as `parameter_derivatives`. Where the robot buckles the stiffness is singular,
         and the answer infinite or NaN.
