@@ -15,6 +15,7 @@ class Estimator;
 class ExtendedKalman;
 class KalmanFilter;
 class MomentumObserver;
+class ParameterSet;
 class Pid;
 class StateFeedback;
 class TaskSpace;
@@ -44,6 +45,7 @@ CDCR_BOUND_CLASS(cdcr::Options);
 CDCR_BOUND_CLASS(cdcr::python::Estimating<cdcr::ExtendedKalman>);
 CDCR_BOUND_CLASS(cdcr::python::Estimating<cdcr::MomentumObserver>);
 CDCR_BOUND_CLASS(cdcr::python::Estimating<cdcr::UnscentedKalman>);
+CDCR_BOUND_CLASS(cdcr::ParameterSet);
 CDCR_BOUND_CLASS(cdcr::python::Tracking<cdcr::ComputedTorque>);
 CDCR_BOUND_CLASS(cdcr::python::Tracking<cdcr::Pid>);
 CDCR_BOUND_CLASS(cdcr::python::Tracking<cdcr::StateFeedback>);
@@ -70,13 +72,14 @@ void bind_robot(pybind11::module_& m);
 void bind_coordinates(pybind11::module_& m);
 void bind_wrench(pybind11::module_& m);
 void bind_model(pybind11::module_& m);
-void bind_cables(PyModel& model);                         ///< called by bind_model
-void bind_kinematics(PyModel& model);                     ///< called by bind_model
-void bind_dynamics(PyModel& model);                       ///< called by bind_model
-void bind_energy(PyModel& model);                         ///< called by bind_model
-void bind_tables(PyModel& model);                         ///< called by bind_model
-void bind_statics(pybind11::module_& m, PyModel& model);  ///< called by bind_model
-void bind_modes(PyModel& model);                          ///< called by bind_model
+void bind_cables(PyModel& model);                            ///< called by bind_model
+void bind_kinematics(PyModel& model);                        ///< called by bind_model
+void bind_dynamics(PyModel& model);                          ///< called by bind_model
+void bind_energy(PyModel& model);                            ///< called by bind_model
+void bind_tables(PyModel& model);                            ///< called by bind_model
+void bind_statics(pybind11::module_& m, PyModel& model);     ///< called by bind_model
+void bind_modes(PyModel& model);                             ///< called by bind_model
+void bind_parameters(pybind11::module_& m, PyModel& model);  ///< called by bind_model
 void bind_quasi_static(pybind11::module_& m);
 void bind_control(pybind11::module_& m);
 void bind_reference_path(pybind11::module_& m);  ///< called by bind_control

@@ -79,6 +79,8 @@ void bind_model(py::module_& m) {
                              "Whether a cable rubs in its holes or at its entry.")
       .def_property_readonly("num_deflections", &Model::num_deflections,
                              "Deflections that friction remembers: one for each cable, or 0.")
+      .def_property_readonly("has_backlash", &Model::has_backlash,
+                             "Whether a drive has play, so that it remembers where it came from.")
       .def(
           "actuation_matrix",
           [](const Model& self, const py::object& q) {
@@ -103,6 +105,7 @@ void bind_model(py::module_& m) {
   bind_tables(model);
   bind_statics(m, model);
   bind_modes(model);
+  bind_parameters(m, model);
 }
 
 }  // namespace cdcr::python

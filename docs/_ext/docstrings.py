@@ -21,6 +21,7 @@ PAPERS = {
     "cpp/control.md": ":doc:`control </explanation/control>`",
     "cpp/estimation.md": ":doc:`estimation </explanation/estimation>`",
     "cpp/friction.md": ":doc:`friction </explanation/friction>`",
+    "cpp/sensitivities.md": ":doc:`sensitivities </explanation/sensitivities>`",
 }
 FILE = Path(__file__).parents[1] / "reference" / "examples.txt"
 

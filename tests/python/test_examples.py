@@ -344,3 +344,16 @@ def test_feel_a_push(example: Example) -> None:
     J = model.jacobian(run.q[i], 2, 1.0)[:3]
     by_hand = np.linalg.solve(model.mass_matrix(run.q[i]), J.T)
     np.testing.assert_allclose(found["by_force"][i], by_hand, rtol=1e-9)
+
+
+def test_optimal_pull(example: Example) -> None:
+    found = example(31)
+    assert found["rest"] < 0.02 < 10.0 < found["swing"]
+    # One column of the chain rule through both runs, by a difference.
+    pulls, h = found["found"].x, 1e-4
+    ends = []
+    for side in (h, -h):
+        _, second, _ = found["end"](pulls + side * np.eye(6)[1])
+        ends.append(np.concatenate([second.q[-1], second.qd[-1]]))
+    column = found["end"](pulls)[2][:, 1]
+    np.testing.assert_allclose((ends[0] - ends[1]) / (2 * h), column, atol=1e-5)

@@ -229,7 +229,7 @@ def test_what_has_no_meaning_is_refused() -> None:
     "name",
     [
         *("README.md", "several-sections.md", "rods.md", "derivatives.md", "control.md"),
-        *("estimation.md", "friction.md"),
+        *("estimation.md", "friction.md", "sensitivities.md"),
     ],
 )
 def test_all_numbered_equations_are_set(name: str) -> None:

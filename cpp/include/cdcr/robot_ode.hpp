@@ -38,6 +38,10 @@ class RobotOde {
   /// y' at (t, y); y and dydt of num_states. Throws only when the input or a load is a function:
   /// what it throws, or std::invalid_argument when it gives a negative or non-finite value.
   void derivative(double t, const double* y, double* dydt);
+  /// Brings command() and wrenches() to (t, y) within the stretch.
+  void update_inputs(double t, const double* y);
+  [[nodiscard]] const VectorXd& command() const noexcept { return command_; }
+  [[nodiscard]] const Wrenches& wrenches() const noexcept { return wrenches_; }
   /// df/dy (num_states, num_states), column-major. Feedback in the input is left out.
   void jacobian(double t, const double* y, double* J);
   /// Commands (num_cables) at (t, y) within the stretch, [N] or [m], and the tensions that the

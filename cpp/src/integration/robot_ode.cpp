@@ -144,11 +144,17 @@ void RobotOde::derivative(double t, const double* y, double* dydt) {
   forward_dynamics_force(*model_, data_, q, qd, force_, qdd);
 }
 
-void RobotOde::jacobian(double t, const double* y, double* J) {
+void RobotOde::update_inputs(double t, const double* y) {
   const Index m = model_->num_coordinates();
   const Eigen::Map<const VectorXd> q(y, m), qd(y + m, m);
   if (!command_holds_) update_command(t, q, qd);
   if (!loads_->hold()) loads_->evaluate(t, segment_start_, wrenches_);
+}
+
+void RobotOde::jacobian(double t, const double* y, double* J) {
+  const Index m = model_->num_coordinates();
+  const Eigen::Map<const VectorXd> q(y, m), qd(y + m, m);
+  update_inputs(t, y);
   if (model_->num_deflections() > 0) return memory_jacobian(y, J);
   Eigen::Map<MatrixXd> A(J, 2 * m, 2 * m);
   state_jacobian(*model_, data_, q, qd, command_, wrenches_, A);

@@ -9,6 +9,7 @@
 #include "dynamics/bending.hpp"
 #include "integration/crossings.hpp"
 #include "integration/recorder.hpp"
+#include "integration/run_sensitivities.hpp"
 
 namespace cdcr {
 namespace {
@@ -65,7 +66,8 @@ VectorXd dead_band(const RobotOde& ode, std::size_t num_events) {
 class Run {
  public:
   Run(RobotOde& ode, const VectorXd& times, Integrator& integrator, Method method,
-      const Options& options, const Progress& progress, const Events& events)
+      const Options& options, const Progress& progress, const Events& events,
+      detail::RunSensitivities* sensitivities = nullptr)
       : ode_(ode),
         integrator_(integrator),
         method_(method),
@@ -76,7 +78,8 @@ class Run {
         end_(times[times.size() - 1] - start_),
         num_slack_(static_cast<Index>(ode.length_driven().size())),
         y_(ode.num_states()),
-        recorder_(ode, times, out_),
+        sensitivities_(sensitivities),
+        recorder_(ode, times, sensitivities, out_),
         crossings_(dead_band(ode, events.size()), ode.num_states(),
                    [this](double t, const VectorXd& y, VectorRef values) { watch(t, y, values); }),
         hits_(events.size(), 0) {}
@@ -129,6 +132,7 @@ class Run {
       status = pass_crossings(begin, stop);
       if (status != Status::ok) return status;
       recorder_.record_step(integrator_, integrator_.time(), stop);
+      if (sensitivities_ != nullptr) sensitivities_->advance(integrator_, integrator_.time());
     }
     return Status::ok;
   }
@@ -151,6 +155,7 @@ class Run {
       }
       if (first.time >= stop) return Status::ok;
       recorder_.record_step(integrator_, first.time, stop);
+      if (sensitivities_ != nullptr) sensitivities_->advance_to_kink(integrator_, first.time);
       crossings_.resume(first.time, y_);
       return integrator_.restart(first.time, y_, stop);
     }
@@ -200,6 +205,7 @@ class Run {
   Index num_slack_;
   Trajectory out_;
   VectorXd y_;
+  detail::RunSensitivities* sensitivities_;
   detail::Recorder recorder_;
   Crossings crossings_;
   std::vector<int> hits_;
@@ -233,6 +239,15 @@ Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
                     const VectorXd& times, const CommandInput& input, Method method,
                     const Options& options, IntegratorFactory factory, const Progress& progress,
                     const WrenchInput& loads, const Events& events) {
+  return simulate(model, q0, qd0, times, input, {}, method, options, factory, progress, loads,
+                  events);
+}
+
+Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
+                    const VectorXd& times, const CommandInput& input,
+                    const Sensitivities& sensitivities, Method method, const Options& options,
+                    IntegratorFactory factory, const Progress& progress, const WrenchInput& loads,
+                    const Events& events) {
   check_arguments(model, q0, qd0, times, events);
   const CommandInput commands = input.commands_since(times[0]);
   const WrenchInput wrenches = loads.since(times[0]);
@@ -240,7 +255,16 @@ Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
   const Options chosen =
       watchful(options, times, input.is_unbroken_function() || loads.has_unbroken_function());
   const auto integrator = factory(ode, method, chosen);
-  return Run(ode, times, *integrator, method, chosen, progress, events).go(q0, qd0);
+  std::optional<detail::RunSensitivities> carried;
+  if (sensitivities.columns(model) > 0) {
+    detail::require(!input.is_function(),
+                    "sensitivities need commands that are constant or a table: a function may be "
+                    "feedback, whose own derivatives are not known");
+    carried.emplace(ode, sensitivities, times[0], method, chosen);
+  }
+  return Run(ode, times, *integrator, method, chosen, progress, events,
+             carried ? &*carried : nullptr)
+      .go(q0, qd0);
 }
 
 Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,

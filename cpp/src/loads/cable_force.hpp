@@ -186,15 +186,21 @@ inline void single_actuation_force(const Model& model, const double* tension,
   force[1] = y;
 }
 
-/// Adds the generalised force of one cable.
+/// Adds the generalised force of one cable with this tension at the base.
 template <class S>
-void add_cable_force(const Model& model, Index j, const S* q, const S* qd, const S& command,
-                     S* force) {
-  const S tension = base_tension(model, j, q, qd, command);
+void add_pulled_force(const Model& model, Index j, const S* q, const S* qd, const S& tension,
+                      S* force) {
   if (model.has_rods()) return add_rod_cable_force(model, j, q, qd, tension, force);
   if (model.has_friction()) return add_capstan_force(model, j, q, qd, tension, force);
   const Index rows = model.cable_rows()[static_cast<std::size_t>(j)];
   for (Index i = 0; i < rows; ++i) force[i] += model.actuation_matrix()(i, j) * tension;
+}
+
+/// Adds the generalised force of one cable.
+template <class S>
+void add_cable_force(const Model& model, Index j, const S* q, const S* qd, const S& command,
+                     S* force) {
+  add_pulled_force(model, j, q, qd, base_tension(model, j, q, qd, command), force);
 }
 
 /// Generalised force of all cables.

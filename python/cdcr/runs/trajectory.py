@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -54,6 +55,10 @@ class Trajectory(Pictures, ReadOnlyArrays):
         The events of `simulate`, in the order of time.
     deflection : ndarray, shape (N, num_cables), optional
         Of cables whose friction remembers, against where they stick [m]; files do not keep it.
+    sensitivities, rate_sensitivities : mapping of str to (N, d, k) array
+        Derivatives of q [rad] and of qd [rad/s] by what `simulate` was asked for: by the name given,
+        with k = d columns for "q0" and "qd0", num_cables for "tension", one for a number of the
+        robot, in SI units.
     """
 
     model: Model
@@ -69,6 +74,8 @@ class Trajectory(Pictures, ReadOnlyArrays):
     slack_events: tuple[SlackEvent, ...] = ()
     events: tuple[EventRecord, ...] = ()
     deflection: FloatArray | None = None
+    sensitivities: Mapping[str, FloatArray] = field(default_factory=dict)
+    rate_sensitivities: Mapping[str, FloatArray] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Take copies nobody else can write to, and check that they fit together."""
@@ -189,8 +196,10 @@ class Trajectory(Pictures, ReadOnlyArrays):
         ``model.coordinate_names`` labels; ``theta`` and ``phi`` (time, section) [rad], ``tension``
         (time, cable) [N], ``tip`` (time, axis) [m], ``kinetic_energy``, ``potential_energy`` and
         ``energy`` (time) [J]; where cables are driven by length also ``command`` (time, cable), [N]
-        or [m], and ``cable_energy`` (time) [J]. Each has attributes ``units`` and ``long_name``;
-        those of the Dataset tell robot, formulation, method, how the run ended and what it cost.
+        or [m], and ``cable_energy`` (time) [J]; of sensitivities ``dq_dNAME`` and ``dqd_dNAME``
+        (time, ``of_coordinate``), with ``by_coordinate`` or ``cable`` where NAME is many. Each has
+        attributes ``units`` and ``long_name``; those of the Dataset tell robot, formulation,
+        method, how the run ended and what it cost.
 
         Returns
         -------
