@@ -10,10 +10,10 @@ IN_VENV := PATH="$(CURDIR)/$(VENV)/bin:$$PATH"
 SPHINX := python -m sphinx -W --keep-going -q
 
 .NOTPARALLEL:
-.PHONY: help demo test lint format validate bench bench-smoke compare view-test wheel docs docs-links asan tsan fuzz builds lock audit clean setup setup-dev setup-docs test-cpp types test-python
+.PHONY: help demo test lint format validate bench bench-smoke compare view-test wheel docs docs-links asan tsan fuzz builds test-arm64 lock audit clean setup setup-dev setup-docs test-cpp types test-python
 
 help: ## list the commands
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 demo: setup ## install cdcr, pull cable 1 of the paper's robot with 5 N, write picture and data to out/
 	@echo "[4/4] cdcr run step-tension"
@@ -86,6 +86,9 @@ fuzz: setup-dev ## fuzz the C++ interface and the readers of files, SECONDS=60 e
 
 builds: setup-dev ## other ways to build, tested: clang, AVX2, shared and hidden, without CVODE (an hour)
 	@$(IN_VENV) tools/builds.sh
+
+test-arm64: setup-dev ## C++ tests built for 64-bit ARM, under qemu-user; exported C for a Cortex-M7
+	@$(IN_VENV) nice -n 19 tools/arm64.sh
 
 lock: setup-dev ## find the versions and hashes of tools/lock anew
 	@$(IN_VENV) python -m pip install --quiet --group lock

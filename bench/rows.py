@@ -29,6 +29,7 @@ TARGETS = {
     "linearize, 20 sections": 80.0,
     "equilibrium, two sections, gravity, each draw": 50.0,
     "inverse kinematics, 3 sections": 200.0,
+    "ExtendedKalman.update, 3 sections": 40.0,
     "free oscillation, dopri5 rtol 1e-8": 0.6,
     "free oscillation, adams rtol 1e-8": 3.0,
     "free oscillation, bdf rtol 1e-8": 3.0,

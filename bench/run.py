@@ -31,6 +31,7 @@ EXECUTABLES = (
     "inverse_kinematics",
     "startup",
     "runs",
+    "estimation",
 )
 
 

@@ -11,13 +11,21 @@
 
 namespace cdcr {
 class ComputedTorque;
+class Estimator;
+class ExtendedKalman;
+class KalmanFilter;
+class MomentumObserver;
+class ParameterSet;
 class Pid;
 class StateFeedback;
 class TaskSpace;
 class TrackingController;
+class UnscentedKalman;
 }  // namespace cdcr
 
 namespace cdcr::python {
+template <class Law>
+class Estimating;
 template <class Law>
 class Tracking;
 class PythonLoop;
@@ -30,8 +38,14 @@ CDCR_BOUND_CLASS(cdcr::Cable);
 CDCR_BOUND_CLASS(cdcr::CommandInput);
 CDCR_BOUND_CLASS(cdcr::Controller);
 CDCR_BOUND_CLASS(cdcr::Equilibrium);
+CDCR_BOUND_CLASS(cdcr::Estimator);
+CDCR_BOUND_CLASS(cdcr::KalmanFilter);
 CDCR_BOUND_CLASS(cdcr::Model);
 CDCR_BOUND_CLASS(cdcr::Options);
+CDCR_BOUND_CLASS(cdcr::python::Estimating<cdcr::ExtendedKalman>);
+CDCR_BOUND_CLASS(cdcr::python::Estimating<cdcr::MomentumObserver>);
+CDCR_BOUND_CLASS(cdcr::python::Estimating<cdcr::UnscentedKalman>);
+CDCR_BOUND_CLASS(cdcr::ParameterSet);
 CDCR_BOUND_CLASS(cdcr::python::Tracking<cdcr::ComputedTorque>);
 CDCR_BOUND_CLASS(cdcr::python::Tracking<cdcr::Pid>);
 CDCR_BOUND_CLASS(cdcr::python::Tracking<cdcr::StateFeedback>);
@@ -58,15 +72,19 @@ void bind_robot(pybind11::module_& m);
 void bind_coordinates(pybind11::module_& m);
 void bind_wrench(pybind11::module_& m);
 void bind_model(pybind11::module_& m);
-void bind_cables(PyModel& model);                         ///< called by bind_model
-void bind_kinematics(PyModel& model);                     ///< called by bind_model
-void bind_dynamics(PyModel& model);                       ///< called by bind_model
-void bind_energy(PyModel& model);                         ///< called by bind_model
-void bind_statics(pybind11::module_& m, PyModel& model);  ///< called by bind_model
-void bind_modes(PyModel& model);                          ///< called by bind_model
+void bind_cables(PyModel& model);                            ///< called by bind_model
+void bind_kinematics(PyModel& model);                        ///< called by bind_model
+void bind_dynamics(PyModel& model);                          ///< called by bind_model
+void bind_energy(PyModel& model);                            ///< called by bind_model
+void bind_tables(PyModel& model);                            ///< called by bind_model
+void bind_statics(pybind11::module_& m, PyModel& model);     ///< called by bind_model
+void bind_modes(PyModel& model);                             ///< called by bind_model
+void bind_parameters(pybind11::module_& m, PyModel& model);  ///< called by bind_model
+void bind_quasi_static(pybind11::module_& m);
 void bind_control(pybind11::module_& m);
 void bind_reference_path(pybind11::module_& m);  ///< called by bind_control
 void bind_controllers(pybind11::module_& m);     ///< called by bind_control
+void bind_estimators(pybind11::module_& m);
 void bind_loop(pybind11::module_& m);
 void bind_simulate(pybind11::module_& m);
 void bind_simulator(pybind11::module_& m);

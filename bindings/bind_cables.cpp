@@ -1,5 +1,5 @@
 #include "bind.hpp"
-#include "cdcr/cables.hpp"
+#include "cdcr/cable_friction.hpp"
 #include "cdcr/kinematics.hpp"
 #include "docs.hpp"
 #include "states.hpp"
@@ -77,16 +77,26 @@ void bind_cables(PyModel& model) {
       .def(
           "friction_power",
           [](const Model& self, const py::object& q, const py::object& qd,
-             const py::object& tension) {
+             const py::object& tension, const py::object& deflection) -> py::object {
+            if (!deflection.is_none()) {
+              return States{read_bendings(self, q), read_rates(self, qd, "qd"),
+                            read_tensions(self, tension),
+                            StateArgument("deflection", deflection, self.num_cables(), of_cables)}
+                  .values([&](auto& x, auto& xd, auto& command, auto& w) {
+                    return friction_power(self, x, xd, command, w);
+                  });
+            }
             return with_rates(self, q, qd, tension).values([&](auto& x, auto& xd, auto& command) {
               return friction_power(self, x, xd, command);
             });
           },
-          "q"_a, "qd"_a, "tension"_a,
+          "q"_a, "qd"_a, "tension"_a, "deflection"_a = py::none(),
           Doc("Heat that friction of the cables makes, never negative: -F.dl/dt - Q.qd of "
               "cpp/README.md\neq. (17).",
-              {docs::q, docs::qd, docs::tension}, "float or (...) array\n    Power [W].",
-              docs::bad_states))
+              {docs::q, docs::qd, docs::tension,
+               "deflection : (..., num_cables) array_like, optional\n"
+               "    Of cables whose friction remembers [m]; else that of the sliding speed.\n"},
+              "float or (...) array\n    Power [W].", docs::bad_states))
       .def(
           "cable_energy",
           [](const Model& self, const py::object& q, const py::object& tension) {

@@ -1,6 +1,5 @@
 #include <pybind11/stl.h>
 
-#include <map>
 #include <string>
 #include <utility>
 
@@ -10,6 +9,7 @@
 #include "controllers.hpp"
 #include "docs.hpp"
 #include "gil.hpp"
+#include "loop_options.hpp"
 #include "methods.hpp"
 
 namespace cdcr::python {
@@ -18,57 +18,13 @@ using namespace py::literals;
 
 namespace {
 
-template <class T>
-T field(const py::dict& given, const char* name) {
-  return given[name].cast<T>();
-}
-
-Actuator read_actuator(const py::dict& given) {
-  Actuator actuator;
-  actuator.resolution = field<double>(given, "resolution");
-  actuator.dead_time = field<double>(given, "dead_time");
-  actuator.time_constant = field<double>(given, "time_constant");
-  actuator.max_rate = field<double>(given, "max_rate");
-  actuator.min_command = field<double>(given, "min_command");
-  actuator.max_command = field<double>(given, "max_command");
-  if (given["winch"].is_none()) return actuator;
-  const auto winch = given["winch"].cast<py::dict>();
-  actuator.winch = Winch{field<double>(winch, "drum_radius"), field<double>(winch, "gear"),
-                         field<double>(winch, "inertia"),     field<double>(winch, "bandwidth"),
-                         field<double>(winch, "max_torque"),  field<double>(winch, "max_speed")};
-  return actuator;
-}
-
-Sensor read_sensor(const py::dict& given) {
-  using Kind = Sensor::Kind;
-  static const std::map<std::string, Kind> kinds{
-      {"coordinates", Kind::coordinates}, {"rates", Kind::rates}, {"lengths", Kind::lengths},
-      {"tensions", Kind::tensions},       {"tip", Kind::tip},     {"curvature", Kind::curvature}};
-  Sensor sensor;
-  sensor.kind = kinds.at(field<std::string>(given, "kind"));
-  sensor.period = field<double>(given, "period");
-  sensor.delay = field<double>(given, "delay");
-  sensor.noise = field<double>(given, "noise");
-  sensor.bias = field<double>(given, "bias");
-  sensor.seed = field<std::uint64_t>(given, "seed");
-  for (const auto& [section, fraction] :
-       given["places"].cast<std::vector<std::pair<Index, double>>>()) {
-    sensor.places.push_back({section, fraction});
-  }
-  return sensor;
-}
-
 LoopOptions read_loop(const py::dict& given) {
   LoopOptions options;
-  options.step = field<double>(given, "step");
-  options.substeps = field<int>(given, "substeps");
-  options.method = read_fixed_step(field<std::string>(given, "method"));
-  for (const auto& one : given["actuators"].cast<std::vector<py::dict>>()) {
-    options.actuators.push_back(read_actuator(one));
-  }
-  for (const auto& one : given["sensors"].cast<std::vector<py::dict>>()) {
-    options.sensors.push_back(read_sensor(one));
-  }
+  options.step = given["step"].cast<double>();
+  options.substeps = given["substeps"].cast<int>();
+  options.method = read_fixed_step(given["method"].cast<std::string>());
+  options.actuators = read_actuators(given);
+  options.sensors = read_sensors(given);
   return options;
 }
 
@@ -77,10 +33,12 @@ LoopOptions read_loop(const py::dict& given) {
 /// A loop that keeps model and controller as Python has them.
 class PythonLoop final : public Loop {
  public:
-  PythonLoop(py::object of, py::object by, const py::dict& options)
-      : Loop(read_model(of), by.cast<Controller&>(), read_loop(options)),
+  PythonLoop(py::object of, py::object by, const py::dict& options, py::object from)
+      : Loop(read_model(of), by.cast<Controller&>(), read_loop(options),
+             from.is_none() ? nullptr : from.cast<Estimator*>()),
         model(std::move(of)),
-        controlled_by(std::move(by)) {}
+        controlled_by(std::move(by)),
+        estimated_by(std::move(from)) {}
 
   /// Calls what asks the controller, which may be one written in Python, whose exceptions it
   /// throws.
@@ -96,7 +54,7 @@ class PythonLoop final : public Loop {
     return answer;
   }
 
-  py::object model, controlled_by;
+  py::object model, controlled_by, estimated_by;
 };
 
 namespace {
@@ -110,22 +68,27 @@ py::dict sampled(PythonLoop& self, double duration, Index record_every,
   interruption.raise();
   py::list told;
   for (const RowMatrixXd& rows : found.told) told.append(to_rows(rows));
-  return py::dict("t"_a = to_array(found.t), "q"_a = to_rows(found.q), "qd"_a = to_rows(found.qd),
-                  "tension"_a = to_rows(found.tension), "command"_a = to_rows(found.command),
-                  "asked"_a = to_rows(found.asked), "told_q"_a = to_rows(found.told_q),
-                  "told_qd"_a = to_rows(found.told_qd), "told"_a = told,
-                  "durations"_a = to_array(found.durations), "status"_a = found.status,
-                  "message"_a = found.message, "stats"_a = found.stats);
+  return py::dict(
+      "t"_a = to_array(found.t), "q"_a = to_rows(found.q), "qd"_a = to_rows(found.qd),
+      "tension"_a = to_rows(found.tension), "command"_a = to_rows(found.command),
+      "asked"_a = to_rows(found.asked), "told_q"_a = to_rows(found.told_q),
+      "told_qd"_a = to_rows(found.told_qd), "told"_a = told,
+      "durations"_a = to_array(found.durations), "estimated"_a = to_rows(found.estimated),
+      "deviations"_a = to_rows(found.deviations), "innovation"_a = to_array(found.innovation),
+      "measured"_a = to_array(found.measured), "status"_a = found.status,
+      "message"_a = found.message, "stats"_a = found.stats);
 }
 
 }  // namespace
 
 void bind_loop(py::module_& m) {
   py::class_<PythonLoop>(m, "Loop", "A closed loop; see cdcr.Loop.")
-      .def(py::init<py::object, py::object, py::dict>(), "model"_a, "controller"_a, "options"_a,
+      .def(py::init<py::object, py::object, py::dict, py::object>(), "model"_a, "controller"_a,
+           "options"_a, "estimator"_a = py::none(),
            Doc("Make a loop, which has no state until `reset`.",
                {docs::model, "controller : Controller\n    Asked once each period.\n",
-                "options : dict\n    What the class in Python takes by keyword, all of it.\n"},
+                "options : dict\n    What the class in Python takes by keyword, all of it.\n",
+                "estimator : Estimator, optional\n    Makes a state of what sensors tell.\n"},
                "", docs::bad_argument))
       .def(
           "reset",
@@ -163,6 +126,7 @@ void bind_loop(py::module_& m) {
                "dict\n    Arrays of samples by name.", docs::bad_argument))
       .def_readonly("model", &PythonLoop::model, "The robot.")
       .def_readonly("controller", &PythonLoop::controlled_by, "What controls it.")
+      .def_readonly("estimator", &PythonLoop::estimated_by, "What estimates its state, or None.")
       .def_property_readonly(
           "q", [](const PythonLoop& self) { return to_array(self.q()); },
           "Bending vectors (d,) [rad].")

@@ -76,7 +76,11 @@ void bind_model(py::module_& m) {
           "rest)^T K\n"
           "(q - rest), cpp/README.md eq. (14) and cpp/rods.md eq. (52).")
       .def_property_readonly("has_friction", &Model::has_friction,
-                             "Whether a cable rubs in its holes.")
+                             "Whether a cable rubs in its holes or at its entry.")
+      .def_property_readonly("num_deflections", &Model::num_deflections,
+                             "Deflections that friction remembers: one for each cable, or 0.")
+      .def_property_readonly("has_backlash", &Model::has_backlash,
+                             "Whether a drive has play, so that it remembers where it came from.")
       .def(
           "actuation_matrix",
           [](const Model& self, const py::object& q) {
@@ -98,8 +102,10 @@ void bind_model(py::module_& m) {
   bind_kinematics(model);
   bind_dynamics(model);
   bind_energy(model);
+  bind_tables(model);
   bind_statics(m, model);
   bind_modes(model);
+  bind_parameters(m, model);
 }
 
 }  // namespace cdcr::python

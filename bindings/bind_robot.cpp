@@ -50,7 +50,9 @@ void bind_section(py::module_& m) {
                   std::optional<double> shear_modulus, std::optional<double> bending_stiffness,
                   std::optional<double> twist_stiffness, std::optional<double> stretch_stiffness,
                   double twist_damping, double stretch_damping, double material_damping,
-                  std::array<double, 2> rest_bending, double rest_twist, std::optional<int> nodes) {
+                  std::array<double, 2> rest_bending, double rest_twist, std::optional<int> nodes,
+                  double cable_entry_friction, double cable_sheath_friction, double cable_viscosity,
+                  double cable_pretension, double cable_backlash) {
                  Section s;
                  s.length = length;
                  s.backbone_mass = backbone_mass;
@@ -87,6 +89,11 @@ void bind_section(py::module_& m) {
                  s.rest_bending = rest_bending;
                  s.rest_twist = rest_twist;
                  s.nodes = nodes;
+                 s.cable_entry_friction = cable_entry_friction;
+                 s.cable_sheath_friction = cable_sheath_friction;
+                 s.cable_viscosity = cable_viscosity;
+                 s.cable_pretension = cable_pretension;
+                 s.cable_backlash = cable_backlash;
                  return s;
                }),
            py::kw_only(), "length"_a, "backbone_mass"_a, "backbone_diameter"_a, "youngs_modulus"_a,
@@ -96,7 +103,8 @@ void bind_section(py::module_& m) {
            "stretch_order"_a, "backbone_inner_diameter"_a, "shear_modulus"_a, "bending_stiffness"_a,
            "twist_stiffness"_a, "stretch_stiffness"_a, "twist_damping"_a, "stretch_damping"_a,
            "material_damping"_a, "rest_bending"_a, "rest_twist"_a, "nodes"_a,
-           Doc("Take the fields.", {fields_of_section}))
+           "cable_entry_friction"_a, "cable_sheath_friction"_a, "cable_viscosity"_a,
+           "cable_pretension"_a, "cable_backlash"_a, Doc("Take the fields.", {fields_of_section}))
       .def(
           "violations", [](const Section& section) { return violations(section); },
           Doc("One sentence for each field out of its range.", {}, sentences))
@@ -122,19 +130,27 @@ void bind_section(py::module_& m) {
 void bind_cable(py::module_& m) {
   py::class_<Cable>(m, "Cable", "One cable as the core takes it, unchecked; see cdcr.Cable.")
       .def(py::init([](const Route& radius, const Route& angle, int end_section, double stiffness,
-                       double damping, std::optional<double> friction, int start_section) {
+                       double damping, std::optional<double> friction, int start_section,
+                       double entry_friction, double sheath_friction, double viscosity,
+                       double pretension, double backlash) {
              Cable cable;
              cable.end_section = end_section;
              cable.stiffness = stiffness;
              cable.damping = damping;
              cable.friction = friction;
              cable.start_section = start_section;
+             cable.entry_friction = entry_friction;
+             cable.sheath_friction = sheath_friction;
+             cable.viscosity = viscosity;
+             cable.pretension = pretension;
+             cable.backlash = backlash;
              read_route(radius, cable.radius, cable.radii);
              read_route(angle, cable.angle, cable.angles);
              return cable;
            }),
            py::kw_only(), "radius"_a, "angle"_a, "end_section"_a, "stiffness"_a, "damping"_a,
-           "friction"_a, "start_section"_a, Doc("Take the fields.", {fields_of_cable}))
+           "friction"_a, "start_section"_a, "entry_friction"_a, "sheath_friction"_a, "viscosity"_a,
+           "pretension"_a, "backlash"_a, Doc("Take the fields.", {fields_of_cable}))
       .def_readonly("radius", &Cable::radius, "Distance from the backbone [m], where even.")
       .def_readonly("angle", &Cable::angle, "Angle about Z, from X [rad], where even.")
       .def_readonly("radii", &Cable::radii,
@@ -148,7 +164,14 @@ void bind_cable(py::module_& m) {
                     "Of the cable and its drive [N/m]; 0: driven by tension.")
       .def_readonly("damping", &Cable::damping, "Along with the stiffness [N s/m].")
       .def_readonly("friction", &Cable::friction,
-                    "Coulomb's coefficient in its holes, or None [-].");
+                    "Coulomb's coefficient in its holes, or None [-].")
+      .def_readonly("entry_friction", &Cable::entry_friction, "Coulomb's, at its entry [N].")
+      .def_readonly("sheath_friction", &Cable::sheath_friction,
+                    "Coefficient of its sheath times the sheath's turning [-].")
+      .def_readonly("viscosity", &Cable::viscosity, "Viscous friction at its entry [N s/m].")
+      .def_readonly("pretension", &Cable::pretension,
+                    "Pull at the length commanded, where driven by length [N].")
+      .def_readonly("backlash", &Cable::backlash, "Play of its drive, where driven by length [m].");
 }
 
 }  // namespace
@@ -162,15 +185,23 @@ void bind_robot(py::module_& m) {
       .def(py::init([](std::vector<Section> sections, const Vector3d& gravity, double payload,
                        std::vector<Cable> cables, const Matrix3d& base_orientation,
                        const Vector3d& base_position, const Vector3d& payload_position,
-                       const Matrix3d& payload_inertia, double sliding_speed,
-                       const Transform& tool) {
-             return Robot{std::move(sections), gravity,       payload,          std::move(cables),
-                          base_orientation,    base_position, payload_position, payload_inertia,
-                          sliding_speed,       tool};
+                       const Matrix3d& payload_inertia, double sliding_speed, const Transform& tool,
+                       double presliding_stiffness) {
+             return Robot{std::move(sections),
+                          gravity,
+                          payload,
+                          std::move(cables),
+                          base_orientation,
+                          base_position,
+                          payload_position,
+                          payload_inertia,
+                          sliding_speed,
+                          tool,
+                          presliding_stiffness};
            }),
            py::kw_only(), "sections"_a, "gravity"_a, "payload"_a, "cables"_a, "base_orientation"_a,
            "base_position"_a, "payload_position"_a, "payload_inertia"_a, "sliding_speed"_a,
-           "tool"_a, Doc("Take the fields.", {fields_of_robot}))
+           "tool"_a, "presliding_stiffness"_a, Doc("Take the fields.", {fields_of_robot}))
       .def(
           "violations", [](const Robot& robot) { return violations(robot); },
           Doc("One sentence for each field out of its range.", {}, sentences))

@@ -9,6 +9,7 @@
 
 #include "arrays.hpp"
 #include "bind.hpp"
+#include "cdcr/sensitivities.hpp"
 #include "cdcr/simulate.hpp"
 #include "controllers.hpp"
 #include "docs.hpp"
@@ -52,11 +53,37 @@ Event call_event(py::function function, int direction, int terminal) {
           direction, terminal};
 }
 
-/// `source` is a const CommandInput or a Controller.
-template <class Source>
+/// Whether q0, qd0, commands; parameters; start; times, values and whether connected of the slopes
+/// of commands; or None.
+Sensitivities read_sensitivities(const py::object& asked) {
+  Sensitivities found;
+  if (asked.is_none()) return found;
+  const py::tuple given = asked;
+  found.q0 = given[0].cast<bool>();
+  found.qd0 = given[1].cast<bool>();
+  found.command = given[2].cast<bool>();
+  if (!given[3].is_none()) found.parameters = given[3].cast<const ParameterSet&>();
+  if (!given[4].is_none()) {
+    const Array start = read_array(given[4], "sensitivities at the start", {any_size, any_size});
+    found.start = Eigen::Map<const RowMatrixXd>(start.data(), start.shape(0), start.shape(1));
+  }
+  if (!given[5].is_none()) {
+    const py::tuple slopes = given[5];
+    const VectorXd times = *VectorArgument(slopes[0], "times of slopes", -1);
+    const Array rows = read_array(slopes[1], "slopes of commands", {times.size(), any_size});
+    found.command_slopes = Signal::table(
+        "slopes of commands", times,
+        Eigen::Map<const RowMatrixXd>(rows.data(), rows.shape(0), rows.shape(1)),
+        slopes[2].cast<bool>() ? Signal::Interpolation::linear : Signal::Interpolation::previous);
+  }
+  return found;
+}
+
+/// `sources` are a const CommandInput and Sensitivities, or a Controller.
+template <class... Sources>
 Trajectory run(const Model& model, const py::object& q0, const py::object& qd0, const py::object& t,
-               Source& source, Method method, const Options& options, const py::object& progress,
-               const WrenchInput& loads, const WatchedFunctions& events) {
+               Method method, const Options& options, const py::object& progress,
+               const WrenchInput& loads, const WatchedFunctions& events, Sources&... sources) {
   Events watched;
   for (const auto& [function, direction, terminal] : events) {
     watched.push_back(call_event(function, direction, terminal));
@@ -74,12 +101,21 @@ Trajectory run(const Model& model, const py::object& q0, const py::object& qd0, 
   };
   const auto unlocked_run = [&] {
     const Unlocked unlocked;
-    return simulate(model, q, qd, times, source, method, options, make_any_integrator, report,
+    return simulate(model, q, qd, times, sources..., method, options, make_any_integrator, report,
                     loads, watched);
   };
   Trajectory done = unlocked_run();
   interruption.raise();
   return done;
+}
+
+Trajectory run_commanded(const Model& model, const py::object& q0, const py::object& qd0,
+                         const py::object& t, const CommandInput& input, Method method,
+                         const Options& options, const py::object& progress,
+                         const WrenchInput& loads, const WatchedFunctions& events,
+                         const py::object& sensitivities) {
+  const Sensitivities asked = read_sensitivities(sensitivities);
+  return run(model, q0, qd0, t, method, options, progress, loads, events, input, asked);
 }
 
 Trajectory run_controlled(const Model& model, const py::object& q0, const py::object& qd0,
@@ -89,7 +125,7 @@ Trajectory run_controlled(const Model& model, const py::object& q0, const py::ob
   const Driving driving(controller);
   auto* const written_in_python = dynamic_cast<PythonController*>(&controller);
   try {
-    Trajectory done = run(model, q0, qd0, t, controller, method, options, progress, loads, events);
+    Trajectory done = run(model, q0, qd0, t, method, options, progress, loads, events, controller);
     if (written_in_python != nullptr) written_in_python->rethrow();
     return done;
   } catch (...) {
@@ -282,6 +318,12 @@ void bind_simulate(py::module_& m) {
       .def_property_readonly(
           "command", [](const Trajectory& self) { return to_rows(self.command); },
           "What was asked of the cables (N, num_cables), [N] or [m].")
+      .def_property_readonly(
+          "deflection", [](const Trajectory& self) { return to_rows(self.deflection); },
+          "Of cables whose friction remembers (N, num_deflections) [m].")
+      .def_property_readonly(
+          "sensitivities", [](const Trajectory& self) { return to_rows(self.sensitivities); },
+          "Derivatives of q [rad] and qd [rad/s], in rows (N, 2 d k), over SI units.")
       .def_property_readonly("slack_events", &slack_events,
                              "Time [s], cable and whether slack, in the order of time.")
       .def_property_readonly(
@@ -302,11 +344,12 @@ void bind_simulate(py::module_& m) {
       "loads : Loads\n    Wrenches over time.\n"
       "events : sequence\n    Of each its function f(t, q, qd), direction and terminal [1].\n";
   constexpr const char* a_run = "Trajectory\n    The samples up to the end, or to a failure.";
-  m.def("simulate", &run<const CommandInput>, "model"_a, "q0"_a, "qd0"_a, "t"_a, "input"_a,
-        "method"_a, "options"_a, "progress"_a, "loads"_a, "events"_a,
+  m.def("simulate", &run_commanded, "model"_a, "q0"_a, "qd0"_a, "t"_a, "input"_a, "method"_a,
+        "options"_a, "progress"_a, "loads"_a, "events"_a, "sensitivities"_a,
         Doc("A run under commands; see cdcr.simulate.",
-            {docs::model, start, "input : TensionInput\n    Commands over time.\n", rest}, a_run,
-            docs::bad_argument));
+            {docs::model, start, "input : TensionInput\n    Commands over time.\n", rest,
+             "sensitivities : tuple or None\n    By what it is differentiated.\n"},
+            a_run, docs::bad_argument));
   m.def("simulate_controlled", &run_controlled, "model"_a, "q0"_a, "qd0"_a, "t"_a, "controller"_a,
         "method"_a, "options"_a, "progress"_a, "loads"_a, "events"_a,
         Doc("A run under a controller; see cdcr.simulate.",

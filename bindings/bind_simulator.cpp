@@ -30,7 +30,8 @@ namespace {
 py::tuple take_apart(const PythonSimulator& s) {
   return py::make_tuple(s.model, s.period(), s.substeps(), s.started(), to_array(s.q()),
                         to_array(s.qd()), s.start(), s.periods(),
-                        s.method() == Method::rk4 ? "rk4" : "rosenbrock");
+                        s.method() == Method::rk4 ? "rk4" : "rosenbrock", to_array(s.deflection()),
+                        to_array(s.felt()));
 }
 
 PythonSimulator* put_together(const py::tuple& state) {
@@ -39,6 +40,7 @@ PythonSimulator* put_together(const py::tuple& state) {
   if (state[3].cast<bool>()) {
     simulator->reset(to_vector(state[4]), to_vector(state[5]), state[6].cast<double>(),
                      state[7].cast<long long>());
+    simulator->set_memory(to_vector(state[9]), to_vector(state[10]));
   }
   return simulator.release();
 }
@@ -119,6 +121,9 @@ void bind_simulator(py::module_& m) {
       .def_property_readonly(
           "qd", [](const PythonSimulator& self) { return to_array(self.qd()); },
           "Their rates (d,) [rad/s].")
+      .def_property_readonly(
+          "deflection", [](const PythonSimulator& self) { return to_array(self.deflection()); },
+          "Of cables whose friction remembers (num_deflections,) [m].")
       .def_readonly("model", &PythonSimulator::model, "The robot.")
       .def_property_readonly("time", &PythonSimulator::time, "Time reached [s].")
       .def_property_readonly("period", &PythonSimulator::period, "Control period [s].")

@@ -19,10 +19,12 @@ PYBIND11_MODULE(_core, m) {
   cdcr::python::bind_coordinates(m);
   cdcr::python::bind_wrench(m);
   cdcr::python::bind_model(m);
+  cdcr::python::bind_quasi_static(m);
   cdcr::python::bind_control(m);
   cdcr::python::bind_simulate(m);
   cdcr::python::bind_simulator(m);
   cdcr::python::bind_rollout(m);
+  cdcr::python::bind_estimators(m);
   cdcr::python::bind_loop(m);
   cdcr::python::show_constructors(m);
   cdcr::python::finish_pickling(m);

@@ -38,6 +38,30 @@ if(CDCR_WITH_CVODE)
   endif()
 endif()
 
+# From here on CDCR_WITH_TOML is ON or OFF. The headers alone are taken: nothing is linked.
+if(CDCR_WITH_TOML)
+  find_path(TOMLPLUSPLUS_INCLUDE_DIR toml++/toml.h)
+  mark_as_advanced(TOMLPLUSPLUS_INCLUDE_DIR)
+  if(TOMLPLUSPLUS_INCLUDE_DIR)
+    set(CDCR_WITH_TOML ON)
+  elseif(CDCR_WITH_TOML STREQUAL AUTO)
+    message(
+      STATUS
+      "cdcr is built without cdcr::toml (robot files in C++). It needs toml++. "
+      "On Debian or Ubuntu:\n"
+      "  apt-get install libtomlplusplus-dev\n"
+    )
+    set(CDCR_WITH_TOML OFF)
+  else()
+    message(
+      FATAL_ERROR
+      "cdcr::toml cannot be built, since it needs toml++. On Debian or Ubuntu:\n"
+      "  apt-get install libtomlplusplus-dev\n"
+      "Without it, -DCDCR_WITH_TOML=OFF builds everything but robot files in C++."
+    )
+  endif()
+endif()
+
 if(CDCR_BUILD_PYTHON)
   find_package(Python 3.10 QUIET COMPONENTS Interpreter Development.Module)
   if(NOT Python_FOUND)

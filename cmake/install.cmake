@@ -77,6 +77,35 @@ if(CDCR_WITH_CVODE)
   list(APPEND pc_files ${build_dir}/cdcr-cvode.pc)
 endif()
 
+# Components with nothing to ask for, each with targets and a file for pkg-config of its own.
+set(components "")
+if(CDCR_WITH_TOML)
+  list(APPEND components toml)
+endif()
+if(CDCR_BUILD_C)
+  list(APPEND components c)
+endif()
+foreach(component IN LISTS components)
+  install(
+    TARGETS cdcr_${component}
+    EXPORT cdcr-${component}-targets
+    COMPONENT cpp
+    FILE_SET HEADERS COMPONENT cpp
+  )
+  install(
+    EXPORT cdcr-${component}-targets
+    NAMESPACE cdcr::
+    DESTINATION ${config_dir}
+    COMPONENT cpp
+  )
+  configure_file(
+    ${PROJECT_SOURCE_DIR}/cmake/cdcr-${component}.pc.in
+    ${build_dir}/cdcr-${component}.pc
+    @ONLY
+  )
+  list(APPEND pc_files ${build_dir}/cdcr-${component}.pc)
+endforeach()
+
 install(
   TARGETS cdcr
   EXPORT cdcr-targets

@@ -122,6 +122,8 @@ sys.exit(not os.path.exists(os.path.join(sysconfig.get_path("include"), "Python.
   fi
   [ "$goal" != dev ] || installed 'lib*/cmake/doctest/doctestConfig.cmake' ||
     need doctest-dev "runs the C++ tests"
+  [ "$goal" != dev ] || installed include/toml++/toml.h ||
+    need libtomlplusplus-dev "reads robot files in C++"
   [ "$goal" != docs ] || command -v doxygen >/dev/null ||
     need doxygen "reads the C++ headers for the reference"
 }

@@ -38,5 +38,6 @@ def draw(entries: list[Entry], path: Path) -> None:
             ylabel="processor time of the run [ms]",
         )
         axes.invert_xaxis()
-        figure.legend(loc="outside right upper", fontsize=8)
+        # Handles as long as a whole period of dashes and dots of a thick line.
+        figure.legend(loc="outside right upper", fontsize=8, handlelength=4.2)
         figure.savefig(path)

@@ -3,12 +3,13 @@
 #include <array>
 #include <cstdlib>
 #include <fstream>
-#include <map>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <variant>
 #include <vector>
+
+#include "robot_file/fields.hpp"
 
 namespace cdcr::fmu {
 namespace {
@@ -61,85 +62,14 @@ void put(const Values& values, Eigen::Matrix<double, n, n, options>& item) {  //
 }
 
 template <typename T>
-using Member = std::variant<double T::*, int T::*, std::optional<double> T::*,
-                            std::optional<int> T::*, std::vector<double> T::*,
-                            std::array<double, 2> T::*, std::vector<std::array<double, 2>> T::*,
-                            Vector3d T::*, Matrix3d T::*, Transform T::*>;
-template <typename T>
-using Fields = std::map<std::string, Member<T>>;
-
-const Fields<Section>& section_fields() {
-  static const Fields<Section> fields = {
-      {"length", &Section::length},
-      {"backbone_mass", &Section::backbone_mass},
-      {"backbone_diameter", &Section::backbone_diameter},
-      {"youngs_modulus", &Section::youngs_modulus},
-      {"disk_mass", &Section::disk_mass},
-      {"disk_diameter", &Section::disk_diameter},
-      {"num_disks", &Section::num_disks},
-      {"disk_positions", &Section::disk_positions},
-      {"disk_masses", &Section::disk_masses},
-      {"disk_diameters", &Section::disk_diameters},
-      {"cable_radius", &Section::cable_radius},
-      {"cable_angles", &Section::cable_angles},
-      {"cable_stiffness", &Section::cable_stiffness},
-      {"cable_damping", &Section::cable_damping},
-      {"cable_friction", &Section::cable_friction},
-      {"damping", &Section::damping},
-      {"bending_order", &Section::bending_order},
-      {"twist_order", &Section::twist_order},
-      {"stretch_order", &Section::stretch_order},
-      {"backbone_tip_diameter", &Section::backbone_tip_diameter},
-      {"backbone_inner_diameter", &Section::backbone_inner_diameter},
-      {"shear_modulus", &Section::shear_modulus},
-      {"bending_stiffness", &Section::bending_stiffness},
-      {"twist_stiffness", &Section::twist_stiffness},
-      {"stretch_stiffness", &Section::stretch_stiffness},
-      {"twist_damping", &Section::twist_damping},
-      {"stretch_damping", &Section::stretch_damping},
-      {"material_damping", &Section::material_damping},
-      {"rest_bending", &Section::rest_bending},
-      {"rest_twist", &Section::rest_twist},
-      {"nodes", &Section::nodes},
-  };
-  return fields;
-}
-
-const Fields<Cable>& cable_fields() {
-  static const Fields<Cable> fields = {
-      {"radius", &Cable::radius},
-      {"angle", &Cable::angle},
-      {"end_section", &Cable::end_section},
-      {"stiffness", &Cable::stiffness},
-      {"damping", &Cable::damping},
-      {"friction", &Cable::friction},
-      {"radii", &Cable::radii},
-      {"angles", &Cable::angles},
-      {"start_section", &Cable::start_section},
-  };
-  return fields;
-}
-
-const Fields<Robot>& robot_fields() {
-  static const Fields<Robot> fields = {
-      {"gravity", &Robot::gravity},
-      {"payload", &Robot::payload},
-      {"base_orientation", &Robot::base_orientation},
-      {"base_position", &Robot::base_position},
-      {"payload_position", &Robot::payload_position},
-      {"payload_inertia", &Robot::payload_inertia},
-      {"sliding_speed", &Robot::sliding_speed},
-      {"tool", &Robot::tool},
-  };
-  return fields;
-}
-
-template <typename T>
-bool read_field(const Fields<T>& fields, const std::string& key, const Values& values, T& thing) {
-  const auto found = fields.find(key);
-  if (found == fields.end()) return false;
-  std::visit([&](auto member) { put(values, thing.*member); }, found->second);
-  return true;
+bool read_field(const std::vector<robot_file::Field<T>>& fields, const std::string& key,
+                const Values& values, T& thing) {
+  for (const robot_file::Field<T>& field : fields) {
+    if (field.name != key) continue;
+    std::visit([&](auto member) { put(values, thing.*member); }, field.member);
+    return true;
+  }
+  return false;
 }
 
 /// Numbers are written as 0x1ap-4: exact, and without a point, which not every locale has.
@@ -175,9 +105,10 @@ void read_line(const std::string& line, std::string& block, Setup& setup) {
     return;
   }
   const bool known =
-      block == "section" ? read_field(section_fields(), key, values, robot.sections.back())
-      : block == "cable" ? read_field(cable_fields(), key, values, robot.cables.back())
-                         : read_field(robot_fields(), key, values, robot);
+      block == "section"
+          ? read_field(robot_file::section_fields(), key, values, robot.sections.back())
+      : block == "cable" ? read_field(robot_file::cable_fields(), key, values, robot.cables.back())
+                         : read_field(robot_file::robot_fields(), key, values, robot);
   if (!known) throw std::invalid_argument("this version of cdcr knows no such key");
 }
 

@@ -19,6 +19,9 @@ PAPERS = {
     "cpp/rods.md": ":doc:`rods </explanation/rods>`",
     "cpp/derivatives.md": ":doc:`derivatives </explanation/derivatives>`",
     "cpp/control.md": ":doc:`control </explanation/control>`",
+    "cpp/estimation.md": ":doc:`estimation </explanation/estimation>`",
+    "cpp/friction.md": ":doc:`friction </explanation/friction>`",
+    "cpp/sensitivities.md": ":doc:`sensitivities </explanation/sensitivities>`",
 }
 FILE = Path(__file__).parents[1] / "reference" / "examples.txt"
 

@@ -32,6 +32,7 @@ from cdcr.model.derivatives import Derivatives
 from cdcr.model.inverse_kinematics import InverseKinematics
 from cdcr.model.model import Model
 from cdcr.model.modes import Modes
+from cdcr.model.quasi_static import QuasiStatic, quasi_static
 from cdcr.model.stability import stable_step
 from cdcr.model.statics import ConvergenceError, InfeasibleError
 from cdcr.model.wrench import Wrench
@@ -45,8 +46,10 @@ from cdcr.runs.simulate import simulate
 from cdcr.runs.trajectory import Trajectory
 
 if TYPE_CHECKING:
+    from cdcr import casadi as casadi
     from cdcr import control, export, identification, paper, scenarios, sweeps
     from cdcr import gym as gym
+    from cdcr import jax as jax
     from cdcr import plotting as plotting
     from cdcr.identification import identify
     from cdcr.model.subdivision import subdivide_wrench
@@ -54,7 +57,9 @@ if TYPE_CHECKING:
     from cdcr.motion.inverse import InverseRun, inverse_run
     from cdcr.motion.reference import Reference
     from cdcr.runs.controllers import ComputedTorque, StateFeedback, TaskSpace
-    from cdcr.runs.loop import Actuator, Loop, LoopRun, Sensor, Winch
+    from cdcr.runs.estimators import ExtendedKalman, MomentumObserver, UnscentedKalman
+    from cdcr.runs.loop import Loop, LoopRun
+    from cdcr.runs.parts import Actuator, Sensor, Winch
     from cdcr.runs.pid import Pid
     from cdcr.runs.rollout import rollout
     from cdcr.runs.rollout_result import Rollout, RolloutFailure
@@ -72,6 +77,7 @@ __all__ = [
     "ConvergenceError",
     "Derivatives",
     "Equilibrium",
+    "ExtendedKalman",
     "InfeasibleError",
     "InverseKinematics",
     "InverseRun",
@@ -79,8 +85,10 @@ __all__ = [
     "LoopRun",
     "Model",
     "Modes",
+    "MomentumObserver",
     "PathReport",
     "Pid",
+    "QuasiStatic",
     "Reference",
     "ReferencePath",
     "Robot",
@@ -96,6 +104,7 @@ __all__ = [
     "TaskSpace",
     "TensionTable",
     "Trajectory",
+    "UnscentedKalman",
     "Winch",
     "Wrench",
     "__version__",
@@ -110,6 +119,7 @@ __all__ = [
     "merge_state",
     "paper",
     "polar",
+    "quasi_static",
     "robots",
     "rollout",
     "rollout_to_zarr",
@@ -125,23 +135,27 @@ __all__ = [
 
 
 _ROOMS = frozenset({
-    "control", "export", "gym", "identification", "paper", "plotting", "scenarios", "sweeps",
+    "casadi", "control", "export", "gym", "identification", "jax", "paper", "plotting",
+    "scenarios", "sweeps",
 })  # fmt: skip
 _LATER = {
-    "Actuator": "runs.loop",
+    "Actuator": "runs.parts",
     "ComputedTorque": "runs.controllers",
+    "ExtendedKalman": "runs.estimators",
     "InverseRun": "motion.inverse",
     "Loop": "runs.loop",
     "LoopRun": "runs.loop",
+    "MomentumObserver": "runs.estimators",
     "PathReport": "motion.feasibility",
     "Pid": "runs.pid",
     "Reference": "motion.reference",
     "Rollout": "runs.rollout_result",
     "RolloutFailure": "runs.rollout_result",
-    "Sensor": "runs.loop",
+    "Sensor": "runs.parts",
     "StateFeedback": "runs.controllers",
     "TaskSpace": "runs.controllers",
-    "Winch": "runs.loop",
+    "UnscentedKalman": "runs.estimators",
+    "Winch": "runs.parts",
     "check_path": "motion.feasibility",
     "identify": "identification",
     "inverse_run": "motion.inverse",
@@ -163,4 +177,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return [*__all__, "gym", "plotting"]  # not in __all__, as each needs an extra
+    return [*__all__, "casadi", "gym", "jax", "plotting"]  # not in __all__, as each needs an extra

@@ -8,12 +8,17 @@ from numpy.typing import ArrayLike
 
 from cdcr._core_control import ComputedTorque as ComputedTorque
 from cdcr._core_control import Controller as Controller
+from cdcr._core_control import Estimator as Estimator
+from cdcr._core_control import ExtendedKalman as ExtendedKalman
+from cdcr._core_control import KalmanFilter as KalmanFilter
 from cdcr._core_control import Loop as Loop
+from cdcr._core_control import MomentumObserver as MomentumObserver
 from cdcr._core_control import Pid as Pid
 from cdcr._core_control import ReferencePath as ReferencePath
 from cdcr._core_control import StateFeedback as StateFeedback
 from cdcr._core_control import TaskSpace as TaskSpace
 from cdcr._core_control import TrackingController as TrackingController
+from cdcr._core_control import UnscentedKalman as UnscentedKalman
 from cdcr._core_robot import Cable as Cable
 from cdcr._core_robot import CoreWrench as CoreWrench
 from cdcr._core_robot import Loads as Loads
@@ -100,6 +105,10 @@ class Model(metaclass=_Bound):
     def elastic_stiffness(self) -> _FloatArray: ...
     @property
     def has_friction(self) -> bool: ...
+    @property
+    def num_deflections(self) -> int: ...
+    @property
+    def has_backlash(self) -> bool: ...
     def actuation_matrix(self, q: ArrayLike | None = None) -> _FloatArray: ...
     def pose(
         self, q: ArrayLike, section: int, fraction: float
@@ -145,11 +154,33 @@ class Model(metaclass=_Bound):
         tension: ArrayLike,
         wrenches: Wrench | Sequence[Wrench],
     ) -> tuple[_FloatArray, _FloatArray, _FloatArray, _FloatArray]: ...
+    def _tables(self) -> tuple[_FloatArray, list[_FloatArray]]: ...
+    def _parameter_derivatives(
+        self,
+        q: ArrayLike,
+        qd: ArrayLike,
+        tension: ArrayLike,
+        wrenches: Wrench | Sequence[Wrench],
+        parameters: ParameterSet,
+    ) -> _FloatArray: ...
+    def _equilibrium_derivatives(
+        self,
+        q: ArrayLike,
+        tension: ArrayLike,
+        wrenches: Wrench | Sequence[Wrench],
+        parameters: ParameterSet,
+    ) -> _FloatArray: ...
     def wrench_force(self, q: ArrayLike, wrenches: Wrench | Sequence[Wrench]) -> _FloatArray: ...
     def cable_tensions(self, q: ArrayLike, qd: ArrayLike, tension: ArrayLike) -> _FloatArray: ...
     def tensions_along(self, q: ArrayLike, qd: ArrayLike, tension: ArrayLike) -> _FloatArray: ...
     def cable_force(self, q: ArrayLike, qd: ArrayLike, tension: ArrayLike) -> _FloatArray: ...
-    def friction_power(self, q: ArrayLike, qd: ArrayLike, tension: ArrayLike) -> _FloatOrArray: ...
+    def friction_power(
+        self,
+        q: ArrayLike,
+        qd: ArrayLike,
+        tension: ArrayLike,
+        deflection: ArrayLike | None = None,
+    ) -> _FloatOrArray: ...
     def cable_energy(self, q: ArrayLike, tension: ArrayLike) -> _FloatOrArray: ...
     def rest_command(self) -> _FloatArray: ...
     def find_equilibrium(
@@ -185,6 +216,21 @@ class Model(metaclass=_Bound):
         seeds: int,
         iterations: int,
     ) -> tuple[_FloatArray, _FloatArray, _FloatArray, float, float, float, bool, int, int, str]: ...
+
+class ParameterSet(metaclass=_Bound):
+    def __init__(
+        self,
+        model: Model,
+        parameters: Sequence[tuple[str, float, float, Callable[[float], Robot]]],
+    ) -> None: ...
+    @staticmethod
+    def of_sides(
+        model: Model, parameters: Sequence[tuple[str, Model, Model, float]]
+    ) -> ParameterSet: ...
+    def __len__(self) -> int: ...
+    @property
+    def names(self) -> list[str]: ...
+    def is_exact(self, parameter: int) -> bool: ...
 
 class Options(metaclass=_Bound):
     def __init__(
@@ -263,6 +309,10 @@ class Trajectory(metaclass=_Bound):
     @property
     def command(self) -> _FloatArray: ...
     @property
+    def deflection(self) -> _FloatArray: ...
+    @property
+    def sensitivities(self) -> _FloatArray: ...
+    @property
     def slack_events(self) -> list[tuple[float, int, bool]]: ...
     @property
     def events(self) -> list[tuple[float, int, _FloatArray, _FloatArray]]: ...
@@ -284,6 +334,7 @@ def simulate(
     progress: Callable[[float], object] | None,
     loads: Loads,
     events: Sequence[tuple[Callable[..., object], int, int]],
+    sensitivities: tuple[Any, ...] | None,
 ) -> Trajectory: ...
 def simulate_controlled(
     model: Model,
@@ -313,6 +364,14 @@ def rollout(
     threads: int,
     progress: Callable[[int], object] | None,
 ) -> tuple[_FloatArray, _FloatArray, _FloatArray | None, list[tuple[int, Status, str]], Stats]: ...
+def quasi_static(
+    model: Model,
+    commands: ArrayLike,
+    q0: ArrayLike | None,
+    deflection: ArrayLike | None,
+    felt: ArrayLike | None,
+    wrenches: Wrench | Sequence[Wrench],
+) -> dict[str, Any]: ...
 
 class Simulator(metaclass=_Bound):
     """The robot inside a control loop: one period at a time, tensions held over the period."""
@@ -332,6 +391,8 @@ class Simulator(metaclass=_Bound):
     def q(self) -> _FloatArray: ...
     @property
     def qd(self) -> _FloatArray: ...
+    @property
+    def deflection(self) -> _FloatArray: ...
     @property
     def model(self) -> Any: ...
     @property

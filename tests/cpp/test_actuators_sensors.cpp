@@ -1,6 +1,7 @@
 // Actuators and sensors of loops, against closed forms.
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "cdcr/cdcr.hpp"
@@ -111,6 +112,17 @@ TEST_CASE("sensors: each kind tells its value, late and biased as asked, with no
   sensor.bias = 0.0;
   sensor.kind = Sensor::Kind::tip;
   CHECK(told(sensor) == VectorXd(tip(model, q).p));
+  sensor.kind = Sensor::Kind::orientation;
+  const Matrix3d R = tip(model, q).R;
+  const auto turned = [&] {
+    const Vector3d v = told(sensor);
+    return Matrix3d(Eigen::AngleAxisd(v.norm(), v.normalized()));
+  };
+  CHECK(residual(turned(), R) <= 1e-14);
+  sensor.bias = 0.2;  // about each of its own axes
+  const Vector3d axis = Vector3d::Ones().normalized();
+  CHECK(residual(turned(), R * Eigen::AngleAxisd(0.2 * std::sqrt(3.0), axis)) <= 1e-14);
+  sensor.bias = 0.0;
   sensor.kind = Sensor::Kind::curvature;
   sensor.places = {{1, 0.0}, {1, 1.0}, {1, 0.5}};
   const double l = model.robot().sections[1].length;

@@ -105,6 +105,29 @@ TEST_CASE("the same loop gives the same bits, noise and all, and run samples it"
   CHECK(runs[0].told_qd.topRows(20) == runs[0].qd.topRows(20));
 }
 
+TEST_CASE("the first commands too change no faster than may be, from those at reset") {
+  const Model model(upright(2));
+  ComputedTorqueOptions options;
+  options.limits.max_rate = 100.0;
+  options.limits.tension.min_tension = 1.0;
+  ComputedTorque controller(model, options);
+  controller.set_reference(VectorXd::Constant(4, 0.3));
+  Loop loop(model, controller);
+  const VectorXd zero = VectorXd::Zero(4), hold = VectorXd::LinSpaced(6, 2.0, 4.0);
+  for (const VectorXd& command : {hold, VectorXd(VectorXd::Zero(6))}) {
+    loop.reset(zero, zero, 0.0, command);
+    VectorXd before = command;
+    for (int k = 0; k < 20; ++k) {
+      REQUIRE(loop.step() == Status::ok);
+      const VectorXd change = loop.asked() - before;
+      CHECK(change.cwiseAbs().maxCoeff() <= 0.1 + 1e-12);
+      CHECK(change.cwiseAbs().maxCoeff() >= 0.1 - 1e-12);  // and they do change so fast
+      before = loop.asked();
+    }
+    CHECK(before.minCoeff() >= 1.0);
+  }
+}
+
 TEST_CASE("after a failure the last good state stays, until reset") {
   const Model model(upright(1));
   Steady strong(Vector3d(4000.0, 0.0, 0.0));
@@ -137,11 +160,11 @@ TEST_CASE("after a failure the last good state stays, until reset") {
 TEST_CASE("an estimator's word is what the controller is told") {
   class Half final : public Estimator {
    public:
-    void reset(const ConstVectorRef& /*q*/, const ConstVectorRef& /*qd*/) noexcept override {}
-    Status update(double /*t*/, const std::vector<SensorChannel>& sensors,
-                  const std::vector<char>& fresh, const ConstVectorRef& /*command*/, VectorRef q,
-                  VectorRef qd) noexcept override {
-      if (fresh[0] != 0) q = 0.5 * sensors[0].value();
+    void reset(const ConstVectorRef& /*q*/, const ConstVectorRef& /*qd*/,
+               const ConstVectorRef& /*command*/) noexcept override {}
+    Status update(double /*t*/, const std::vector<Measurement>& told,
+                  const ConstVectorRef& /*command*/, VectorRef q, VectorRef qd) noexcept override {
+      if (told[0].fresh) q = 0.5 * told[0].value;
       qd.setZero();
       return Status::ok;
     }

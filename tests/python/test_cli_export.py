@@ -1,4 +1,4 @@
-"""`cdcr export-fmu` and `cdcr export-mjcf`: files by name or from a file, and their refusals."""
+"""`cdcr export-c`, `export-fmu` and `export-mjcf`: files, and their refusals."""
 
 import zipfile
 from pathlib import Path
@@ -43,6 +43,21 @@ def test_fmu_refusals(tmp_path: Path) -> None:
     nowhere = cdcr_("export-fmu", "amouri2020", "--out", tmp_path / "no" / "arm.fmu")
     assert "does not exist" in refused(nowhere)
     assert everything_in(tmp_path) == []
+
+
+def test_c(tmp_path: Path) -> None:
+    out = ["--out", tmp_path / "c"]
+    result = cdcr_("export-c", "three-sections", *out, "--name", "arm", "--max-bending", "3.1")
+    files = [tmp_path / "c" / name for name in ("arm.h", "arm.c", "arm_derivatives.c")]
+    assert (result.exit_code, result.stdout) == (0, f"wrote {', '.join(map(str, files))}\n")
+    assert "#define ARM_SECTIONS 3" in files[0].read_text()
+    assert "--overwrite" in refused(cdcr_("export-c", "amouri2020", *out, "--name", "arm"))
+    assert "name must be an identifier" in refused(
+        cdcr_("export-c", "amouri2020", *out, "--name", "1")
+    )
+    assert "max_bending must be at most" in refused(
+        cdcr_("export-c", "amouri2020", *out, "--max-bending", "10")
+    )
 
 
 def test_mjcf(tmp_path: Path) -> None:

@@ -17,7 +17,7 @@ pytest.importorskip("matplotlib")
 pytest.importorskip("h5netcdf")
 
 from cdcr.cli.schema import comment
-from cdcr.scenarios.file import control_schema, schema, shape_schema
+from cdcr.scenarios.file import control_schema, estimator_schema, schema, shape_schema
 from cdcr.scenarios.file.template import template
 from command import cdcr_, everything_in, refused
 
@@ -90,6 +90,7 @@ def test_every_key_is_shown() -> None:
         control_schema.LoopTable,
         control_schema.ActuatorTable,
         control_schema.SensorTable,
+        *estimator_schema.ESTIMATORS.values(),
         schema.ReferenceTable,
         schema.TensionRows,
         schema.TensionHold,
@@ -185,7 +186,7 @@ def test_a_file_must_be_one_that_run_takes(tmp_path: Path) -> None:
 
 def file_scenarios() -> list[str]:
     found = [one for one in cdcr.scenarios.names() if cdcr.scenarios.get(one).has_run]
-    assert len(found) == 16
+    assert len(found) == 18
     return found
 
 

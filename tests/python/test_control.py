@@ -271,6 +271,7 @@ def test_what_no_gain_can_do_is_said() -> None:
         ({"period": 1e6}, r"period must be shorter .*, got 1e\+06 s"),
         ({"R": 1e-300}, "although all motions decay by themselves: Q and R must be nearer"),
         ({"Q": 1e300}, "Q and R must be nearer"),
+        ({"Q": 1.7e308}, "Q and R must be nearer"),
     ],
 )
 @pytest.mark.filterwarnings("error")

@@ -14,6 +14,9 @@ SECTIONS = (CPP / "several-sections.md").read_text()
 RODS = (CPP / "rods.md").read_text()
 DERIVATIVES = (CPP / "derivatives.md").read_text()
 CONTROL = (CPP / "control.md").read_text()
+ESTIMATION = (CPP / "estimation.md").read_text()
+FRICTION = (CPP / "friction.md").read_text()
+SENSITIVITIES = (CPP / "sensitivities.md").read_text()
 ORIGIN = (ROOT / "docs" / "origin-paper.md").read_text()
 
 
@@ -22,7 +25,10 @@ def blocks(document: str, language: str) -> list[str]:
     return re.findall(rf"^```{language}\n(.*?)^```", document, re.MULTILINE | re.DOTALL)
 
 
-PAGES = (README, SECTIONS, RODS, DERIVATIVES, CONTROL)
+PAGES = (
+    *(README, SECTIONS, RODS, DERIVATIVES, CONTROL),
+    *(ESTIMATION, FRICTION, SENSITIVITIES),
+)
 FORMULAS = "".join(block for page in PAGES for block in blocks(page, "text"))
 EQUATIONS = [int(number) for number in re.findall(r" \((\d+)\)$", FORMULAS, re.MULTILINE)]
 
@@ -50,7 +56,7 @@ def quoted(text: str) -> list[int]:
 
 
 def test_equations_are_numbered_in_order() -> None:
-    assert list(range(1, 94)) == EQUATIONS
+    assert list(range(1, 121)) == EQUATIONS
 
 
 def test_equations_quoted_by_the_sources_exist() -> None:

@@ -21,8 +21,10 @@ from cdcr import _core
 
 MODULES = (
     cdcr,
+    cdcr.casadi,
     cdcr.control,
     cdcr.gym,
+    cdcr.jax,
     cdcr.paper,
     cdcr.plotting,
     cdcr.robots,

@@ -173,6 +173,20 @@ def test_closed_loop(example: Example) -> None:
     assert worst == pytest.approx(errors["late"], rel=1e-3)
 
 
+def test_estimation(example: Example) -> None:
+    found = example(30)
+    assert found["off"][1] == pytest.approx(0.05, rel=0.02)  # where the filter begins
+    assert found["off"][-500:].max() < 0.01
+    # The force that bends the robot as it stands at the end, by statics.
+    model, loop = found["model"], found["loop"]
+    at_rest = model.inverse_dynamics(loop.q, loop.qd * 0.0, np.zeros(6))
+    pulled = model.actuation_matrix() @ loop.given
+    J = model.jacobian(loop.q, 2, 1.0)[:3]
+    by_statics = np.linalg.lstsq(J.T, at_rest - pulled, rcond=None)[0]
+    np.testing.assert_allclose(found["force"][-200:].mean(axis=0), by_statics, atol=0.05)
+    np.testing.assert_allclose(found["force"][-200:].mean(axis=0), found["push"], atol=0.03)
+
+
 def test_lqr(example: Example) -> None:
     pytest.importorskip("control", reason="the extra control")
     found = example(7)
@@ -330,3 +344,16 @@ def test_feel_a_push(example: Example) -> None:
     J = model.jacobian(run.q[i], 2, 1.0)[:3]
     by_hand = np.linalg.solve(model.mass_matrix(run.q[i]), J.T)
     np.testing.assert_allclose(found["by_force"][i], by_hand, rtol=1e-9)
+
+
+def test_optimal_pull(example: Example) -> None:
+    found = example(31)
+    assert found["rest"] < 0.02 < 10.0 < found["swing"]
+    # One column of the chain rule through both runs, by a difference.
+    pulls, h = found["found"].x, 1e-4
+    ends = []
+    for side in (h, -h):
+        _, second, _ = found["end"](pulls + side * np.eye(6)[1])
+        ends.append(np.concatenate([second.q[-1], second.qd[-1]]))
+    column = found["end"](pulls)[2][:, 1]
+    np.testing.assert_allclose((ends[0] - ends[1]) / (2 * h), column, atol=1e-5)

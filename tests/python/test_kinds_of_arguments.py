@@ -51,6 +51,14 @@ CASES: dict[str, tuple[Callable[[], object], str]] = {
         lambda: MODEL.inverse_kinematics([0.0, 0.0, 0.8], seeds=cast("Any", 1.5)),
         "seeds must be a whole number, got 1.5 (float)",
     ),
+    "many seeds": (
+        lambda: MODEL.inverse_kinematics([0.0, 0.0, 0.8], seeds=10**40),
+        "seeds must be a whole number of at most 2147483647 in size, got 1000",
+    ),
+    "huge limit": (
+        lambda: MODEL.allocate(ZERO, max_tension=10**400),
+        "max_tension must be a number of at most 1.797693135e+308 in size, got 1000",
+    ),
     "tolerance": (
         lambda: MODEL.inverse_kinematics([0.0, 0.0, 0.8], tolerance=cast("Any", "fine")),
         "tolerance must be a number, got 'fine' (str)",

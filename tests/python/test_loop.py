@@ -125,13 +125,29 @@ REFUSALS: dict[str, tuple[Any, str]] = {
     ),
     "kind": (
         lambda: cdcr.Sensor(kind=cast("Any", "gps")),
-        "kind must be one of 'coordinates', 'rates', 'lengths', 'tensions', 'tip', 'curvature', "
-        "got 'gps'",
+        "kind must be one of 'coordinates', 'rates', 'lengths', 'tensions', 'tip', 'orientation', "
+        "'curvature', got 'gps'",
     ),
     "noise": (lambda: cdcr.Sensor(kind="tip", noise=NONE), "noise must be a number, got None"),
     "places": (
         lambda: cdcr.Sensor(kind="curvature", places=cast("Any", [3])),
         "places[0] must be an index of a section and a fraction, got 3 (int)",
+    ),
+    "one place": (
+        lambda: cdcr.Sensor(kind="curvature", places=cast("Any", 3)),
+        "places must be a sequence of places, got 3 (int)",
+    ),
+    "no actuators": (
+        lambda: cdcr.Loop(MODEL, PID, actuators=NONE),
+        "actuators must be a cdcr.Actuator or a sequence of them, got None",
+    ),
+    "no sensors": (
+        lambda: cdcr.Loop(MODEL, PID, sensors=cast("Any", 3)),
+        "sensors must be a cdcr.Sensor or a sequence of them, got 3 (int)",
+    ),
+    "ragged gain": (
+        lambda: cdcr.Pid(MODEL, kp=cast("Any", [[1.0], [2.0, 3.0]])),
+        "kp must be numbers, got",
     ),
     "winch": (
         lambda: cdcr.Actuator(winch=cast("Any", 3.0)),

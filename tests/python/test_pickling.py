@@ -90,6 +90,7 @@ def loop_run() -> cdcr.LoopRun:
 
 
 WINCH = cdcr.Winch(drum_radius=0.01, inertia=1e-6, bandwidth=50.0)
+TIP = cdcr.Sensor(kind="tip", noise=1e-3)
 PATH = cdcr.ReferencePath.spline([0.0, 1.0], [np.zeros(6), np.full(6, 0.1)])
 REFERENCE = cdcr.Reference.from_functions(T, bent)
 RUN = cdcr.simulate(MODEL, np.full(6, 0.1), np.zeros(6), t=T[:3])
@@ -101,6 +102,9 @@ PUBLIC: dict[str, Callable[[], Any]] = {
     "Derivatives": lambda: MODEL.derivatives(np.zeros(6), np.zeros(6), np.ones(9)),
     "Equilibrium": lambda: MODEL.find_equilibrium(np.ones(9)),
     "Allocation": lambda: MODEL.find_tension(np.full(6, 1e3), max_tension=1.0),
+    "ExtendedKalman": lambda: cdcr.ExtendedKalman(MODEL, sensors=TIP, variants=MODEL),
+    "UnscentedKalman": lambda: cdcr.UnscentedKalman(MODEL, sensors=TIP, force_at=(0, 1.0)),
+    "MomentumObserver": lambda: cdcr.MomentumObserver(MODEL, force_at=(1, 0.5)),
     "InfeasibleError": lambda: infeasible(np.full(6, 1e3)),
     "InverseKinematics": lambda: MODEL.inverse_kinematics([0.1, 0.0, 0.3]),
     "InverseRun": inverse_run,
@@ -111,6 +115,7 @@ PUBLIC: dict[str, Callable[[], Any]] = {
     "ComputedTorque": lambda: cdcr.ComputedTorque(MODEL, kp=np.ones(6), max_tension=20.0),
     "StateFeedback": lambda: cdcr.StateFeedback(MODEL, gain=np.ones((9, 12))),
     "TaskSpace": lambda: cdcr.TaskSpace(MODEL, pretension=np.ones(9)),
+    "QuasiStatic": lambda: cdcr.quasi_static(MODEL, np.ones((2, 9))),
     "ReferencePath": lambda: PATH,
     "ReferencePath of a circle": lambda: cdcr.ReferencePath.circle([0.0], [1.0], [2.0], 1.0, 2.0),
     "LoopRun": loop_run,

@@ -1,5 +1,6 @@
 """Sizes of pictures: of a journal's column, of a slide, and any other."""
 
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -21,10 +22,14 @@ CM = 1.0 / 2.54  # [in]
 LEGIBLE = 5.5  # smallest letters in a journal's column [pt]
 
 
-def picture(name: str, size: Any) -> Any:
+@cache
+def run_of(name: str) -> Any:
     scenario = cdcr.scenarios.get(name)
-    run = scenario.simulate(t_end=1.0) if scenario.has_run else None
-    return scenario.figure(run, size=size)
+    return scenario.simulate(t_end=1.0) if scenario.has_run else None
+
+
+def picture(name: str, size: Any) -> Any:
+    return cdcr.scenarios.get(name).figure(run_of(name), size=size)
 
 
 @pytest.mark.parametrize(

@@ -40,6 +40,13 @@ RODS: dict[str, Any] = {
     "rest_twist": 0.0,
     "nodes": None,
 }
+DRIVES: dict[str, Any] = {
+    "cable_entry_friction": 0.0,
+    "cable_sheath_friction": 0.0,
+    "cable_viscosity": 0.0,
+    "cable_pretension": 0.0,
+    "cable_backlash": 0.0,
+}
 FULL: dict[str, Any] = REQUIRED | {
     "disk_mass": 0.008,
     "disk_diameter": 0.04,
@@ -54,6 +61,7 @@ FULL: dict[str, Any] = REQUIRED | {
     "cable_friction": 0.1,
     "damping": 1e-3,
     **RODS,
+    **DRIVES,
 }
 # But those whose range depends on another field, or that may be negative.
 OTHER = ("backbone_inner_diameter", "rest_twist")
@@ -62,7 +70,7 @@ NUMBERS = [name for name in FULL if isinstance(FULL[name], float) and name not i
 
 def test_defaults() -> None:
     section = cdcr.Section(**REQUIRED)
-    assert dataclasses.asdict(section) == RODS | REQUIRED | {
+    assert dataclasses.asdict(section) == RODS | DRIVES | REQUIRED | {
         "disk_mass": 0.0,
         "disk_diameter": 0.0,
         "num_disks": 0,

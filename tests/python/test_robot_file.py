@@ -110,12 +110,30 @@ FULL = cdcr.Robot(
             cable_stiffness=1e4,
             cable_damping=1.0,
             cable_friction=0.1,
+            cable_entry_friction=0.5,
+            cable_sheath_friction=0.05,
+            cable_viscosity=0.3,
+            cable_pretension=2.0,
+            cable_backlash=1e-4,
         )
     ],
     payload=0.1,
     cables=[
-        cdcr.Cable(radius=0.01, angle=0.5, end_section=0, stiffness=1e4, damping=1, friction=0.2)
+        cdcr.Cable(
+            radius=0.01,
+            angle=0.5,
+            end_section=0,
+            stiffness=1e4,
+            damping=1,
+            friction=0.2,
+            entry_friction=0.1,
+            sheath_friction=0.2,
+            viscosity=0.3,
+            pretension=0.4,
+            backlash=0.5e-3,
+        )
     ],
+    presliding_stiffness=1e4,
     base_orientation=[[0, 0, 1], [1, 0, 0], [0, 1, 0]],
     payload_position=[0, 0, 0.02],
     payload_inertia=[[2e-5, 0, 0], [0, 2e-5, 0], [0, 0, 3e-5]],

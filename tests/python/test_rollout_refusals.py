@@ -14,6 +14,7 @@ MODEL = cdcr.Model(cdcr.robots.amouri2020(damping=0.01))
 N, STEPS = 5, 20
 Q0, QD0 = np.zeros((N, 2)), np.zeros((N, 2))
 PULLS = np.ones((N, STEPS, 3))
+PID = cdcr.Pid(MODEL, kp=1.0)
 RUN: dict[str, Any] = {"step": 2.0**-7, "steps": STEPS}
 
 REFUSED: list[tuple[dict[str, Any], type[Exception], str]] = [
@@ -48,6 +49,13 @@ REFUSED: list[tuple[dict[str, Any], type[Exception], str]] = [
     ({"tension": pull_back}, TypeError, "a function of the states of all motions is a controller"),
     ({"tension": PULLS, "controller": pull_back}, ValueError, "give one of tension, command and"),
     ({"controller": 3}, TypeError, "controller must be a cdcr.Pid, a list of them or a function"),
+    ({"controller": "abc"}, TypeError, "a list of them or a function, got str"),
+    ({"controller": []}, ValueError, "a list of them or a function, got no one"),
+    (
+        {"controller": [PID, None, PID, PID, PID]},
+        TypeError,
+        r"controller\[1\] \(motion 2\) must be a cdcr.Controller, got NoneType",
+    ),
     (
         {"controller": Spring(0.1)},
         TypeError,
@@ -56,6 +64,9 @@ REFUSED: list[tuple[dict[str, Any], type[Exception], str]] = [
     ({"controller": lambda t, q, qd: q}, ValueError, r"must give commands of shape \(5, 3\)"),
     ({"controller": pull_back, "control_every": 3}, ValueError, "control_every must divide the 20"),
     ({"parameters": {"payloads": np.ones(N)}}, ValueError, "Did you mean 'payload'?"),
+    ({"parameters": "payload"}, TypeError, "parameters must be a mapping of paths to arrays, got"),
+    ({"parameters": []}, TypeError, "parameters must be a mapping of paths to arrays, got list"),
+    ({"wrenches": None}, ValueError, "wrenches must be a sequence of cdcr.Wrench, got None"),
     ({"parameters": {"payload": 1.0}}, ValueError, r"must have shape \(N,\), got \(\)"),
     ({"parameters": {"payload": -np.ones(N)}}, ValueError, "motion 1: payload must be"),
     ({"parameters": {"payload": np.ones(3)}}, ValueError, "5 of q0, 5 of qd0, 3 of parameters"),
@@ -73,6 +84,11 @@ REFUSED: list[tuple[dict[str, Any], type[Exception], str]] = [
     ({"step": 0.0}, ValueError, "step must be a number > 0 s, got 0.0"),
     ({"steps": -1}, ValueError, "steps must be a whole number >= 0, got -1"),
     ({"progress": 3}, TypeError, "progress must be a function of a number, got int"),
+    (
+        {"wrenches": (one for one in [cdcr.Wrench(section=0, profile=lambda t: t)])},
+        ValueError,
+        "the profile of a wrench on a rollout must be a table, got a function",
+    ),
     (
         {"wrenches": cdcr.Wrench(section=0, profile=lambda t: t)},
         ValueError,

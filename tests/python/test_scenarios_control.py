@@ -57,3 +57,17 @@ def test_motor_limits_anti_windup_halves_the_overshoot() -> None:
 
     same = runs(6.0)[NAMES[0]]
     np.testing.assert_array_equal(same.q, run.q)
+
+
+def test_estimator_is_honest_and_a_late_camera_helps() -> None:
+    _, metrics = found("estimator")
+    assert metrics["error_extended_deg"] < 0.6 * metrics["error_lengths_deg"]
+    assert metrics["error_unscented_deg"] == pytest.approx(metrics["error_extended_deg"], rel=0.05)
+    values = 3000 * 9 + 300 * 3
+    assert abs(metrics["innovation"] - 1.0) < 5.0 * np.sqrt(2.0 / (values / 2.0))
+
+
+def test_contact_force_is_found_within_a_tenth() -> None:
+    _, metrics = found("contact-force")
+    assert metrics["error_observer_percent"] < 10.0
+    assert metrics["error_filter_percent"] < 10.0

@@ -23,8 +23,8 @@ ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
 REFERENCE = DOCS / "reference"
 MODULES = (
-    *(cdcr, cdcr.control, cdcr.export, cdcr.gym, cdcr.paper, cdcr.plotting, cdcr.robots),
-    *(cdcr.identification, cdcr.scenarios, cdcr.sweeps),
+    *(cdcr, cdcr.casadi, cdcr.control, cdcr.export, cdcr.gym, cdcr.identification, cdcr.jax),
+    *(cdcr.paper, cdcr.plotting, cdcr.robots, cdcr.scenarios, cdcr.sweeps),
 )
 RETURNED = {"cdcr.view.View"}  # by public names
 FLAGS = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS
@@ -130,11 +130,11 @@ def tables() -> set[str]:
     from pydantic import BaseModel
 
     from cdcr.identification import schema as identify
-    from cdcr.scenarios.file import control_schema, schema, shape_schema
+    from cdcr.scenarios.file import control_schema, estimator_schema, schema, shape_schema
 
     bases = {"BaseModel", "TensionShape"}
     homes = {"schema": schema, "shape_schema": shape_schema, "identify": identify}
-    homes["control_schema"] = control_schema
+    homes |= {"control_schema": control_schema, "estimator_schema": estimator_schema}
     return {
         f"{home}:{name}"
         for home, module in homes.items()
@@ -226,7 +226,11 @@ def test_what_has_no_meaning_is_refused() -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["README.md", "several-sections.md", "rods.md", "derivatives.md", "control.md"]
+    "name",
+    [
+        *("README.md", "several-sections.md", "rods.md", "derivatives.md", "control.md"),
+        *("estimation.md", "friction.md", "sensitivities.md"),
+    ],
 )
 def test_all_numbered_equations_are_set(name: str) -> None:
     text = (ROOT / "cpp" / name).read_text(encoding="utf-8")

@@ -49,6 +49,24 @@ def driven() -> cdcr.Model:
     return cdcr.Model(cdcr.Robot(sections=[replace(SECTION, cable_stiffness=5e3)]))
 
 
+class Hold(cdcr.Controller):
+    """Asks for the same at all times."""
+
+    def __init__(self, command: list[float]) -> None:
+        super().__init__(period=1e-4)
+        self.command = command
+
+    def update(self, t: float, q: Any, qd: Any) -> list[float]:
+        """Return it."""
+        return self.command
+
+
+def looped(model: cdcr.Model, command: list[float]) -> None:
+    loop = cdcr.Loop(model, Hold(command), step=1e-4)
+    loop.reset(np.zeros(2), np.zeros(2))
+    loop.run(2e-4)
+
+
 @pytest.mark.parametrize("tension", [[0.0, 0.0, 0.0], [0.802, 5.0, 0.0], [9.0, 0.802, 0.802]])
 def test_newtons_for_a_cable_driven_by_length(tension: list[float]) -> None:
     model, zeros = driven(), np.zeros(2)
@@ -56,6 +74,8 @@ def test_newtons_for_a_cable_driven_by_length(tension: list[float]) -> None:
         lambda: cdcr.simulate(model, zeros, zeros, t=[0.0, 1e-3], tension=tension),
         lambda: cdcr.simulate(model, zeros, zeros, t=[0.0, 1e-3], tension=lambda t: tension),
         lambda: model.equilibrium(tension, throw=False),
+        lambda: cdcr.rollout(model, zeros, zeros, step=1e-4, steps=2, tension=tension),
+        lambda: looped(model, tension),
     ]
     for call in calls:
         with pytest.warns(UserWarning, match=r"driven by length .* is that a tension \[N\]\?"):
@@ -71,4 +91,6 @@ def test_what_is_sound_is_not_asked_about() -> None:
         for length in (model.rest_command(), [0.802, 0.79, 8.0]):
             cdcr.simulate(model, zeros, zeros, t=[0.0, 1e-3], tension=length)
             model.equilibrium(length, throw=False)
+            cdcr.rollout(model, zeros, zeros, step=1e-4, steps=2, tension=length)
+            looped(model, list(length))
         cdcr.simulate(cdcr.Model(robot()), np.zeros(4), np.zeros(4), t=[0.0], tension=np.zeros(6))

@@ -22,6 +22,11 @@ class CableDrive {
 
   /// Forgets the last command: the next may be any.
   void reset() noexcept { started_ = false; }
+  /// Takes these for the last commands (num_cables).
+  void hold(const ConstVectorRef& command) noexcept {
+    command_ = command;
+    started_ = true;
+  }
 
   /// Commands that give the force (d) at (q, qd), least-norm tensions or those nearest to
   /// `preferred` [N]; true when it is met, else they come nearest to it.

@@ -27,6 +27,8 @@ class Controller {
 
   /// Forgets what has been accumulated, before a new run.
   virtual void reset() noexcept = 0;
+  /// After reset, where the cables have these commands (num_cables): rates count from them.
+  virtual void hold(const ConstVectorRef& /*command*/) noexcept {}
   /// Commands (num_cables), [N] or [m], for the state (q, qd) measured at time t [s]. Anything but
   /// ok ends the run; wrong_size for vectors of another size.
   [[nodiscard]] virtual Status update(double t, const ConstVectorRef& q, const ConstVectorRef& qd,

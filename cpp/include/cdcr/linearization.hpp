@@ -23,6 +23,11 @@ void linearize(const Model& model, Data& data, const ConstVectorRef& q, const Co
 void state_jacobian(const Model& model, Data& data, const ConstVectorRef& q,
                     const ConstVectorRef& qd, const ConstVectorRef& command,
                     const Wrenches& wrenches, MatrixRef A) noexcept;
+/// The same under a further, constant generalised force `added` (d) [N m].
+void state_jacobian_force(const Model& model, Data& data, const ConstVectorRef& q,
+                          const ConstVectorRef& qd, const ConstVectorRef& command,
+                          const Wrenches& wrenches, const ConstVectorRef& added,
+                          MatrixRef A) noexcept;
 
 /// d(qdd)/dq and d(qdd)/dqd (d, d), d(qdd)/d(command) (d, num_cables), and d(qdd)/d(wrenches)
 /// (d, 6 wrenches.size()): of each wrench by its force and by its moment, in its own frame. All of

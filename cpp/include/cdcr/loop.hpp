@@ -4,25 +4,13 @@
 
 #include "cdcr/actuator.hpp"
 #include "cdcr/controller.hpp"
+#include "cdcr/estimator.hpp"
 #include "cdcr/export.hpp"
 #include "cdcr/sensor.hpp"
 #include "cdcr/simulate.hpp"
 #include "cdcr/simulator.hpp"
 
 namespace CDCR_EXPORT cdcr {
-
-/// Makes a state of measurements, at the beginning of each step of the loop.
-class Estimator {
- public:
-  virtual ~Estimator() = default;
-  /// Before a run, with the state at its start. Real-time safe.
-  virtual void reset(const ConstVectorRef& q, const ConstVectorRef& qd) noexcept = 0;
-  /// The state (q, qd) at time t from what the sensors tell, of which those with fresh != 0 are
-  /// new, and the command asked for over the step before. Anything but ok ends the run.
-  [[nodiscard]] virtual Status update(double t, const std::vector<SensorChannel>& sensors,
-                                      const std::vector<char>& fresh, const ConstVectorRef& command,
-                                      VectorRef q, VectorRef qd) noexcept = 0;
-};
 
 struct LoopOptions {
   double step = 1e-3;               ///< of the plant [s]; all periods are whole numbers of it
@@ -64,8 +52,11 @@ class Loop {
   [[nodiscard]] const VectorXd& told_q() const noexcept { return told_q_; }
   [[nodiscard]] const VectorXd& told_qd() const noexcept { return told_qd_; }
   [[nodiscard]] const std::vector<SensorChannel>& sensors() const noexcept { return sensors_; }
+  /// What they tell the estimator.
+  [[nodiscard]] const std::vector<Measurement>& told() const noexcept { return told_; }
   [[nodiscard]] Status status() const noexcept { return status_; }
   [[nodiscard]] Controller& controller() const noexcept { return *controller_; }
+  [[nodiscard]] Estimator* estimator() const noexcept { return estimator_; }  ///< null: none
   [[nodiscard]] const LoopOptions& options() const noexcept { return options_; }
 
  private:
@@ -78,8 +69,8 @@ class Loop {
   Estimator* estimator_;
   Actuators actuators_;
   std::vector<SensorChannel> sensors_;
-  std::vector<char> fresh_;
-  Index every_;  // steps in a period of the controller
+  std::vector<Measurement> told_;
+  Index every_, estimator_every_ = 1;  // steps in a period of controller and estimator
   VectorXd asked_, trial_, tension_, told_q_, told_qd_;
   Status status_ = Status::not_started;
 };
@@ -90,6 +81,10 @@ struct LoopRun : Trajectory {
   RowMatrixXd told_q, told_qd;    ///< to the controller (N, d)
   std::vector<RowMatrixXd> told;  ///< by each sensor (N, its size)
   VectorXd durations;             ///< of the controller's last update (N) [s]
+  RowMatrixXd estimated;          ///< what else the estimator has, Estimator::value_names (N, ...)
+  RowMatrixXd deviations;         ///< standard deviations of that, 0 where it has none
+  VectorXd innovation;            ///< of the estimator's last update (N), EstimatorDiagnostics
+  VectorXd measured;              ///< values in it (N)
 };
 
 /// Steps a loop that has been reset over a duration [s], a whole number of steps; a sample at the

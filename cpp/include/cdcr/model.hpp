@@ -70,7 +70,17 @@ class Model {
   [[nodiscard]] const VectorXd& damping() const noexcept { return damping_; }
   /// Coulomb's coefficient of each cable in the holes of each section (n, num_cables).
   [[nodiscard]] const MatrixXd& friction() const noexcept { return friction_; }
+  /// Whether a cable rubs anywhere, in its holes or at its entry.
   [[nodiscard]] bool has_friction() const noexcept { return has_friction_; }
+  /// Deflections that friction remembers: one for each cable, or none without memory.
+  [[nodiscard]] Index num_deflections() const noexcept { return num_deflections_; }
+  /// e^-mu phi of the sheath of each cable (num_cables).
+  [[nodiscard]] const VectorXd& sheath_decay() const noexcept { return sheath_decay_; }
+  /// How much longer than commanded each length-driven cable is without pull, -F_0/k
+  /// (num_cables) [m].
+  [[nodiscard]] const VectorXd& slack_offset() const noexcept { return slack_offset_; }
+  /// Whether the drive of some cable has play.
+  [[nodiscard]] bool has_backlash() const noexcept { return has_backlash_; }
   /// Whether every cable is driven by tension and free of friction, and B is constant: then Q = B F
   /// depends on the tensions alone.
   [[nodiscard]] bool has_plain_cables() const noexcept { return has_plain_cables_; }
@@ -107,14 +117,14 @@ class Model {
   Formulation formulation_;
   std::shared_ptr<const Parts> parts_;
   std::vector<Index> first_;
-  VectorXd stiffness_, damping_, straight_lengths_;
+  VectorXd stiffness_, damping_, straight_lengths_, sheath_decay_, slack_offset_;
   MatrixXd actuation_, friction_;
   Vector3d root_gravity_ = Vector3d::Zero();
-  Index singular_section_ = -1;
+  Index singular_section_ = -1, num_deflections_ = 0;
   double base_energy_ = 0.0;
   bool has_gravity_ = false, has_friction_ = false, has_plain_cables_ = true, has_tool_ = false,
        has_closed_form_ = false, has_rods_ = false, has_constant_actuation_ = true,
-       has_nested_cables_ = true;
+       has_nested_cables_ = true, has_backlash_ = false;
 };
 
 /// Throws std::invalid_argument with a sentence when the model cannot be accelerated.

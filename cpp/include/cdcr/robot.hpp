@@ -54,6 +54,11 @@ struct Section {
   double cable_stiffness = 0.0;        ///< see Cable::stiffness [N/m], >= 0
   double cable_damping = 0.0;          ///< see Cable::damping [N s/m], >= 0
   double cable_friction = 0.0;  ///< Coulomb's coefficient mu in this section's cable holes, >= 0
+  double cable_entry_friction = 0.0;   ///< see Cable::entry_friction [N], >= 0
+  double cable_sheath_friction = 0.0;  ///< see Cable::sheath_friction, >= 0
+  double cable_viscosity = 0.0;        ///< see Cable::viscosity [N s/m], >= 0
+  double cable_pretension = 0.0;       ///< see Cable::pretension [N], >= 0
+  double cable_backlash = 0.0;         ///< see Cable::backlash [m], >= 0
 
   int bending_order = 0;                        ///< 0 to max_order, or locked
   int twist_order = locked;                     ///< likewise
@@ -105,6 +110,11 @@ struct Cable {
   /// (base, tip) in each section passed, in place of `radius` [m] and `angle` [rad]; or empty.
   // NOLINTNEXTLINE(readability-redundant-member-init): cables may be listed without them
   std::vector<std::array<double, 2>> radii{}, angles{};
+  double entry_friction = 0.0;   ///< Coulomb's, at the entry into the robot [N], >= 0
+  double sheath_friction = 0.0;  ///< mu of a sheath before the entry times its turning, >= 0
+  double viscosity = 0.0;        ///< viscous friction at the entry [N s/m], >= 0
+  double pretension = 0.0;       ///< pull at the length commanded, where driven by length [N], >= 0
+  double backlash = 0.0;         ///< play of the drive, where driven by length [m], >= 0
 
   /// How it runs through a section that it passes.
   [[nodiscard]] CableRoute route(int section) const noexcept;
@@ -136,6 +146,9 @@ struct Robot {
   double sliding_speed = 1e-3;  ///< cable speed that friction takes for sliding [m/s], > 0
   /// A frame without mass that the tip carries, in the frame at the end of the last section.
   Transform tool = Transform::Identity();
+  /// Of a cable that sticks, against where it sticks [N/m], >= 0: friction then remembers, and
+  /// sticks at rest. 0: the law of the sliding speed, without memory.
+  double presliding_stiffness = 0.0;
 
   /// Every cable: section by section those at cable_angles, then `cables`.
   [[nodiscard]] std::vector<Cable> all_cables() const;

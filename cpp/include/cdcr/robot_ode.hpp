@@ -11,8 +11,8 @@
 
 namespace CDCR_EXPORT cdcr {
 
-/// The robot under its cables and wrenches as one ordinary differential equation: y = (q, qd),
-/// y' = f(t, y).
+/// The robot under its cables and wrenches as one ordinary differential equation: y = (q, qd), or
+/// (q, qd, w) with the deflections of cables whose friction remembers; y' = f(t, y).
 ///
 /// Refers to the model, the input and the loads, which must outlive it. One for each thread.
 class RobotOde {
@@ -25,7 +25,9 @@ class RobotOde {
   RobotOde(const Model& model, Controller& controller, const WrenchInput& loads = no_loads());
 
   [[nodiscard]] const Model& model() const noexcept { return *model_; }  ///< as given
-  [[nodiscard]] Index num_states() const noexcept { return 2 * model_->num_coordinates(); }
+  [[nodiscard]] Index num_states() const noexcept {
+    return 2 * model_->num_coordinates() + model_->num_deflections();
+  }
 
   /// Begins the stretch of smooth motion that starts at t in state y: asks the controller, or
   /// moves to the input's segment. Forces that hold over the stretch are made here, once.
@@ -36,6 +38,10 @@ class RobotOde {
   /// y' at (t, y); y and dydt of num_states. Throws only when the input or a load is a function:
   /// what it throws, or std::invalid_argument when it gives a negative or non-finite value.
   void derivative(double t, const double* y, double* dydt);
+  /// Brings command() and wrenches() to (t, y) within the stretch.
+  void update_inputs(double t, const double* y);
+  [[nodiscard]] const VectorXd& command() const noexcept { return command_; }
+  [[nodiscard]] const Wrenches& wrenches() const noexcept { return wrenches_; }
   /// df/dy (num_states, num_states), column-major. Feedback in the input is left out.
   void jacobian(double t, const double* y, double* J);
   /// Commands (num_cables) at (t, y) within the stretch, [N] or [m], and the tensions that the
@@ -57,6 +63,10 @@ class RobotOde {
            const WrenchInput& loads);
   /// Brings command_ up to date.
   void update_command(double t, const ConstVectorRef& q, const ConstVectorRef& qd);
+  /// y' under command_ and wrenches_ as they are, where friction remembers.
+  void memory_derivative(const double* y, double* dydt) noexcept;
+  /// df/dy there, by differences.
+  void memory_jacobian(const double* y, double* J) noexcept;
 
   const Model* model_;
   const CommandInput* input_;  // one of the two
@@ -64,6 +74,8 @@ class RobotOde {
   const WrenchInput* loads_;
   Data data_;
   VectorXd command_, force_;
+  VectorXd asked_, felt_;  // where drives have play: before it, and behind it as the segment began
+  VectorXd moved_, slope_, slope_there_;  // where friction remembers
   Wrenches wrenches_;
   std::vector<Index> length_driven_;
   Index segment_ = 0;   // of the input, or periods of the controller made

@@ -13,15 +13,16 @@ namespace CDCR_EXPORT cdcr {
 /// Something measured, each period: value + bias + noise, and told after a delay.
 struct Sensor {
   /// coordinates (d) [rad]; rates (d) [rad/s]; lengths of the cables in the robot (num_cables) [m];
-  /// tensions at the base (num_cables) [N]; tip: position in the base frame (3) [m]; curvature of
-  /// the backbone in the x and y of its frame at places (2 each) [1/m].
-  enum class Kind { coordinates, rates, lengths, tensions, tip, curvature };
+  /// tensions at the base (num_cables) [N]; tip: position in the base frame (3) [m]; orientation of
+  /// the tip in the base frame, a rotation vector (3) [rad]; curvature of the backbone in the x and
+  /// y of its frame at places (2 each) [1/m].
+  enum class Kind { coordinates, rates, lengths, tensions, tip, curvature, orientation };
 
   Kind kind = Kind::coordinates;
   double period = 0.0;        ///< [s], a whole number of steps; 0: each step
   double delay = 0.0;         ///< [s], >= 0, a whole number of steps
   double noise = 0.0;         ///< standard deviation of each value, normal and white, >= 0
-  double bias = 0.0;          ///< added to each value
+  double bias = 0.0;          ///< added to each value; of orientation both turn it about its axes
   std::vector<Place> places;  ///< of curvature
   std::uint64_t seed = 1;     ///< of the noise
 };
@@ -44,17 +45,13 @@ class SensorChannel {
   [[nodiscard]] const Sensor& sensor() const noexcept { return sensor_; }
 
  private:
-  void measure(const ConstVectorRef& q, const ConstVectorRef& qd, const ConstVectorRef& command,
-               VectorRef out) noexcept;
-  [[nodiscard]] double curvature(const Place& place, const ConstVectorRef& q,
-                                 Index axis) const noexcept;
   [[nodiscard]] double normal() noexcept;
   [[nodiscard]] std::uint64_t random() noexcept;
 
   Model model_;
   Sensor sensor_;
   Index every_, delay_;
-  VectorXd value_, measured_;
+  VectorXd value_, measured_, error_;
   MatrixXd late_;           // (size, delay + 1) on their way
   std::vector<char> sent_;  // whether a column of it was measured
   std::uint64_t random_state_ = 1;

@@ -26,6 +26,11 @@ class Simulator {
   /// Sets the state (d each) and the time [s], where the clock was set and the periods made since.
   void reset(const VectorXd& q, const VectorXd& qd, double start = 0.0, long long periods = 0);
 
+  /// Sets the deflections of cables whose friction remembers (num_deflections) [m], and what cables
+  /// feel of their commands where drives have play (num_cables) [N], [m]; reset makes them those of
+  /// a robot that has not moved.
+  void set_memory(const VectorXd& deflection, const VectorXd& felt);
+
   /// Advances one period under constant commands (num_cables), tensions [N] or lengths [m], each
   /// >= 0, and constant wrenches; invalid_tension and invalid_wrench tell what it does not take.
   /// Real-time safe.
@@ -38,9 +43,11 @@ class Simulator {
   [[nodiscard]] const Model& model() const noexcept { return model_; }  ///< a copy of the one given
   [[nodiscard]] const VectorXd& q() const noexcept { return q_; }       ///< (d) [rad]
   [[nodiscard]] const VectorXd& qd() const noexcept { return qd_; }     ///< (d) [rad/s]
-  [[nodiscard]] double time() const noexcept { return time_; }          ///< [s]
-  [[nodiscard]] double period() const noexcept { return period_; }      ///< [s]
-  [[nodiscard]] int substeps() const noexcept { return substeps_; }     ///< in a period
+  [[nodiscard]] const VectorXd& deflection() const noexcept { return deflection_; }  ///< [m]
+  [[nodiscard]] const VectorXd& felt() const noexcept { return felt_; }              ///< [N] or [m]
+  [[nodiscard]] double time() const noexcept { return time_; }                       ///< [s]
+  [[nodiscard]] double period() const noexcept { return period_; }                   ///< [s]
+  [[nodiscard]] int substeps() const noexcept { return substeps_; }      ///< in a period
   [[nodiscard]] Method method() const noexcept { return method_; }
   [[nodiscard]] bool started() const noexcept { return started_; }       ///< reset has been called
   [[nodiscard]] double start() const noexcept { return start_; }         ///< as reset was told [s]
@@ -56,8 +63,8 @@ class Simulator {
   int substeps_ = 1;
   Method method_;
   bool started_ = false;
-  VectorXd q_, qd_, force_;
-  VectorXd y_, trial_;  // (q, qd) within a period
+  VectorXd q_, qd_, force_, deflection_, felt_, felt_trial_;
+  VectorXd y_, trial_;  // (q, qd, deflection) within a period
   struct Stages;
   std::unique_ptr<Stages> stages_;
 };

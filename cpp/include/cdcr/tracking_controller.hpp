@@ -29,6 +29,7 @@ class TrackingController : public Controller {
   [[nodiscard]] const Setpoint& setpoint() const noexcept { return setpoint_; }
 
   void reset() noexcept override;
+  void hold(const ConstVectorRef& command) noexcept override { drive_.hold(command); }
   [[nodiscard]] Status update(double t, const ConstVectorRef& q, const ConstVectorRef& qd,
                               VectorRef command) noexcept final;
   [[nodiscard]] double period() const noexcept override { return drive_.period(); }

@@ -326,7 +326,9 @@ void cable_commands(const Model& model, const ConstVectorRef& q, const ConstVect
   cable_lengths(model, q, command);
   for (Index j = 0; j < model.num_cables(); ++j) {
     const Cable& cable = model.cables()[static_cast<std::size_t>(j)];
-    command[j] = cable.length_driven() ? command[j] - tension[j] / cable.stiffness : tension[j];
+    command[j] = cable.length_driven()
+                     ? command[j] - tension[j] / cable.stiffness - model.slack_offset()[j]
+                     : tension[j];
   }
 }
 

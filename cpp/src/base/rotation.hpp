@@ -21,4 +21,17 @@ inline constexpr double rotation_digits = 1e-5;
   return Eigen::Quaterniond(R).normalized().toRotationMatrix();
 }
 
+/// Axis times angle, at most pi. Real-time safe.
+[[nodiscard]] inline Vector3d rotation_vector(const Matrix3d& R) noexcept {
+  const Eigen::AngleAxisd turn(R);
+  return turn.angle() * turn.axis();
+}
+
+/// The rotation that a rotation vector stands for. Real-time safe.
+[[nodiscard]] inline Matrix3d rotation_of(const Vector3d& v) noexcept {
+  const double angle = v.norm();
+  if (angle == 0.0) return Matrix3d::Identity();
+  return Eigen::AngleAxisd(angle, v / angle).toRotationMatrix();
+}
+
 }  // namespace cdcr::detail

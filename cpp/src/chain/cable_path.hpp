@@ -50,6 +50,14 @@ class CablePath {
     }
   }
 
+  /// By how much the cable turns in a section that it passes [rad].
+  template <class S>
+  S turn(const Chain& chain, int section, const S* q) const {
+    const auto k = static_cast<std::size_t>(section);
+    return rubbing_[k - static_cast<std::size_t>(first_)].turn(*chain.sections[k].rod,
+                                                               q + chain.first[k]);
+  }
+
  private:
   int first_;
   std::vector<RodCable> smooth_;

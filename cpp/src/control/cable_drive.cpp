@@ -59,13 +59,15 @@ void CableDrive::set_lengths(const ConstVectorRef& q, const ConstVectorRef& qd) 
 double CableDrive::command_of(Index cable, double tension) const noexcept {
   const Cable& c = model_.cables()[static_cast<std::size_t>(cable)];
   if (!c.length_driven()) return tension;
-  return std::fmax(0.0, lengths_[cable] - (tension - c.damping * rates_[cable]) / c.stiffness);
+  const double pulled = (tension - c.damping * rates_[cable]) / c.stiffness;
+  return std::fmax(0.0, lengths_[cable] - pulled - model_.slack_offset()[cable]);
 }
 
 double CableDrive::tension_of(Index cable, double command) const noexcept {
   const Cable& c = model_.cables()[static_cast<std::size_t>(cable)];
   if (!c.length_driven()) return command;
-  return c.stiffness * (lengths_[cable] - command) + c.damping * rates_[cable];
+  return c.stiffness * (lengths_[cable] - command - model_.slack_offset()[cable]) +
+         c.damping * rates_[cable];
 }
 
 void CableDrive::set_limits(const ConstVectorRef& preferred) noexcept {

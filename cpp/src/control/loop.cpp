@@ -18,8 +18,14 @@ Loop::Loop(const Model& plant, Controller& controller, LoopOptions options, Esti
   require_fit(controller, plant);
   every_ = detail::whole_steps("the controller's period", controller.period(), options_.step, 1);
   for (const Sensor& sensor : options_.sensors) sensors_.emplace_back(plant, sensor, options_.step);
-  detail::require(estimator == nullptr || !sensors_.empty(), "an estimator needs sensors");
-  fresh_.assign(sensors_.size(), 0);
+  for (const SensorChannel& one : sensors_) told_.push_back({one.value(), false});
+  if (estimator != nullptr) {
+    estimator->require_fit(plant, options_.sensors);
+    const double period = estimator->period();
+    if (period != 0.0) {
+      estimator_every_ = detail::whole_steps("the estimator's period", period, options_.step, 1);
+    }
+  }
   asked_ = trial_ = tension_ = VectorXd::Zero(plant.num_cables());
   told_q_ = told_qd_ = VectorXd::Zero(plant.num_coordinates());
 }
@@ -36,23 +42,27 @@ void Loop::reset(const VectorXd& q, const VectorXd& qd, double start, const Vect
   for (SensorChannel& sensor : sensors_) sensor.reset(q, qd, asked_);
   told_q_ = q;
   told_qd_ = qd;
-  if (estimator_ != nullptr) estimator_->reset(q, qd);
+  if (estimator_ != nullptr) estimator_->reset(q, qd, asked_);
   controller_->reset();
+  controller_->hold(asked_);
   status_ = Status::ok;
 }
 
 /// What the controller is told: the estimate, or what sensors of the state say, or the truth.
 Status Loop::look() noexcept {
+  for (std::size_t i = 0; i < sensors_.size(); ++i) {
+    told_[i].fresh = sensors_[i].step(plant_.periods(), q(), qd(), given());
+    told_[i].value = sensors_[i].value();
+  }
+  if (plant_.periods() % estimator_every_ != 0) return Status::ok;  // the estimate holds
   told_q_ = q();
   told_qd_ = qd();
-  for (std::size_t i = 0; i < sensors_.size(); ++i) {
-    SensorChannel& channel = sensors_[i];
-    fresh_[i] = channel.step(plant_.periods(), q(), qd(), given()) ? 1 : 0;
+  for (const SensorChannel& channel : sensors_) {
     if (channel.sensor().kind == Sensor::Kind::coordinates) told_q_ = channel.value();
     if (channel.sensor().kind == Sensor::Kind::rates) told_qd_ = channel.value();
   }
   if (estimator_ == nullptr) return Status::ok;
-  return estimator_->update(time(), sensors_, fresh_, asked_, told_q_, told_qd_);
+  return estimator_->update(time(), told_, asked_, told_q_, told_qd_);
 }
 
 Status Loop::close(const Wrenches& wrenches) noexcept {
@@ -90,7 +100,11 @@ LoopRun run(Loop& loop, double duration, Index record_every, const Wrenches& wre
   for (const SensorChannel& one : loop.sensors()) {
     out.told.emplace_back(RowMatrixXd::Zero(rows, one.value().size()));
   }
-  VectorXd tension(c), q(d), qd(d);
+  const Estimator* const estimator = loop.estimator();
+  const Index more = estimator == nullptr ? 0 : static_cast<Index>(estimator->value_names().size());
+  out.estimated = out.deviations = RowMatrixXd::Zero(rows, more);
+  out.innovation = out.measured = VectorXd::Zero(rows);
+  VectorXd tension(c), q(d), qd(d), values(more), deviations(more);
   out.status = loop.status();
   Index row = 0;
   for (Index k = 0; out.status == Status::ok && k <= steps; ++k) {
@@ -114,6 +128,13 @@ LoopRun run(Loop& loop, double duration, Index record_every, const Wrenches& wre
     cable_tensions(model, q, qd, loop.given(), tension);
     out.tension.row(row) = tension;
     out.durations[row] = loop.controller().diagnostics().duration;
+    if (estimator != nullptr) {
+      estimator->write_values(values, deviations);
+      out.estimated.row(row) = values;
+      out.deviations.row(row) = deviations;
+      out.innovation[row] = estimator->diagnostics().innovation;
+      out.measured[row] = static_cast<double>(estimator->diagnostics().measured);
+    }
     ++row;
   }
   out.stats.steps = static_cast<long>(loop.plant().periods()) * loop.options().substeps;
@@ -125,9 +146,11 @@ LoopRun run(Loop& loop, double duration, Index record_every, const Wrenches& wre
   }
   if (row == rows) return out;
   out.t.conservativeResize(row);
-  out.durations.conservativeResize(row);
-  for (RowMatrixXd* table :
-       {&out.q, &out.qd, &out.told_q, &out.told_qd, &out.tension, &out.command, &out.asked}) {
+  for (VectorXd* column : {&out.durations, &out.innovation, &out.measured}) {
+    column->conservativeResize(row);
+  }
+  for (RowMatrixXd* table : {&out.q, &out.qd, &out.told_q, &out.told_qd, &out.tension, &out.command,
+                             &out.asked, &out.estimated, &out.deviations}) {
     table->conservativeResize(row, Eigen::NoChange);
   }
   for (RowMatrixXd& table : out.told) table.conservativeResize(row, Eigen::NoChange);

@@ -15,6 +15,7 @@ struct Slopes {
   MatrixRef on_q, on_qd;
   MatrixRef* on_command = nullptr;
   MatrixRef* on_wrenches = nullptr;
+  const ConstVectorRef* added = nullptr;  ///< to the generalised force
 };
 
 /// The rows of A that say d(q)/dt = qd.
@@ -82,6 +83,7 @@ void differentiate_closed_form(const Model& model, Data& data, const ConstVector
   } else {
     total_force(model, q, qd, command, wrenches, data.force);
   }
+  if (out.added != nullptr) data.force += *out.added;
   const Eigen::Matrix2d inverse = detail::closed_form::acceleration_jacobians(
       detail::single_of(model), q, qd, data.force.data(), out.on_q, out.on_qd);
   if (!model.has_plain_cables()) {
@@ -107,6 +109,7 @@ void differentiate_motion(const Model& model, Data& data, const ConstVectorRef& 
     return differentiate_closed_form(model, data, q, qd, command, wrenches, out);
   }
   total_force(model, q, qd, command, wrenches, data.force);
+  if (out.added != nullptr) data.force += *out.added;
   data.kept()->with_derivatives(
       model,
       [&](auto& chain, auto& state, auto& derivatives) {
@@ -143,6 +146,19 @@ void state_jacobian(const Model& model, Data& data, const ConstVectorRef& q,
   set_upper_rows(m, A);
   differentiate_motion(model, data, q, qd, command, wrenches,
                        {A.bottomLeftCorner(m, m), A.bottomRightCorner(m, m)});
+}
+
+void state_jacobian_force(const Model& model, Data& data, const ConstVectorRef& q,
+                          const ConstVectorRef& qd, const ConstVectorRef& command,
+                          const Wrenches& wrenches, const ConstVectorRef& added,
+                          MatrixRef A) noexcept {
+  const Index m = model.num_coordinates();
+  assert(fit(model, data, q, qd, command, wrenches) && detail::has_size(A, 2 * m, 2 * m));
+  assert(detail::of_coordinates(model, added));
+  set_upper_rows(m, A);
+  differentiate_motion(
+      model, data, q, qd, command, wrenches,
+      {A.bottomLeftCorner(m, m), A.bottomRightCorner(m, m), nullptr, nullptr, &added});
 }
 
 void linearize(const Model& model, Data& data, const ConstVectorRef& q, const ConstVectorRef& qd,

@@ -91,6 +91,11 @@ std::vector<Cable> Robot::all_cables() const {
       cable.end_section = static_cast<int>(i);
       cable.stiffness = s.cable_stiffness;
       cable.damping = s.cable_damping;
+      cable.entry_friction = s.cable_entry_friction;
+      cable.sheath_friction = s.cable_sheath_friction;
+      cable.viscosity = s.cable_viscosity;
+      cable.pretension = s.cable_pretension;
+      cable.backlash = s.cable_backlash;
       all.push_back(std::move(cable));
     }
   }

@@ -7,9 +7,12 @@
 
 #include "base/rotation.hpp"
 #include "cdcr/robot.hpp"
+#include "description/check.hpp"
 
 namespace cdcr {
 namespace {
+
+using detail::Check, detail::indexed;
 
 constexpr int max_disks = 64;
 constexpr int max_section_cables = 16;
@@ -23,47 +26,6 @@ Eigen::IOFormat rows() {
 Eigen::IOFormat row() {
   return {12, Eigen::DontAlignCols, ", ", ", ", "", "", "[", "]"};
 }
-
-std::string indexed(const std::string& item, std::size_t k) {
-  return item + "[" + std::to_string(k) + "]";
-}
-
-/// Collects sentences of the form "section 1: length must be > 0 m and finite, got -1".
-class Check {
- public:
-  void positive(const std::string& item, double value, const char* unit) {
-    if (!(value > 0.0) || !std::isfinite(value)) refuse(item, range("> 0", unit), value);
-  }
-  void not_negative(const std::string& item, double value, const char* unit) {
-    if (!(value >= 0.0) || !std::isfinite(value)) refuse(item, range(">= 0", unit), value);
-  }
-  void fraction(const std::string& item, double value) {
-    if (!(value >= 0.0 && value <= 1.0)) refuse(item, "0 to 1", value);
-  }
-  void finite(const std::string& item, double value, const char* unit) {
-    const std::string of_unit = *unit != '\0' ? std::string(" of ") + unit : "";
-    if (!std::isfinite(value)) refuse(item, "a finite number" + of_unit, value);
-  }
-  void count(const std::string& item, long long value, long long low, long long high) {
-    if (value < low || value > high) {
-      refuse(item, std::to_string(low) + " to " + std::to_string(high), value);
-    }
-  }
-  template <typename Value>
-  void refuse(const std::string& item, const std::string& wanted, const Value& value) {
-    std::ostringstream text;
-    text.precision(12);
-    text << item << " must be " << wanted << ", got " << value;
-    found.push_back(text.str());
-  }
-
-  std::vector<std::string> found;
-
- private:
-  static std::string range(const char* range, const char* unit) {
-    return std::string(range) + (*unit != '\0' ? " " : "") + unit + " and finite";
-  }
-};
 
 /// The disks of a section; `in` is "section 1: " or empty, as below.
 void check_disks(const Section& s, const std::string& in, Check& check) {
@@ -97,6 +59,24 @@ void check_disks(const Section& s, const std::string& in, Check& check) {
   }
 }
 
+/// What a cable loses on its way, and its drive; only one by length has pretension and play.
+void check_drive(const std::string& in, const Cable& c, Check& check) {
+  check.not_negative(in + "stiffness", c.stiffness, "N/m");
+  check.not_negative(in + "damping", c.damping, "N s/m");
+  check.not_negative(in + "entry_friction", c.entry_friction, "N");
+  check.not_negative(in + "sheath_friction", c.sheath_friction, "");
+  check.not_negative(in + "viscosity", c.viscosity, "N s/m");
+  check.not_negative(in + "pretension", c.pretension, "N");
+  check.not_negative(in + "backlash", c.backlash, "m");
+  if (c.length_driven()) return;
+  const char* otherwise = " where the stiffness is 0, driven by tension";
+  const auto zero = [&](const char* name, double value, const std::string& none) {
+    if (value > 0.0) check.refuse(in + name, none + otherwise, value);
+  };
+  zero("pretension", c.pretension, "0 N");
+  zero("backlash", c.backlash, "0 m");
+}
+
 void check_section_cables(const Section& s, const std::string& in, Check& check) {
   const auto num_cables = static_cast<long long>(s.cable_angles.size());
   check.count(in + "the number of cable_angles", num_cables, 0, max_section_cables);
@@ -108,9 +88,22 @@ void check_section_cables(const Section& s, const std::string& in, Check& check)
   for (std::size_t j = 0; j < s.cable_angles.size(); ++j) {
     check.finite(indexed(in + "cable_angles", j), s.cable_angles[j], "rad");
   }
-  check.not_negative(in + "cable_stiffness", s.cable_stiffness, "N/m");
-  check.not_negative(in + "cable_damping", s.cable_damping, "N s/m");
   check.not_negative(in + "cable_friction", s.cable_friction, "");
+  const Cable cable{1.0,
+                    0.0,
+                    0,
+                    s.cable_stiffness,
+                    s.cable_damping,
+                    {},
+                    0,
+                    {},
+                    {},
+                    s.cable_entry_friction,
+                    s.cable_sheath_friction,
+                    s.cable_viscosity,
+                    s.cable_pretension,
+                    s.cable_backlash};
+  check_drive(in + "cable_", cable, check);
 }
 
 void check_order(const std::string& item, int order, Check& check) {
@@ -211,9 +204,8 @@ void check_cable(const Cable& cable, const std::string& in, long long last, Chec
   if (cable.angles.empty()) angle(in + "angle", cable.angle);
   check_pairs(in, "radius", cable.radii, num_passed, check, radius);
   check_pairs(in, "angle", cable.angles, num_passed, check, angle);
-  check.not_negative(in + "stiffness", cable.stiffness, "N/m");
-  check.not_negative(in + "damping", cable.damping, "N s/m");
   if (cable.friction) check.not_negative(in + "friction", *cable.friction, "");
+  check_drive(in, cable, check);
 }
 
 void check_vector(const std::string& item, const Vector3d& v, const char* unit, Check& check) {
@@ -317,6 +309,7 @@ std::vector<std::string> violations(const Robot& robot) {
   check_vector("base_position", robot.base_position, "m", check);
   check_tool(robot.tool, check);
   check.positive("sliding_speed", robot.sliding_speed, "m/s");
+  check.not_negative("presliding_stiffness", robot.presliding_stiffness, "N/m");
   return check.found;
 }
 

@@ -1,5 +1,6 @@
 #include "cdcr/model.hpp"
 
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -99,6 +100,8 @@ void Model::set_cables(Parts& parts) {
   actuation_.setZero(d, num_cables);
   straight_lengths_.setZero(num_cables);
   friction_.setZero(n, num_cables);
+  sheath_decay_.setOnes(num_cables);
+  slack_offset_.setZero(num_cables);
   const VectorXd straight = VectorXd::Zero(d);
   for (Index j = 0; j < num_cables; ++j) {
     const Cable& cable = cables_[j];
@@ -119,10 +122,18 @@ void Model::set_cables(Parts& parts) {
       straight_lengths_[j] =
           parts.paths.back().length(chain, straight.data(), 1.0, actuation_.col(j).data());
     }
-    if (cable.length_driven()) has_plain_cables_ = false;
+    sheath_decay_[j] = std::exp(-cable.sheath_friction);
+    has_friction_ = has_friction_ || cable.entry_friction > 0.0 || cable.sheath_friction > 0.0 ||
+                    cable.viscosity > 0.0;
+    if (cable.length_driven()) {
+      has_plain_cables_ = false;
+      slack_offset_[j] = -cable.pretension / cable.stiffness;
+      has_backlash_ = has_backlash_ || cable.backlash > 0.0;
+    }
     if (cable.start_section > 0) has_nested_cables_ = false;
   }
-  has_friction_ = (friction_.array() > 0.0).any();
+  has_friction_ = has_friction_ || (friction_.array() > 0.0).any();
+  if (has_friction_ && robot_->presliding_stiffness > 0.0) num_deflections_ = num_cables;
   has_plain_cables_ = has_plain_cables_ && !has_friction_ && has_constant_actuation_;
   has_nested_cables_ = has_nested_cables_ && !has_rods_;
 }

@@ -120,7 +120,7 @@ Cvode::Cvode(RobotOde& ode, Method method, const Options& options)
       matrix_(make_matrix(ode.num_states(), context_.get())),
       spare_(make_vector(ode.num_states(), context_.get()),
              make_matrix(ode.num_states(), context_.get())),
-      newton_(ode.num_states()),
+      newton_(ode.num_states(), ode.model().num_coordinates()),
       linear_solver_(own(newton_.make(context_.get()))),
       cvode_(own(CVodeCreate(method == Method::bdf ? CV_BDF : CV_ADAMS, context_.get()))),
       state_(VectorXd::Zero(ode.num_states())),

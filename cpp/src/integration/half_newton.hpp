@@ -5,12 +5,14 @@
 
 namespace cdcr::detail {
 
-/// Solves CVODE's Newton matrix 1 - g J of y = (q, qd), whose upper half says q' = qd, by a matrix
-/// of half its size: W = A_22 + g A_21, x_q = b_q + g x_qd, W x_qd = b_qd - A_21 b_q.
+/// Solves CVODE's Newton matrix 1 - g J of y = (q, qd) or (q, qd, w), whose first rows say q' = qd,
+/// by a matrix of what is left: W = A_22, and g A_21 added to its columns of qd,
+/// x_q = b_q + g x_qd, W (x_qd, x_w) = (b_qd, b_w) - A_21 b_q.
 class HalfNewton {
  public:
-  explicit HalfNewton(Index num_states)
-      : lu_(num_states / 2), coupling_(num_states / 2, num_states / 2) {}
+  HalfNewton(Index num_states, Index num_coordinates)
+      : lu_(num_states - num_coordinates),
+        coupling_(num_states - num_coordinates, num_coordinates) {}
 
   /// As CVODE takes it, with this object as its content; that must outlive it.
   [[nodiscard]] SUNLinearSolver make(SUNContext context) {
@@ -37,19 +39,20 @@ class HalfNewton {
   }
 
   int set_up(SUNMatrix matrix) noexcept {
-    const Index m = coupling_.rows();
-    const Eigen::Map<const MatrixXd> A(SM_DATA_D(matrix), 2 * m, 2 * m);
+    const Index m = coupling_.cols(), rest = coupling_.rows();
+    const Eigen::Map<const MatrixXd> A(SM_DATA_D(matrix), m + rest, m + rest);
     step_ = -A(0, m);
-    coupling_ = A.bottomLeftCorner(m, m);
-    lu_.matrix = A.bottomRightCorner(m, m) + step_ * coupling_;
+    coupling_ = A.bottomLeftCorner(rest, m);
+    lu_.matrix = A.bottomRightCorner(rest, rest);
+    lu_.matrix.leftCols(m) += step_ * coupling_;
     lu_.factorise();
     return 0;
   }
 
   int solve(const double* b, double* x) const noexcept {
-    const Index m = coupling_.rows();
-    const Eigen::Map<const VectorXd> upper(b, m), lower(b + m, m);
-    Eigen::Map<VectorXd> rates(x + m, m);
+    const Index m = coupling_.cols(), rest = coupling_.rows();
+    const Eigen::Map<const VectorXd> lower(b + m, rest);
+    Eigen::Map<VectorXd> rates(x + m, rest);
     rates = lower;
     for (Index j = 0; j < m; ++j) rates -= b[j] * coupling_.col(j);
     lu_.solve(rates);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/sizes.hpp"
+#include "cdcr/cable_friction.hpp"
 #include "cdcr/dynamics.hpp"
 #include "cdcr/linearization.hpp"
 #include "dynamics/bending.hpp"
@@ -34,6 +35,14 @@ RobotOde::RobotOde(const Model& model, const CommandInput* input, Controller* co
       wrenches_(loads.wrenches()) {
   require_inertia(model);
   validate(model, loads.wrenches());
+  if (model.has_backlash()) {
+    require(input == nullptr || !input->is_function(),
+            "a drive with backlash takes tables and constants, whose turns are known, and no "
+            "function of time");
+    asked_ = felt_ = command_;
+    rest_command(model, felt_);
+  }
+  if (model.num_deflections() > 0) moved_ = slope_ = slope_there_ = VectorXd::Zero(num_states());
   for (Index j = 0; j < model.num_cables(); ++j) {
     if (model.cables()[static_cast<std::size_t>(j)].length_driven()) length_driven_.push_back(j);
   }
@@ -61,21 +70,30 @@ Status RobotOde::start_segment(double t, const VectorXd& y) {
                        ? breaks[segment_]
                        : std::numeric_limits<double>::infinity();
     command_holds_ = input_->is_constant(segment_);
-    if (command_holds_) update_command(t, y.head(m), y.tail(m));
+    if (model_->has_backlash()) {
+      input_->evaluate(t, segment_, y.head(m), y.segment(m, m), command_);
+      follow_with_play(*model_, command_, felt_);
+    }
+    if (command_holds_) update_command(t, y.head(m), y.segment(m, m));
   } else if (segment_ < 0 || t >= command_end_) {
     // A stretch that begins within a period goes on under the tensions held.
     if (segment_ < 0) start_ = t;
     ++segment_;
     command_end_ = start_ + static_cast<double>(segment_ + 1) * controller_->period();
     command_holds_ = true;
-    status = controller_->update(t, y.head(m), y.tail(m), command_);
+    status = controller_->update(t, y.head(m), y.segment(m, m), command_);
+    if (model_->has_backlash()) {
+      asked_ = command_;
+      follow_with_play(*model_, command_, felt_);
+      command_ = felt_;
+    }
   }
   const auto& breaks = loads_->break_points();
   const auto next = std::upper_bound(breaks.begin(), breaks.end(), t);
   segment_start_ = t;
   segment_end_ = next == breaks.end() ? command_end_ : std::min(*next, command_end_);
   if (command_holds_ && force_is_constant(*model_, wrenches_)) {
-    total_force(*model_, y.head(m), y.tail(m), command_, wrenches_, force_);
+    total_force(*model_, y.head(m), y.segment(m, m), command_, wrenches_, force_);
   }
   if (loads_->hold()) loads_->evaluate(t, t, wrenches_);
   return status;
@@ -83,6 +101,11 @@ Status RobotOde::start_segment(double t, const VectorXd& y) {
 
 void RobotOde::update_command(double t, const ConstVectorRef& q, const ConstVectorRef& qd) {
   input_->evaluate(t, segment_, q, qd, command_);
+  if (model_->has_backlash()) {
+    asked_ = command_;
+    command_ = felt_;
+    follow_with_play(*model_, asked_, command_);
+  }
   if (!input_->is_function()) return;
   detail::require(
       check_tension(*model_, command_) == Status::ok,
@@ -104,10 +127,14 @@ void RobotOde::derivative(double t, const double* y, double* dydt) {
   if (!command_holds_) {
     // A step that went astray is the integrator's business: no user's function sees such a state.
     if (input_->is_function() && check(y) != Status::ok) {
-      std::fill(dydt, dydt + 2 * m, std::numeric_limits<double>::quiet_NaN());
+      std::fill(dydt, dydt + num_states(), std::numeric_limits<double>::quiet_NaN());
       return;
     }
     update_command(t, q, qd);
+  }
+  if (model_->num_deflections() > 0) {
+    if (!loads_->hold()) loads_->evaluate(t, segment_start_, wrenches_);
+    return memory_derivative(y, dydt);
   }
   for (Index i = 0; i < m; ++i) dydt[i] = y[m + i];
   if (!command_holds_ || !force_is_constant(*model_, wrenches_)) {
@@ -117,11 +144,18 @@ void RobotOde::derivative(double t, const double* y, double* dydt) {
   forward_dynamics_force(*model_, data_, q, qd, force_, qdd);
 }
 
-void RobotOde::jacobian(double t, const double* y, double* J) {
+void RobotOde::update_inputs(double t, const double* y) {
   const Index m = model_->num_coordinates();
   const Eigen::Map<const VectorXd> q(y, m), qd(y + m, m);
   if (!command_holds_) update_command(t, q, qd);
   if (!loads_->hold()) loads_->evaluate(t, segment_start_, wrenches_);
+}
+
+void RobotOde::jacobian(double t, const double* y, double* J) {
+  const Index m = model_->num_coordinates();
+  const Eigen::Map<const VectorXd> q(y, m), qd(y + m, m);
+  update_inputs(t, y);
+  if (model_->num_deflections() > 0) return memory_jacobian(y, J);
   Eigen::Map<MatrixXd> A(J, 2 * m, 2 * m);
   state_jacobian(*model_, data_, q, qd, command_, wrenches_, A);
 }
@@ -129,9 +163,9 @@ void RobotOde::jacobian(double t, const double* y, double* J) {
 void RobotOde::cables(double t, const VectorXd& y, VectorRef command, VectorRef tension) {
   assert(y.size() == num_states() && detail::of_cables(*model_, command, tension));
   const Index m = model_->num_coordinates();
-  if (!command_holds_) update_command(t, y.head(m), y.tail(m));
-  command = command_;
-  cable_tensions(*model_, y.head(m), y.tail(m), command_, tension);
+  if (!command_holds_) update_command(t, y.head(m), y.segment(m, m));
+  command = model_->has_backlash() ? asked_ : command_;
+  cable_tensions(*model_, y.head(m), y.segment(m, m), command_, tension);
 }
 
 void RobotOde::pulls(double t, const double* y, double* pull) {
@@ -150,7 +184,10 @@ void RobotOde::require_stretch(double t, const VectorXd& y, double t_stop) const
 }
 
 Status RobotOde::check(const double* y) const noexcept {
-  return check_state(*model_, Eigen::Map<const VectorXd>(y, num_states()));
+  const Index m = model_->num_coordinates();
+  const Index w = model_->num_deflections();
+  if (!Eigen::Map<const VectorXd>(y + 2 * m, w).allFinite()) return Status::non_finite_state;
+  return check_state(*model_, Eigen::Map<const VectorXd>(y, 2 * m));
 }
 
 Status check_state(const Model& model, const ConstVectorRef& y) noexcept {

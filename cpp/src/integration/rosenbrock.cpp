@@ -7,30 +7,31 @@ constexpr double gamma = 0.29289321881345254;  // 1 - 1/sqrt(2)
 
 }  // namespace
 
-RosenbrockStages::RosenbrockStages(Index num_states)
+RosenbrockStages::RosenbrockStages(Index num_states, Index num_coordinates)
     : jacobian(MatrixXd::Zero(num_states, num_states)),
       k1(VectorXd::Zero(num_states)),
       k2(k1),
       trial(k1),
-      lu_(num_states / 2) {}
+      lu_(num_states - num_coordinates),
+      num_coordinates_(num_coordinates) {}
 
-/// W: the matrix of the rates' half, once those of the coordinates are eliminated.
+/// W: the matrix of what is left once the rates of the coordinates are eliminated.
 void RosenbrockStages::factorise(double h) noexcept {
-  const Index m = jacobian.rows() / 2;
+  const Index m = num_coordinates_, rest = jacobian.rows() - m;
   shift_ = gamma * h;
-  lu_.matrix =
-      -shift_ * (jacobian.bottomRightCorner(m, m) + shift_ * jacobian.bottomLeftCorner(m, m));
+  lu_.matrix = -shift_ * jacobian.bottomRightCorner(rest, rest);
+  lu_.matrix.leftCols(m) -= shift_ * shift_ * jacobian.bottomLeftCorner(rest, m);
   lu_.matrix.diagonal().array() += 1.0;
   lu_.factorise();
 }
 
-/// Turns the right-hand side of a stage into its slope (kq, kv).
+/// Turns the right-hand side of a stage into its slope (kq, kv, ...).
 void RosenbrockStages::solve(VectorXd& k) noexcept {
-  const Index m = jacobian.rows() / 2;
-  auto upper = k.head(m), lower = k.tail(m);
-  for (Index j = 0; j < m; ++j) lower += shift_ * upper[j] * jacobian.col(j).tail(m);
+  const Index m = num_coordinates_, rest = jacobian.rows() - m;
+  auto upper = k.head(m), lower = k.tail(rest);
+  for (Index j = 0; j < m; ++j) lower += shift_ * upper[j] * jacobian.col(j).tail(rest);
   lu_.solve(lower);
-  upper += shift_ * lower;
+  upper += shift_ * lower.head(m);
 }
 
 Status Rosenbrock::make_step(double t, double h, const VectorXd& y, const VectorXd& slope,

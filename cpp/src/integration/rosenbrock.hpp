@@ -11,7 +11,8 @@ namespace cdcr::detail {
 /// J. G. Blom, W. Hundsdorfer, "A second-order Rosenbrock method applied to photochemical
 /// dispersion problems", SIAM J. Sci. Comput. 20, 1999). cpp/README.md has its formulas.
 struct RosenbrockStages {
-  explicit RosenbrockStages(Index num_states);
+  /// Of states that begin with the coordinates and their rates.
+  RosenbrockStages(Index num_states, Index num_coordinates);
 
   /// Writes y(t + h) to `next`, given slope = f(t, y) and `jacobian` = df/dy there. f is called as
   /// f(t, y*, dydt*).
@@ -44,6 +45,7 @@ struct RosenbrockStages {
   void solve(VectorXd& k) noexcept;
 
   SmallLu lu_;
+  Index num_coordinates_;
   double shift_ = 0.0;
 };
 
@@ -52,7 +54,7 @@ struct RosenbrockStages {
 class Rosenbrock final : public FixedStep {
  public:
   Rosenbrock(RobotOde& ode, const Options& options)
-      : FixedStep(ode, options), stages_(ode.num_states()) {}
+      : FixedStep(ode, options), stages_(ode.num_states(), ode.model().num_coordinates()) {}
 
  private:
   Status make_step(double t, double h, const VectorXd& y, const VectorXd& slope,

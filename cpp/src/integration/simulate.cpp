@@ -9,6 +9,7 @@
 #include "dynamics/bending.hpp"
 #include "integration/crossings.hpp"
 #include "integration/recorder.hpp"
+#include "integration/run_sensitivities.hpp"
 
 namespace cdcr {
 namespace {
@@ -65,7 +66,8 @@ VectorXd dead_band(const RobotOde& ode, std::size_t num_events) {
 class Run {
  public:
   Run(RobotOde& ode, const VectorXd& times, Integrator& integrator, Method method,
-      const Options& options, const Progress& progress, const Events& events)
+      const Options& options, const Progress& progress, const Events& events,
+      detail::RunSensitivities* sensitivities = nullptr)
       : ode_(ode),
         integrator_(integrator),
         method_(method),
@@ -76,13 +78,16 @@ class Run {
         end_(times[times.size() - 1] - start_),
         num_slack_(static_cast<Index>(ode.length_driven().size())),
         y_(ode.num_states()),
-        recorder_(ode, times, out_),
+        sensitivities_(sensitivities),
+        recorder_(ode, times, sensitivities, out_),
         crossings_(dead_band(ode, events.size()), ode.num_states(),
                    [this](double t, const VectorXd& y, VectorRef values) { watch(t, y, values); }),
         hits_(events.size(), 0) {}
 
   Trajectory go(const VectorXd& q0, const VectorXd& qd0) {
-    y_ << q0, qd0;
+    y_.setZero();  // no deflections
+    y_.head(q0.size()) = q0;
+    y_.segment(q0.size(), qd0.size()) = qd0;
     detail::require_bending("q0", ode_.model(), q0);
     double t = 0.0;
     while (true) {
@@ -127,6 +132,7 @@ class Run {
       status = pass_crossings(begin, stop);
       if (status != Status::ok) return status;
       recorder_.record_step(integrator_, integrator_.time(), stop);
+      if (sensitivities_ != nullptr) sensitivities_->advance(integrator_, integrator_.time());
     }
     return Status::ok;
   }
@@ -149,6 +155,7 @@ class Run {
       }
       if (first.time >= stop) return Status::ok;
       recorder_.record_step(integrator_, first.time, stop);
+      if (sensitivities_ != nullptr) sensitivities_->advance_to_kink(integrator_, first.time);
       crossings_.resume(first.time, y_);
       return integrator_.restart(first.time, y_, stop);
     }
@@ -169,7 +176,7 @@ class Run {
       }
       const Event& event = events_[static_cast<std::size_t>(i)];
       if (event.direction != 0 && crossing.rising != (event.direction > 0)) continue;
-      out_.events.push_back({start_ + crossing.time, i, y.head(m), y.tail(m)});
+      out_.events.push_back({start_ + crossing.time, i, y.head(m), y.segment(m, m)});
       const int count = ++hits_[static_cast<std::size_t>(i)];
       ends = ends || (event.terminal > 0 && count >= event.terminal);
     }
@@ -182,7 +189,7 @@ class Run {
     ode_.pulls(t, y.data(), values.data());
     for (std::size_t i = 0; i < events_.size(); ++i) {
       double& value = values[num_slack_ + static_cast<Index>(i)];
-      value = events_[i].function(start_ + t, y.head(m), y.tail(m));
+      value = events_[i].function(start_ + t, y.head(m), y.segment(m, m));
       detail::require(std::isfinite(value), "event ", i + 1, " must give finite values, got ",
                       value, " at t = ", start_ + t, " s");
     }
@@ -198,6 +205,7 @@ class Run {
   Index num_slack_;
   Trajectory out_;
   VectorXd y_;
+  detail::RunSensitivities* sensitivities_;
   detail::Recorder recorder_;
   Crossings crossings_;
   std::vector<int> hits_;
@@ -231,6 +239,15 @@ Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
                     const VectorXd& times, const CommandInput& input, Method method,
                     const Options& options, IntegratorFactory factory, const Progress& progress,
                     const WrenchInput& loads, const Events& events) {
+  return simulate(model, q0, qd0, times, input, {}, method, options, factory, progress, loads,
+                  events);
+}
+
+Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
+                    const VectorXd& times, const CommandInput& input,
+                    const Sensitivities& sensitivities, Method method, const Options& options,
+                    IntegratorFactory factory, const Progress& progress, const WrenchInput& loads,
+                    const Events& events) {
   check_arguments(model, q0, qd0, times, events);
   const CommandInput commands = input.commands_since(times[0]);
   const WrenchInput wrenches = loads.since(times[0]);
@@ -238,7 +255,16 @@ Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,
   const Options chosen =
       watchful(options, times, input.is_unbroken_function() || loads.has_unbroken_function());
   const auto integrator = factory(ode, method, chosen);
-  return Run(ode, times, *integrator, method, chosen, progress, events).go(q0, qd0);
+  std::optional<detail::RunSensitivities> carried;
+  if (sensitivities.columns(model) > 0) {
+    detail::require(!input.is_function(),
+                    "sensitivities need commands that are constant or a table: a function may be "
+                    "feedback, whose own derivatives are not known");
+    carried.emplace(ode, sensitivities, times[0], method, chosen);
+  }
+  return Run(ode, times, *integrator, method, chosen, progress, events,
+             carried ? &*carried : nullptr)
+      .go(q0, qd0);
 }
 
 Trajectory simulate(const Model& model, const VectorXd& q0, const VectorXd& qd0,

@@ -4,6 +4,7 @@
 
 #include "cdcr/model.hpp"
 #include "dynamics/parts.hpp"
+#include "loads/friction_entry.hpp"
 #include "section/constant_curvature.hpp"
 
 // Forces of cables, cpp/several-sections.md eqs. (36) to (39) and cpp/rods.md eqs. (63) to (67), on
@@ -21,13 +22,15 @@ template <class S>
   return sum;
 }
 
-/// Length that a cable driven by length misses, l - l_commanded [m]; negative when it hangs slack.
+/// Length that a cable driven by length misses, l - l_commanded and what its pretension adds [m];
+/// negative when it hangs slack.
 template <class S>
 [[nodiscard]] S elongation(const Model& model, Index j, const S* q, const S& command) {
   if (model.has_rods()) {
-    return CableSlope<S>(chain_of(model), path_of(model, j), q).length - command;
+    return CableSlope<S>(chain_of(model), path_of(model, j), q).length - command -
+           model.slack_offset()[j];
   }
-  S length(model.straight_lengths()[j]);
+  S length(model.straight_lengths()[j] - model.slack_offset()[j]);
   for (Index k = 0; k <= model.cables()[static_cast<std::size_t>(j)].end_section; ++k) {
     length -= shortening(model, j, k, q);
   }
@@ -41,7 +44,7 @@ template <class S>
   const Cable& cable = model.cables()[static_cast<std::size_t>(j)];
   if (model.has_rods()) {
     const CableSlope<S> slope(chain_of(model), path_of(model, j), q);
-    return cable.stiffness * (slope.length - command) +
+    return cable.stiffness * (slope.length - command - model.slack_offset()[j]) +
            cable.damping * slope.rate(chain_of(model), qd);
   }
   S rate(0.0);
@@ -102,11 +105,11 @@ void add_capstan_force(const Model& model, Index j, const S* q, const S* qd,
                        const S& tension_at_base, S* force, S* beyond_sections = nullptr) {
   using std::sqrt;
   using std::tanh;
-  S tension = tension_at_base;
   const MatrixXd& B = model.actuation_matrix();
   const auto end = static_cast<Index>(model.cables()[static_cast<std::size_t>(j)].end_section);
   S beyond(0.0);  // rate of the length from here to the cable's end
   for (Index k = 0; k <= end; ++k) beyond -= shortening(model, j, k, qd);
+  S tension = entry_tension(model, j, tension_at_base, S(-beyond));
   for (Index k = 0; k <= end; ++k) {
     const S rate = -shortening(model, j, k, qd);
     const Index first = model.first_coordinate(k), next = model.first_coordinate(k + 1);
@@ -143,7 +146,8 @@ void add_rod_cable_force(const Model& model, Index j, const S* q, const S* qd, c
   }
   const S rate = CableSlope<S>(chain, path, q).rate(chain, qd);
   path.rub(chain, q, qd, model.friction().data() + j * model.num_sections(),
-           model.robot().sliding_speed, tension, rate, force, beyond_sections);
+           model.robot().sliding_speed, entry_tension(model, j, tension, S(-rate)), rate, force,
+           beyond_sections);
 }
 
 /// Q = B F. Cables pull alike on every section from the base to their end, so each pulls on the one
@@ -182,15 +186,21 @@ inline void single_actuation_force(const Model& model, const double* tension,
   force[1] = y;
 }
 
-/// Adds the generalised force of one cable.
+/// Adds the generalised force of one cable with this tension at the base.
 template <class S>
-void add_cable_force(const Model& model, Index j, const S* q, const S* qd, const S& command,
-                     S* force) {
-  const S tension = base_tension(model, j, q, qd, command);
+void add_pulled_force(const Model& model, Index j, const S* q, const S* qd, const S& tension,
+                      S* force) {
   if (model.has_rods()) return add_rod_cable_force(model, j, q, qd, tension, force);
   if (model.has_friction()) return add_capstan_force(model, j, q, qd, tension, force);
   const Index rows = model.cable_rows()[static_cast<std::size_t>(j)];
   for (Index i = 0; i < rows; ++i) force[i] += model.actuation_matrix()(i, j) * tension;
+}
+
+/// Adds the generalised force of one cable.
+template <class S>
+void add_cable_force(const Model& model, Index j, const S* q, const S* qd, const S& command,
+                     S* force) {
+  add_pulled_force(model, j, q, qd, base_tension(model, j, q, qd, command), force);
 }
 
 /// Generalised force of all cables.

@@ -63,6 +63,14 @@ class RubbingPath {
     return tension;
   }
 
+  /// By how much the path turns through the rod [rad].
+  template <class S>
+  S turn(const RodParameters& rod, const S* q) const {
+    S turning[max_nodes];
+    for (std::size_t i = 0; i < points_.size(); ++i) turning[i] = turning_at(rod, points_[i], q);
+    return sum_of(weights_, turning);
+  }
+
  private:
   struct Point {
     double weight;

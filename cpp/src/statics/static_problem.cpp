@@ -41,7 +41,7 @@ void subtract_path_stiffness(const Model& model, const ConstVectorRef& q,
         continue;
       }
       const CableSlope<Dual> slope(chain, path_of(model, j), x);
-      const Dual longer = slope.length - command[j];
+      const Dual longer = slope.length - (command[j] + model.slack_offset()[j]);
       if (!(longer > 0.0)) continue;
       for (Index i = 0; i < q.size(); ++i) {
         force[i] += slope.column[i] * (cable.stiffness * longer);
@@ -66,7 +66,8 @@ StaticProblem::StaticProblem(const Model& model, const ConstVectorRef& command,
     const Cable& cable = model.cables()[static_cast<std::size_t>(j)];
     if (cable.length_driven()) {
       has_springs_ = true;
-      size_ += B.col(j).lpNorm<Eigen::Infinity>() * cable.stiffness * model.straight_lengths()[j];
+      size_ += B.col(j).lpNorm<Eigen::Infinity>() *
+               (cable.stiffness * model.straight_lengths()[j] + cable.pretension);
     } else if (has_paths_) {
       size_ += B.col(j).lpNorm<Eigen::Infinity>() * command[j];
     } else {
@@ -84,7 +85,8 @@ void StaticProblem::residual(const ConstVectorRef& q, VectorRef r) noexcept {
     if (has_paths_) {
       const CableSlope<double> slope(chain_of(model_), path_of(model_, j), q.data());
       const double pull = cable.length_driven()
-                              ? cable.stiffness * std::fmax(0.0, slope.length - command_[j])
+                              ? cable.stiffness * std::fmax(0.0, slope.length - command_[j] -
+                                                                     model_.slack_offset()[j])
                               : command_[j];
       for (Index i = 0; i < q.size(); ++i) r[i] -= slope.column[i] * pull;
       continue;

@@ -6,11 +6,12 @@ import inspect
 import re
 from collections.abc import Callable, Mapping, Sequence
 from numbers import Integral, Real
+from sys import float_info
 from typing import Any
 
 import numpy as np
 
-from cdcr.base.check import format_value
+from cdcr.base.check import MAX_INT, format_value
 
 # What docstrings in numpydoc's form say of an argument, and what it must be.
 _KINDS: dict[str, tuple[Any, str]] = {
@@ -52,5 +53,9 @@ def explain(function: Callable[..., Any], args: Sequence[Any], kwargs: Mapping[s
             wanted, requirement = _KINDS[kind[1] or kind[2]]
             if not isinstance(value, wanted) or isinstance(value, np.timedelta64):
                 return f"{item} must be {requirement}, got {format_value(value)}"
+            largest = MAX_INT if wanted is Integral else float_info.max
+            if isinstance(value, Integral) and abs(int(value)) > largest:
+                told = f"{requirement} of at most {largest:.10g} in size"
+                return f"{item} must be {told}, got {format_value(value)}"
     kinds = ", ".join(f"{item} {type(value).__name__}" for item, value in given.items())
     return f"{name}() takes arguments of other kinds than {kinds}"

@@ -14,7 +14,7 @@ import numpy as np
 
 from cdcr import _core
 
-_C_INT = 2**31 - 1  # largest count that the core can be told
+MAX_INT = 2**31 - 1  # largest count that the core can be told
 _IN_WORDS = {3: "three", 4: "four"}
 _NO_NUMBERS = (bool, np.timedelta64)  # although Python and NumPy count them among these
 
@@ -102,7 +102,7 @@ class Check:
         return math.nan
 
     def whole(
-        self, item: str, value: object, requirement: str, low: int = -_C_INT, high: int = _C_INT
+        self, item: str, value: object, requirement: str, low: int = -MAX_INT, high: int = MAX_INT
     ) -> int:
         """Return any whole number from `low` to `high`, NumPy scalars included, as an int."""
         if isinstance(value, Integral) and not isinstance(value, _NO_NUMBERS):

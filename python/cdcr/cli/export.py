@@ -1,4 +1,4 @@
-"""The commands ``cdcr export-fmu`` and ``cdcr export-mjcf``: a robot for other software."""
+"""The commands ``cdcr export-c``, ``export-fmu`` and ``export-mjcf``: a robot for others."""
 
 from __future__ import annotations
 
@@ -7,15 +7,48 @@ from typing import Annotated
 
 import typer
 
+from cdcr import _core
 from cdcr.cli.plain import Overwrite, Robot, told_plainly
 from cdcr.cli.run import find_robot, first_as_option, mistakes
+from cdcr.export.c import c_texts, files_of
 from cdcr.export.fmu import fmu_bytes
 from cdcr.export.mjcf import mjcf_text
-from cdcr.files.new_file import new_file
+from cdcr.files.new_file import new_file, new_files
 
 commands = typer.Typer()
 
 _REPLACE = "give --overwrite to replace it"
+
+
+@commands.command("export-c", short_help="Write a robot as C that depends on nothing.")
+def export_c_command(
+    robot: Robot,
+    out: Annotated[Path, typer.Option(metavar="FOLDER", help="Where the files go.")],
+    name: Annotated[
+        str, typer.Option(metavar="NAME", help="Of the files and what is in them.")
+    ] = "robot",
+    max_bending: Annotated[
+        float,
+        typer.Option(
+            metavar="RAD", help="Largest bending angle of a section; the tables grow with it."
+        ),
+    ] = _core.max_bending,
+    overwrite: Overwrite = False,
+) -> None:
+    """Write a robot of arcs as C99 for the loop of a controller: no library, no heap.
+
+    Accelerations and their derivatives, steps of Runge-Kutta 4, cable lengths and the tip, in
+    double or in single precision.
+    """
+    with told_plainly():
+        described = find_robot(robot)
+        with mistakes(first_as_option):
+            texts = c_texts(described, name=name, max_bending=max_bending)
+        files = files_of(out, name)
+        with new_files(files, overwrite=overwrite, replace=_REPLACE) as parts:
+            for part, text in zip(parts, texts, strict=True):
+                part.write_text(text, encoding="utf-8", newline="\n")
+        typer.echo(f"wrote {', '.join(map(str, files))}")
 
 
 @commands.command("export-fmu", short_help="Write a robot as an FMU, for co-simulation.")

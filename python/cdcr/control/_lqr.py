@@ -195,7 +195,7 @@ def _weight(name: str, value: ArrayLike, size: int, *, definite: bool) -> FloatA
     largest = np.max(np.abs(matrix))
     if np.max(np.abs(matrix - matrix.T)) > SYMMETRY * largest:
         raise ValueError(f"{name} must be symmetric, and differs from its transpose")
-    matrix = (matrix + matrix.T) / 2.0
+    matrix = matrix / 2.0 + matrix.T / 2.0
     least = np.min(np.linalg.eigvalsh(matrix))
     if definite and least <= DEFINITE * largest:
         raise ValueError(f"{name} must be positive definite, its least eigenvalue is {least:.3g}")

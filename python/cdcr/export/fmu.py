@@ -102,7 +102,7 @@ def fmu_bytes(robot: Robot, file: Path, *, fmi: int = 3, step: float | None = No
     folder = _folder(fmi)
     model = Model(robot)
     _core.Simulator(model)  # refuses a robot without inertia
-    lines = list(_setup_lines(robot, step))
+    lines = list(setup_lines(robot, step))
     told = "\n".join([_core.__version__, str(fmi), *lines])
     token = hashlib.sha256(told.encode()).hexdigest()
     about = _about(robot, step)
@@ -139,7 +139,7 @@ def _about(robot: Robot, step: float | None) -> str:
     return f"Cable-driven continuum robot of {parts}, by {how}"
 
 
-def _setup_lines(robot: Robot, step: float | None) -> Iterator[str]:
+def setup_lines(robot: Robot, step: float | None = None) -> Iterator[str]:
     """Yield what bindings/fmu/setup_file.cpp reads: a key and its numbers in each line."""
     if step is not None:
         yield _line("rk4_step", step)

@@ -53,6 +53,11 @@ class Side:
     step: float
     width: float
 
+    @property
+    def shares(self) -> tuple[float, float]:
+        """Where those above and below are, counted from the middle in widths."""
+        return self.step / self.width, self.step / self.width - 1.0
+
 
 class Data(ABC):
     """Measurements of one kind, with what was asked of the robot meanwhile."""

@@ -32,6 +32,7 @@ from cdcr.identification.data import (
     markers_of,
 )
 from cdcr.identification.files import read_measured
+from cdcr.identification.motion_slopes import NOTHING, Samples, motion_slopes
 from cdcr.identification.setup import Place, Setup
 from cdcr.model.model import Model
 from cdcr.runs.command import TensionTable
@@ -42,9 +43,15 @@ if TYPE_CHECKING:
 
     from cdcr.identification.poses import Gaps
     from cdcr.robot.robot import Robot
+    from cdcr.runs.sensitivities import Asked
+    from cdcr.runs.trajectory import Trajectory
 
 SMOOTH = 1e-10  # rtol, so that steps do not show in differences of two runs
-Run = tuple[FloatArray, FloatArray, FloatArray]  # q, tensions and commands at the times measured
+
+
+def remembers(model: Model) -> bool:
+    """Whether a run has more of a past than its state."""
+    return model.num_deflections > 0 or model.has_backlash
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,7 +72,7 @@ class Motion(Data):
     interpolation : {"linear", "previous"}, optional
         Of the commands between the times.
     method, rtol, step : optional
-        As in `simulate`, but for an rtol of 1e-10 by default.
+        As in `simulate`, but for an rtol of 1e-10 by default where friction remembers.
 
     Raises
     ------
@@ -218,20 +225,32 @@ class Motion(Data):
             f"{num_q} numbers each, got {format_value(self.start)}"
         )
 
-    def _solve(self, setup: Setup, near: Any) -> Run:
-        """Return shapes, tensions and commands at the times measured."""
+    def _solve(self, setup: Setup, near: Any) -> Samples:
+        """Return shapes, rates, tensions and commands at the times measured."""
+        return Samples.of(*self._run(setup))
+
+    def _told(self, setup: Setup) -> FloatArray:
+        """Return what the cables are told (N, num_cables)."""
+        return setup.commands(np.asarray(self.command), pulled=self.pulled)
+
+    def _held(self, setup: Setup) -> FloatArray | None:
+        """Return the commands under which the robot rests at the start; None where it does not."""
+        kind, value = self._start(setup.robot, setup.model.num_coordinates)
+        return setup.commands(value, pulled=self.pulled) if kind == "held" else None
+
+    def _run(self, setup: Setup, by: Asked = NOTHING) -> tuple[Trajectory, FloatArray]:
+        """Return a run, and which of its rows each time measured is."""
         model = setup.model
-        kind, value = self._start(setup.robot, model.num_coordinates)
-        t = cast("FloatArray", self.t)
-        if kind == "held":
-            told = setup.commands(value, pulled=self.pulled)
-            found = model.find_equilibrium(told, None, self.wrenches)
+        held = self._held(setup)
+        if held is not None:
+            found = model.find_equilibrium(held, None, self.wrenches)
             if found.status is not _core.Status.ok:
                 raise UnsolvedError(f"{self._named(0, 'equilibrium')}: no start at rest was found")
             q0, qd0 = found.q, np.zeros(model.num_coordinates)
         else:
-            q0, qd0 = value
-        commands = setup.commands(np.asarray(self.command), pulled=self.pulled)
+            q0, qd0 = self._start(setup.robot, model.num_coordinates)[1]
+        t = cast("FloatArray", self.t)
+        commands = self._told(setup)
         wanted = t - setup.time_shift
         moving = wanted > t[0]
         times = np.concatenate([[t[0]], wanted[moving]])
@@ -240,23 +259,27 @@ class Motion(Data):
         else:
             asked = TensionTable(t, commands, self.interpolation)
         step = self.step if self.method in FIXED_STEP else None
-        rtol = None if self.method in FIXED_STEP else self.rtol or SMOOTH
+        smooth = SMOOTH if remembers(model) else None
+        rtol = None if self.method in FIXED_STEP else self.rtol or smooth
         run = simulate(
             model, q0, qd0, t=times, command=asked, wrenches=self.wrenches,
-            method=self.method, rtol=rtol, step=step,
+            method=self.method, rtol=rtol, step=step, sensitivities=by,
         )  # fmt: skip
         if not run.success:
             raise UnsolvedError(f"{self.name}: {run.message}")
-        at = np.where(moving, np.cumsum(moving), 0)  # before the start the robot is as it begins
-        return run.q[at], run.tension[at], run.command[at]
+        return run, np.where(moving, np.cumsum(moving), 0)  # before the start it is as it begins
 
-    def _answers(self, setup: Setup, state: Any) -> list[FloatArray]:
+    def _answers(self, setup: Setup, state: Samples) -> list[FloatArray]:
         """Return what the model says, an array for each channel."""
-        q, tension, command = state
-        return answers_of(setup, self.channels, self.places, q, command, tension)
+        return answers_of(setup, self.channels, self.places, state.q, state.command, state.tension)
 
-    def _slopes(self, setup: Setup, state: Any, sides: Sequence[Side]) -> list[FloatArray]:
-        """Return the derivatives of the answers, by the difference of two runs."""
+    def _slopes(self, setup: Setup, state: Samples, sides: Sequence[Side]) -> list[FloatArray]:
+        """Return the derivatives of the answers, from one run with its sensitivities.
+
+        By differences of runs where friction or play remembers, of which there are none.
+        """
+        if not remembers(setup.model):
+            return motion_slopes(self, setup, state, sides)
         here = self._answers(setup, state)
         found: list[list[FloatArray]] = []
         for side in sides:

@@ -32,7 +32,10 @@ _SHARED = {
     "command_offset": "N or m",
     "command_gain": "",
 }
-_OF_CABLES = ("radius", "stiffness", "damping", "friction")
+_OF_CABLES = (
+    "radius", "stiffness", "damping", "friction", "entry_friction", "sheath_friction", "viscosity",
+    "pretension", "backlash",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -289,6 +292,7 @@ def _typical(unit: str, robot: Robot) -> float:
         "N or m": 0.002 * robot.length if driven else 0.1,
         "kg": 0.05 * robot.mass or 0.01,
         "N m s/rad": 0.02 * stiffness,
+        "N": 0.5,
         "N/m": 1e3,
         "N s/m": 1.0,
         "m/s": 1e-3,

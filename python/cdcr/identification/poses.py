@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -14,6 +14,7 @@ from cdcr.base.check import one_of
 from cdcr.identification.channels import Channel, Where, check_commands, measured, row_of
 from cdcr.identification.data import (
     Noise,
+    Side,
     Wrenches,
     answers_of,
     channels_of,
@@ -21,6 +22,7 @@ from cdcr.identification.data import (
     markers_of,
 )
 from cdcr.identification.files import read_measured
+from cdcr.identification.history import differences, follow
 from cdcr.identification.rest import AtRest
 from cdcr.identification.setup import Place, Setup
 
@@ -53,6 +55,9 @@ class Poses(AtRest):
         the robot is straight.
     wrenches : Wrench or sequence of Wrench, optional
         What loads the robot in all poses.
+    history : bool, default False
+        Whether the poses follow one another, so that friction remembers the way, as in
+        `cdcr.quasi_static`; else each stands for itself, without friction.
     noise : float or mapping of str to float, optional
         Standard deviation of one number of each channel, or of all; found from what is left over
         where not given.
@@ -85,6 +90,7 @@ class Poses(AtRest):
     q: ArrayLike | None = None
     pulled: bool = False
     wrenches: Wrenches = ()
+    history: bool = False
     noise: Noise = None
     gaps: Gaps = "refuse"
     name: str = "poses"
@@ -160,8 +166,22 @@ class Poses(AtRest):
         """Return what the model says at shapes q (N, 2n)."""
         return answers_of(setup, self.channels, self.places, q, self._told(setup))
 
+    def _solve(self, setup: Setup, near: Any) -> FloatArray:
+        """Return shapes (N, 2n) at rest."""
+        if not self.history:
+            return super()._solve(setup, near)
+        return follow(setup, self._told(setup), self.wrenches).q
+
+    def _slopes(self, setup: Setup, state: Any, sides: Sequence[Side]) -> list[FloatArray]:
+        """Return the derivatives of the answers, (N, k, len(sides)) for each channel."""
+        if not self.history:
+            return super()._slopes(setup, state, sides)
+        return differences(lambda there: self._at(there, self._solve(there, None)), sides)
+
     def _rows(self, chosen: FloatArray) -> Poses:
-        """Return some of the poses."""
+        """Return some of the poses; where they have a history, all of them, some measured."""
+        if self.history:
+            return self._measured_in(np.asarray(chosen, bool))
         pick = np.flatnonzero(chosen)
         given: dict[str, Any] = {
             name: None if getattr(self, name) is None else np.asarray(getattr(self, name))[pick]
@@ -172,3 +192,16 @@ class Poses(AtRest):
         }
         given["where"] = lambda row, column: self._named(int(pick[row]), column)
         return replace(self, **given)
+
+    def _measured_in(self, rows: FloatArray) -> Poses:
+        def part(value: ArrayLike | None) -> FloatArray | None:
+            if value is None:
+                return None
+            array: FloatArray = np.where(rows[:, None], np.asarray(value, float), np.nan)
+            return array
+
+        given: dict[str, Any] = {
+            name: part(getattr(self, name)) for name in ("tip", "tension", "length", "q")
+        }
+        given["markers"] = {place: part(one) for place, one in (self.markers or {}).items()}
+        return replace(self, **given, gaps="skip")

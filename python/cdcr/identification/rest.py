@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -55,21 +55,36 @@ class AtRest(Data):
     def _slopes(self, setup: Setup, state: Any, sides: Sequence[Side]) -> list[FloatArray]:
         """Return the derivatives of the answers, (N, k, len(sides)) for each channel."""
         q: FloatArray = state
-        stiffness = setup.model.static_stiffness(q, self._told(setup), self.wrenches)
         found: list[list[FloatArray]] = []
-        for side in sides:
-            change = self._imbalance(side.above, q) - self._imbalance(side.below, q)
-            shift = -np.linalg.solve(stiffness, change[..., None])[..., 0]
-            above, below = side.step / side.width, side.step / side.width - 1.0
-            high = self._at(side.above, q + above * shift)
-            low = self._at(side.below, q + below * shift)
+        for side, shift in zip(
+            sides, shifts(setup, q, self._told, self.wrenches, sides), strict=True
+        ):
+            above, below = side.shares
+            high = self._at(side.above, q + above * side.width * shift)
+            low = self._at(side.below, q + below * side.width * shift)
             found.append([(a - b) / side.width for a, b in zip(high, low, strict=True)])
         return [np.stack(columns, axis=-1) for columns in zip(*found, strict=True)]
 
-    def _imbalance(self, setup: Setup, q: FloatArray) -> FloatArray:
-        model = setup.model
+
+def shifts(
+    setup: Setup,
+    q: FloatArray,
+    told: Callable[[Setup], FloatArray],
+    wrenches: Wrenches,
+    sides: Sequence[Side],
+) -> Iterator[FloatArray]:
+    """Yield the derivatives of equilibria q (N, 2n) by each unknown."""
+
+    def imbalance(there: Setup) -> FloatArray:
+        model = there.model
         force = model.potential_gradient(q)
-        force = force - model.cable_force(q, np.zeros_like(q), self._told(setup))
-        if self.wrenches:
-            force = force - model.wrench_force(q, self.wrenches)
-        return force
+        force = force - model.cable_force(q, np.zeros_like(q), told(there))
+        return force - model.wrench_force(q, wrenches) if wrenches else force
+
+    stiffness = setup.model.static_stiffness(q, told(setup), wrenches)
+    for side in sides:
+        change = (imbalance(side.above) - imbalance(side.below)) / side.width
+        shift: FloatArray = -np.linalg.solve(stiffness, change[..., None])[..., 0].astype(
+            np.float64
+        )
+        yield shift

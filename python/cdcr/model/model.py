@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
@@ -14,6 +15,7 @@ from cdcr.base.arrays import FloatArray, finite
 from cdcr.base.check import one_of, require_kind
 from cdcr.model.inverse_kinematics import InverseKinematics
 from cdcr.model.modes import Modes
+from cdcr.model.parameters import ParameterSets
 from cdcr.model.statespace import StateSpaceModel
 from cdcr.model.statics import checked_allocation, checked_equilibrium
 from cdcr.robot.robot import Robot
@@ -96,6 +98,11 @@ class Model(StateSpaceModel):
         model._formulation = self._formulation
         return model
 
+    @cached_property
+    def _parameter_sets(self) -> ParameterSets:
+        """What parameter derivatives are made of, for the parameters asked for before."""
+        return ParameterSets(self._robot)
+
     @property
     def robot(self) -> Robot:
         """The robot described."""
@@ -146,9 +153,10 @@ class Model(StateSpaceModel):
 
         Newton's method, downhill in energy where all loads have one; where that fails, the load
         grows from nothing to all, then other starts are tried. Friction of cables is left out: with
-        it the robot rests anywhere in a range of shapes about this one, and the answer with
-        ``throw=False`` tells so. The answer may be unstable when gravity is strong and the
-        start is a point of rest; with ``throw=False`` it tells.
+        it the robot rests anywhere in a range of shapes about this one. A warning says so; with
+        ``throw=False`` the answer does. `quasi_static` remembers the way, and has friction. The
+        answer may be unstable when gravity is strong and the start is a point of rest; with
+        ``throw=False`` it tells.
 
         Parameters
         ----------
@@ -177,7 +185,7 @@ class Model(StateSpaceModel):
         found = self.find_equilibrium(tension, q0, wrenches)
         if tension is not None:
             ask_about_commands(self.robot, finite(tension, "tension"))
-        return checked_equilibrium(found) if throw else found
+        return checked_equilibrium(found, warn=True) if throw else found
 
     def modes(
         self,

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from cdcr.base.check import one_of, require_kind
 from cdcr.model.model import Model
+from cdcr.model.statics import checked_equilibrium
 
 # Amplification of one step, 1 + z + z^2/2 + z^3/6 + z^4/24 with z = h lambda, by power of z.
 _RK4 = 1.0 / np.array([1.0, 1.0, 2.0, 6.0, 24.0])
@@ -60,7 +61,7 @@ def stable_step(
     if not one_of(method, ("rk4",)):
         raise ValueError(f"method must be 'rk4', the others choose their steps; got {method!r}")
     command = model.rest_command() if tension is None else tension
-    shape = model.equilibrium(command) if q is None else q
+    shape = checked_equilibrium(model.find_equilibrium(command)) if q is None else q
     A, _ = model.linearize(shape, np.zeros(model.num_coordinates), command)
     return min(map(_largest_step, np.linalg.eigvals(A)), default=math.inf)
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cdcr.base.arrays import finite
+from cdcr.base.arrays import FloatArray, finite
 from cdcr.base.extras import require
 from cdcr.model.derivatives import Derivatives
 from cdcr.model.shape import ShapeModel
@@ -61,6 +61,106 @@ class StateSpaceModel(ShapeModel):
                [  0. , -82.7]])
         """
         return Derivatives(*self._derivatives(q, qd, tension, wrenches))
+
+    def parameter_derivatives(
+        self,
+        q: ArrayLike,
+        qd: ArrayLike,
+        tension: ArrayLike,
+        parameters: str | Sequence[str],
+        wrenches: Wrench | Sequence[Wrench] = (),
+    ) -> FloatArray:
+        """Differentiate `forward_dynamics` by numbers of the robot, cpp/sensitivities.md eq. (116).
+
+        Exact to rounding by masses, stiffnesses, damping, gravity and the like; by all else, such
+        as lengths and diameters, to about 1e-12, of rods to about 1e-9.
+
+        Parameters
+        ----------
+        q, qd : (..., d) array_like
+            Coordinates [rad, m] and their rates; or arrays of states.
+        tension : (..., num_cables) array_like
+            Cable tensions [N]; lengths [m] for cables driven by length.
+        parameters : str or sequence of str
+            Which, by path as in `cdcr.rollout`: ``sections.1.youngs_modulus``, ``payload``,
+            ``gravity.z``. Sections and cables count from 1; ``*`` is all of them, as they grow by
+            the same amount.
+        wrenches : Wrench or sequence of Wrench, optional
+            Forces and moments on the backbone.
+
+        Returns
+        -------
+        (..., d, k) array
+            Of the accelerations [rad/s^2], in rows, by the parameters, in SI units. Of the force that
+            keeps given accelerations [N m] it is ``-mass_matrix(q)`` times that.
+
+        Raises
+        ------
+        ValueError
+            For arguments that are no states or commands, a robot without inertia there, and a path
+            that leads to no number, or to a whole one.
+
+        Examples
+        --------
+        >>> import cdcr
+        >>> model = cdcr.Model(cdcr.robots.amouri2020())
+        >>> still = [0.0, 0.0]
+        >>> by_modulus = model.parameter_derivatives(
+        ...     [0.5, 0.0], still, [0.0, 0.0, 0.0], "sections.1.youngs_modulus"
+        ... )
+        >>> modulus = model.robot.sections[0].youngs_modulus
+        >>> acceleration = model.forward_dynamics([0.5, 0.0], still, [0.0, 0.0, 0.0])
+        >>> bool(abs(by_modulus[0, 0] * modulus - acceleration[0]) < 1e-11 * abs(acceleration[0]))
+        True
+        """
+        found = cast("Model", self)._parameter_sets.find(self, parameters)
+        return self._parameter_derivatives(q, qd, tension, wrenches, found)
+
+    def equilibrium_derivatives(
+        self,
+        q: ArrayLike,
+        tension: ArrayLike,
+        parameters: str | Sequence[str],
+        wrenches: Wrench | Sequence[Wrench] = (),
+    ) -> FloatArray:
+        """Differentiate `equilibrium` by numbers of the robot, cpp/sensitivities.md eq. (119).
+
+        As accurate as `parameter_derivatives`. Where the robot buckles the stiffness is singular,
+        and the answer infinite or NaN.
+
+        Parameters
+        ----------
+        q : (..., d) array_like
+            Equilibrium shapes [rad, m].
+        tension : (..., num_cables) array_like
+            The tensions [N] that hold them; lengths [m] for cables driven by length.
+        parameters : str or sequence of str
+            As in `parameter_derivatives`.
+        wrenches : Wrench or sequence of Wrench, optional
+            Forces and moments on the backbone.
+
+        Returns
+        -------
+        (..., d, k) array
+            Of the coordinates [rad], in rows, by the parameters, in SI units.
+
+        Raises
+        ------
+        ValueError
+            As from `parameter_derivatives`.
+
+        Examples
+        --------
+        >>> import cdcr
+        >>> model = cdcr.Model(cdcr.robots.amouri2020())
+        >>> pull = [5.0, 0.0, 0.0]
+        >>> q = model.equilibrium(pull)
+        >>> by_radius = model.equilibrium_derivatives(q, pull, "sections.1.cable_radius")
+        >>> print(f"{by_radius[0, 0] * 1e-3:.4f} rad for each mm")
+        0.0261 rad for each mm
+        """
+        found = cast("Model", self)._parameter_sets.find(self, parameters)
+        return self._equilibrium_derivatives(q, tension, wrenches, found)
 
     def to_statespace(
         self,
@@ -121,12 +221,16 @@ class StateSpaceModel(ShapeModel):
         0.0206 m/N
         """
         from cdcr.model.signals import find_outputs, input_names, state_names
+        from cdcr.model.statics import checked_equilibrium
 
         chosen = find_outputs(outputs)
         control: Any = require("control", "control")
         model = cast("Model", self)
         command = model.rest_command() if tension is None else tension
-        shape = model.equilibrium(command, wrenches=wrenches) if q is None else finite(q, "q")
+        if q is None:
+            shape = checked_equilibrium(model.find_equilibrium(command, wrenches=wrenches))
+        else:
+            shape = finite(q, "q")
         if shape.shape != (model.num_coordinates,):
             raise ValueError(f"q must have shape ({model.num_coordinates},), got {shape.shape}")
         rates = np.zeros(model.num_coordinates) if qd is None else qd

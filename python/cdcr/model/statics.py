@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import Any
 
 import numpy as np
@@ -9,6 +10,11 @@ from numpy.typing import ArrayLike
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray
+
+FRICTION_LEFT_OUT = (
+    "equilibrium leaves out the friction of the cables: with it the robot rests anywhere in a "
+    "range of shapes, and cdcr.quasi_static tells where it comes to rest on its way"
+)
 
 
 class ConvergenceError(RuntimeError):
@@ -61,8 +67,10 @@ class InfeasibleError(ValueError):
         return type(self), (str(self), self._answer), self.__dict__
 
 
-def checked_equilibrium(found: _core.Equilibrium) -> FloatArray:
-    """Return q at rest, or raise where none was found."""
+def checked_equilibrium(found: _core.Equilibrium, *, warn: bool = False) -> FloatArray:
+    """Return q at rest, or raise where none was found; warn of friction that is left out."""
+    if warn and found.friction_left_out:
+        warnings.warn(FRICTION_LEFT_OUT, UserWarning, stacklevel=3)
     if found.status is not _core.Status.ok:
         raise ConvergenceError(_core.status_message(found.status))
     return found.q

@@ -42,6 +42,16 @@ class Cable:
         Coulomb's coefficient in all of its holes, >= 0; None for that of each section.
     start_section : int, default 0
         Index of the section, from 0, at whose base the cable begins; files count from 1.
+    entry_friction : float, default 0
+        Coulomb friction where the cable enters the robot [N], >= 0.
+    sheath_friction : float, default 0
+        Coefficient of a sheath before the entry times the angle that it turns by, >= 0.
+    viscosity : float, default 0
+        Viscous friction at the entry [N s/m], >= 0.
+    pretension : float, default 0
+        Pull at the length commanded [N], >= 0; of cables driven by length.
+    backlash : float, default 0
+        Play of the drive [m], >= 0; of cables driven by length.
 
     Raises
     ------
@@ -103,6 +113,17 @@ class Cable:
         default=0,
         advanced=True,
     )
+    entry_friction: float = quantity("at the entry", "N", ">= 0", default=0.0, advanced=True)
+    sheath_friction: float = quantity(
+        "mu of a sheath times its turning", "", ">= 0", default=0.0, advanced=True
+    )
+    viscosity: float = quantity(
+        "viscous friction at the entry", "N s/m", ">= 0", default=0.0, advanced=True
+    )
+    pretension: float = quantity("driven by length", "N", ">= 0", default=0.0, advanced=True)
+    backlash: float = quantity(
+        "play of the drive by length", "m", ">= 0", default=0.0, advanced=True
+    )
 
     if TYPE_CHECKING:  # to a type checker all fields have a default
 
@@ -116,6 +137,11 @@ class Cable:
             damping: float = ...,
             friction: float | None = ...,
             start_section: int = ...,
+            entry_friction: float = ...,
+            sheath_friction: float = ...,
+            viscosity: float = ...,
+            pretension: float = ...,
+            backlash: float = ...,
         ) -> None: ...
 
     def __repr__(self) -> str:

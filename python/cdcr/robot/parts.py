@@ -76,6 +76,11 @@ def parts_of(section: Section, count: int) -> list[Section]:
         "cable_angles": (),
         "cable_stiffness": 0.0,
         "cable_damping": 0.0,
+        "cable_entry_friction": 0.0,
+        "cable_sheath_friction": 0.0,
+        "cable_viscosity": 0.0,
+        "cable_pretension": 0.0,
+        "cable_backlash": 0.0,
     }
     return [*(replace(even, **one, **without_cables) for one in own[:-1]), replace(even, **own[-1])]
 

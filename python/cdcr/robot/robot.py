@@ -61,6 +61,9 @@ class Robot(Filed, Shown):
         A frame without mass that the tip carries, in the frame at the end of the last section: its
         rotation matrix, beside it its position [m], and 0, 0, 0, 1 below. It is what
         ``Model.tip``, its Jacobian and ``Model.inverse_kinematics`` speak of.
+    presliding_stiffness : float, default 0
+        Of a cable that sticks, against where it sticks [N/m], >= 0: friction then remembers, and
+        sticks at rest. 0: friction by the sliding speed, without memory.
 
     Raises
     ------
@@ -148,6 +151,9 @@ class Robot(Filed, Shown):
         ),
         advanced=True,
     )
+    presliding_stiffness: float = quantity(
+        "of a cable that sticks", "N/m", ">= 0", default=0.0, advanced=True
+    )
 
     if TYPE_CHECKING:  # any sequence goes in, a tuple comes out
 
@@ -164,6 +170,7 @@ class Robot(Filed, Shown):
             payload_inertia: ArrayLike = ...,
             sliding_speed: float = ...,
             tool: ArrayLike = ...,
+            presliding_stiffness: float = ...,
         ) -> None: ...
 
     def __post_init__(self) -> None:

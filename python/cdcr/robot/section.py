@@ -111,6 +111,10 @@ class Section:
     nodes : int or None, default None
         Places where the mass of a section of varying strains is summed up, 3 to 32; None for
         enough to get accelerations to about 1e-8.
+    cable_entry_friction, cable_sheath_friction, cable_viscosity : float, default 0
+        Friction of each cable at its entry, see ``cdcr.Cable`` [N], [-], [N s/m], >= 0.
+    cable_pretension, cable_backlash : float, default 0
+        Of each cable driven by length, see ``cdcr.Cable`` [N], [m], >= 0.
 
     Raises
     ------
@@ -220,6 +224,17 @@ class Section:
         default=None,
         advanced=True,
     )
+    cable_entry_friction: float = quantity("at the entry", "N", ">= 0", default=0.0, advanced=True)
+    cable_sheath_friction: float = quantity(
+        "mu of a sheath times its turning", "", ">= 0", default=0.0, advanced=True
+    )
+    cable_viscosity: float = quantity(
+        "viscous friction at the entry", "N s/m", ">= 0", default=0.0, advanced=True
+    )
+    cable_pretension: float = quantity("driven by length", "N", ">= 0", default=0.0, advanced=True)
+    cable_backlash: float = quantity(
+        "play of the drive by length", "m", ">= 0", default=0.0, advanced=True
+    )
 
     if TYPE_CHECKING:  # any sequence goes in, a tuple comes out
 
@@ -256,6 +271,11 @@ class Section:
             rest_bending: Sequence[float] | NDArray[np.floating[Any]] = ...,
             rest_twist: float = ...,
             nodes: int | None = ...,
+            cable_entry_friction: float = ...,
+            cable_sheath_friction: float = ...,
+            cable_viscosity: float = ...,
+            cable_pretension: float = ...,
+            cable_backlash: float = ...,
         ) -> None: ...
 
     def __repr__(self) -> str:

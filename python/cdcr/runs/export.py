@@ -36,6 +36,10 @@ _STATE = {
 }
 
 
+# Dimensions of derivatives: which coordinate, and by which at the start.
+_OF, _BY = "of_coordinate", "by_coordinate"
+
+
 class Quantity(NamedTuple):
     """One array of a run: its dimensions after time, its unit and what it is."""
 
@@ -153,8 +157,26 @@ def to_xarray(run: Trajectory) -> xarray.Dataset:
         name: (name, labels, {"units": units, "long_name": long_name})
         for name, (labels, units, long_name) in coordinates(run.model, run.t).items()
     }
+    if run.sensitivities:
+        data |= _sensitivities(run)
+        names = list(run.model.coordinate_names)
+        about = {"units": "1", "long_name": "coordinate that is differentiated, or by which"}
+        coords |= {dim: (dim, names, about) for dim in (_OF, _BY)}
     dataset: xarray.Dataset = xr.Dataset(data, coords, attributes(run))
     return dataset
+
+
+def _sensitivities(run: Trajectory) -> dict[str, tuple[Any, ...]]:
+    """Return the derivatives of q and qd: of a number of the robot without a dimension for it."""
+    found: dict[str, tuple[Any, ...]] = {}
+    for letter, slopes in (("q", run.sensitivities), ("qd", run.rate_sensitivities)):
+        for name, values in slopes.items():
+            dims = {"q0": (_BY,), "qd0": (_BY,), "tension": ("cable",), "command": ("cable",)}
+            by = dims.get(name, ())
+            about = {"units": "SI", "long_name": f"derivative of {letter} by {name}"}
+            shaped = values if by else values[:, :, 0]
+            found[f"d{letter}_d{name}"] = (("time", _OF, *by), shaped, about)
+    return found
 
 
 def attributes(run: Trajectory) -> dict[str, str | int]:

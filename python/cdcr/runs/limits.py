@@ -24,7 +24,7 @@ def checked(
     check = Check()
     given: dict[str, Any] = {}
     for name, gain in (gains or {}).items():
-        if isinstance(gain, (list, tuple, np.ndarray)) and np.ndim(gain) > 0:
+        if isinstance(gain, (list, tuple)) or (isinstance(gain, np.ndarray) and gain.ndim > 0):
             given[name] = finite(gain, name)
         else:
             given[name] = check.number(name, gain, "a number")

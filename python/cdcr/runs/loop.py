@@ -2,174 +2,19 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any, Literal
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray
-from cdcr.base.check import Check, one_of, require_kind
+from cdcr.base.check import Check, require_kind
 from cdcr.base.keywords import by_keyword
 from cdcr.model.model import Model
 from cdcr.model.wrench import Wrench
+from cdcr.robot.units import ask_about_commands
+from cdcr.runs.parts import Actuator, Sensor, as_dicts
 from cdcr.runs.trajectory import Trajectory
-
-SensorKind = Literal["coordinates", "rates", "lengths", "tensions", "tip", "curvature"]
-KINDS: tuple[SensorKind, ...] = (
-    *("coordinates", "rates", "lengths"),
-    *("tensions", "tip", "curvature"),
-)
-
-
-def _numbers(given: dict[str, Any]) -> dict[str, float]:
-    """Return the values as floats, or refuse what is no number."""
-    check = Check()
-    found = {name: check.number(name, value, "a number") for name, value in given.items()}
-    check.done()
-    return found
-
-
-@by_keyword
-@dataclass(frozen=True, kw_only=True)
-class Winch:
-    """A motor with a gear and a drum, whose position loop lets out the length asked for.
-
-    Critically damped, without an integral: under a tension F it gives way by F over its mass times
-    bandwidth^2, where that mass is inertia (gear/drum_radius)^2.
-
-    Parameters
-    ----------
-    drum_radius : float
-        > 0 [m].
-    inertia : float
-        Of the motor, > 0 [kg m^2].
-    bandwidth : float
-        Of the position loop, > 0 [rad/s].
-    gear : float, optional
-        Turns of the motor for one of the drum, > 0 [1].
-    max_torque, max_speed : float, optional
-        Of the motor, > 0 [N m], [rad/s].
-
-    Examples
-    --------
-    >>> import cdcr
-    >>> winch = cdcr.Winch(drum_radius=0.01, gear=20.0, inertia=1e-6, bandwidth=100.0)
-    >>> cdcr.Actuator(winch=winch).winch.gear
-    20.0
-    """
-
-    drum_radius: float
-    inertia: float
-    bandwidth: float
-    gear: float = 1.0
-    max_torque: float = math.inf
-    max_speed: float = math.inf
-
-    def __post_init__(self) -> None:
-        """Refuse what is no number; ranges are looked at where a loop is made."""
-        _numbers(asdict(self))
-
-
-@by_keyword
-@dataclass(frozen=True, kw_only=True)
-class Actuator:
-    """What stands between a command and its cable; each part is absent unless it is given.
-
-    Parameters
-    ----------
-    time_constant : float, optional
-        Of a first-order lag, >= 0 [s].
-    dead_time : float, optional
-        A whole number of steps of the loop, >= 0 [s].
-    max_rate : float, optional
-        Of what the cable gets, > 0 [N/s], [m/s].
-    min_command, max_command : float, optional
-        0 <= min_command <= max_command [N], [m].
-    resolution : float, optional
-        Commands are rounded to multiples of it, >= 0 [N], [m].
-    winch : Winch, optional
-        In place of lag and rate, of a cable driven by length.
-
-    Examples
-    --------
-    >>> import cdcr
-    >>> cdcr.Actuator(time_constant=0.02, max_rate=200.0).time_constant
-    0.02
-    """
-
-    time_constant: float = 0.0
-    dead_time: float = 0.0
-    max_rate: float = math.inf
-    min_command: float = 0.0
-    max_command: float = math.inf
-    resolution: float = 0.0
-    winch: Winch | None = None
-
-    def __post_init__(self) -> None:
-        """Refuse what is of another kind; ranges are looked at where a loop is made."""
-        given = dict(self.__dict__)
-        if given.pop("winch") is not None:
-            require_kind("winch", self.winch, Winch)
-        _numbers(given)
-
-
-@by_keyword
-@dataclass(frozen=True, kw_only=True)
-class Sensor:
-    """Something measured, each period: value + bias + noise, and told after a delay.
-
-    The controller is told what sensors of "coordinates" and "rates" say; without one it knows them
-    exactly. The others are for `Loop.measurements`, controllers and estimators of your own.
-
-    Parameters
-    ----------
-    kind : str
-        "coordinates" [rad], "rates" [rad/s], "lengths" of the cables in the robot [m], "tensions"
-        at the base [N], "tip", its position in the base frame [m], or "curvature" of the backbone
-        at places, in the x and y of its frame [1/m].
-    period, delay : float, optional
-        Whole numbers of steps of the loop [s]; 0: each step, at once.
-    noise : float, optional
-        Standard deviation of each value, normal and white, in the unit of the kind.
-    bias : float, optional
-        Added to each value.
-    places : sequence of (int, float), optional
-        Of curvature: indices of sections, and fractions of their lengths.
-    seed : int, optional
-        Of the noise, >= 0.
-
-    Examples
-    --------
-    >>> import cdcr
-    >>> cdcr.Sensor(kind="coordinates", noise=1e-3, delay=2e-3).kind
-    'coordinates'
-    """
-
-    kind: SensorKind
-    period: float = 0.0
-    delay: float = 0.0
-    noise: float = 0.0
-    bias: float = 0.0
-    places: Sequence[tuple[int, float]] = ()
-    seed: int = 1
-
-    def __post_init__(self) -> None:
-        """Refuse what is of another kind; ranges are looked at where a loop is made."""
-        if not one_of(self.kind, KINDS):
-            known = ", ".join(map(repr, KINDS))
-            raise ValueError(f"kind must be one of {known}, got {self.kind!r}")
-        _numbers({name: getattr(self, name) for name in ("period", "delay", "noise", "bias")})
-        check = Check()
-        check.whole("seed", self.seed, "a whole number >= 0", low=0, high=2**63 - 1)
-        for i, place in enumerate(self.places):
-            pair = check.items(f"places[{i}]", place, "an index of a section and a fraction")
-            if len(pair) != 2:
-                check.refuse(f"places[{i}]", "an index of a section and a fraction", place)
-                continue
-            check.whole(f"the section of places[{i}]", pair[0], "an index of a section")
-            check.number(f"the fraction of places[{i}]", pair[1], "a number 0 to 1")
-        check.done()
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -188,6 +33,10 @@ class LoopRun:
         What each sensor told [of its kind].
     durations : (N,) array
         Of the controller's last update, by the clock [s].
+    estimated, deviations : dict of (N,) array
+        What else the estimator estimates, by name, and standard deviations of that [of its kind].
+    innovation, measured : (N,) array
+        Of the estimator's last update: chi-square with as many degrees as values were measured [1].
 
     Examples
     --------
@@ -205,6 +54,10 @@ class LoopRun:
     told_qd: FloatArray
     measurements: tuple[FloatArray, ...]
     durations: FloatArray
+    estimated: dict[str, FloatArray]
+    deviations: dict[str, FloatArray]
+    innovation: FloatArray
+    measured: FloatArray
 
     def __repr__(self) -> str:
         """Say what a person wants to know first."""
@@ -220,10 +73,10 @@ class LoopRun:
 class Loop(_core.Loop):
     """A closed loop in C++: the robot, its actuators and sensors and a controller.
 
-    In a step of the plant sensors measure, the controller is asked where its time has come,
-    actuators move, and the robot moves under what they give. The same loop gives the same bits.
-    After a failure the last good state stays until `reset`. With controllers of the package no
-    Python runs inside; one written in Python is called each period, which is slower.
+    In a step of the plant sensors measure, estimator and controller are asked where their time has
+    come, actuators move, and the robot moves under what they give. The same loop gives the same
+    bits. After a failure the last good state stays until `reset`. With controllers of the package
+    no Python runs inside; one written in Python is called each period, which is slower.
 
     Parameters
     ----------
@@ -241,6 +94,9 @@ class Loop(_core.Loop):
         One for all cables, or one for each.
     sensors : Sensor or sequence of Sensor, optional
         What is measured.
+    estimator : Estimator, optional
+        Makes a state of what sensors tell, which the controller is told: `ExtendedKalman`,
+        `UnscentedKalman`, `MomentumObserver`.
 
     Raises
     ------
@@ -278,9 +134,12 @@ class Loop(_core.Loop):
         method: Literal["rk4", "rosenbrock"] = "rk4",
         actuators: Actuator | Sequence[Actuator] = (),
         sensors: Sensor | Sequence[Sensor] = (),
+        estimator: _core.Estimator | None = None,
     ) -> None:
         require_kind("model", model, Model)
         require_kind("controller", controller, _core.Controller)
+        if estimator is not None:
+            require_kind("estimator", estimator, _core.Estimator)
         check = Check()
         options: dict[str, Any] = {
             "step": check.number("step", step, "a number"),
@@ -288,15 +147,9 @@ class Loop(_core.Loop):
         }
         check.done()
         options["method"] = str(method)
-        drives = (actuators,) if isinstance(actuators, Actuator) else tuple(actuators)
-        looks = (sensors,) if isinstance(sensors, Sensor) else tuple(sensors)
-        for i, drive in enumerate(drives):
-            require_kind(f"actuators[{i}]", drive, Actuator)
-        for i, look in enumerate(looks):
-            require_kind(f"sensors[{i}]", look, Sensor)
-        options["actuators"] = [asdict(one) for one in drives]
-        options["sensors"] = [asdict(one) | {"places": list(one.places)} for one in looks]
-        super().__init__(model, controller, options)
+        options["actuators"] = as_dicts("actuators", actuators, Actuator)
+        options["sensors"] = as_dicts("sensors", sensors, Sensor)
+        super().__init__(model, controller, options, estimator)
 
     def run(
         self,
@@ -339,7 +192,22 @@ class Loop(_core.Loop):
         found = self._sampled(duration, every, wrenches)
         names = ("t", "q", "qd", "tension", "command", "status", "message", "stats")
         run = Trajectory(model=self.model, method="rk4", **{name: found[name] for name in names})
+        ask_about_commands(self.model.robot, found["asked"])
         if throw and not run.success:
             raise RuntimeError(run.message)
         told = found["told_q"], found["told_qd"], tuple(found["told"])
-        return LoopRun(run, found["asked"], *told, found["durations"])
+        own = [] if self.estimator is None else list(self.estimator.values)
+        estimated, deviations = (
+            {name: found[table][:, i] for i, name in enumerate(own)}
+            for table in ("estimated", "deviations")
+        )
+        return LoopRun(
+            run,
+            found["asked"],
+            *told,
+            found["durations"],
+            estimated=estimated,
+            deviations=deviations,
+            innovation=found["innovation"],
+            measured=found["measured"],
+        )

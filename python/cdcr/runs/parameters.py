@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import fields
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,10 +12,9 @@ from cdcr.base.arrays import FloatArray, finite, read_only
 from cdcr.model.model import Model
 from cdcr.robot.cable import Cable
 from cdcr.robot.numbers import find, paths, put, refuse_unknown
+from cdcr.robot.plain import core_robot, plain_robot
 from cdcr.robot.robot import Robot
 from cdcr.robot.section import Section
-
-_PARTS: dict[str, Any] = {"sections": _core.Section, "cables": _core.Cable}
 
 
 class Variation:
@@ -40,7 +37,10 @@ class Variation:
     def __init__(self, model: Model, parameters: Mapping[str, ArrayLike]) -> None:
         self.model = model
         self.values: dict[str, FloatArray] = {}
-        table = _plain(model.robot)
+        if not isinstance(parameters, Mapping):
+            got = type(parameters).__name__
+            raise TypeError(f"parameters must be a mapping of paths to arrays, got {got}")
+        table = plain_robot(model.robot)
         for path, given in parameters.items():
             if not find(table, str(path)):
                 refuse_unknown(path, list(paths(table)))
@@ -65,41 +65,23 @@ class Variation:
         ValueError
             For numbers that are out of range, naming the motion.
         """
-        table = _plain(self.model.robot)
+        table = plain_robot(self.model.robot)
         found = [(find(table, path), values) for path, values in self.values.items()]
         models = []
         for i in range(len(self)):
             for there, values in found:
                 put(there, values[i])
             try:
-                models.append(_core.Model(_to_core(table), self.model))
+                models.append(_core.Model(core_robot(table), self.model))
             except ValueError as error:
                 raise ValueError(f"motion {i + 1}: {error}") from None
         return models
 
     def model_of(self, motion: int) -> Model:
         """Return the model of one motion, with its robot."""
-        table = _plain(self.model.robot)
+        table = plain_robot(self.model.robot)
         for path, values in self.values.items():
             put(find(table, path), values[motion])
         table["sections"] = [Section(**one) for one in table["sections"]]
         table["cables"] = [Cable(**one) for one in table["cables"]]
         return Model(Robot(**table), self.model.formulation)
-
-
-def _plain(robot: Robot) -> dict[str, Any]:
-    """Return the fields of a robot as tables and lists of numbers, which can be changed."""
-    return {item.name: _as_lists(getattr(robot, item.name)) for item in fields(robot)}
-
-
-def _as_lists(value: Any) -> Any:
-    if isinstance(value, tuple):
-        return [_as_lists(one) for one in value]
-    if isinstance(value, (Section, Cable)):
-        return {item.name: _as_lists(getattr(value, item.name)) for item in fields(value)}
-    return value
-
-
-def _to_core(table: dict[str, Any]) -> _core.Robot:
-    parts = {name: [kind(**one) for one in table[name]] for name, kind in _PARTS.items()}
-    return _core.Robot(**table | parts)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -14,6 +14,7 @@ from cdcr.base.arrays import FloatArray, finite
 from cdcr.base.check import Check, require_kind
 from cdcr.model.model import Model
 from cdcr.model.wrench import Wrench, loads
+from cdcr.robot.units import ask_about_commands
 from cdcr.runs.lockstep import BatchController, run_in_lockstep
 from cdcr.runs.parameters import Variation
 from cdcr.runs.rollout_result import Rollout, RolloutFailure
@@ -175,8 +176,10 @@ def rollout(
     )
     if progress is not None and not callable(progress):
         raise TypeError(f"progress must be a function of a number, got {type(progress).__name__}")
-    for wrench in [wrenches] if isinstance(wrenches, Wrench) else wrenches:
-        if callable(getattr(wrench, "profile", None)):
+    pushing = tuple(wrenches) if isinstance(wrenches, Iterable) else wrenches
+    load = loads(pushing)
+    for wrench in (pushing,) if isinstance(pushing, Wrench) else pushing:
+        if callable(wrench.profile):
             raise ValueError(
                 "the profile of a wrench on a rollout must be a table, got a function, which "
                 "Python would have to call in every step of each motion"
@@ -185,29 +188,27 @@ def rollout(
         raise ValueError("give one of tension, command and controller")
     name, asked = ("tension", tension) if command is None else ("command", command)
     first = models[0]
-    variation = Variation(first, parameters or {})
-    if parameters and len(models) > 1:
+    variation = Variation(first, {} if parameters is None else parameters)
+    if variation.values and len(models) > 1:
         raise ValueError("parameters are those of one model, give either them or several models")
     starts = [_start(first, "q0", q0), _start(first, "qd0", qd0)]
     commands = None
     if controller is None:
         commands = _commands(first, name, asked, whole["steps"])
-    together = controller is not None and not isinstance(controller, (_core.Controller, Sequence))
-    if together and not callable(controller):
-        got = type(controller).__name__
-        raise TypeError(f"controller must be a cdcr.Pid, a list of them or a function, got {got}")
-    drivers = controller if isinstance(controller, Sequence) else ()
+        ask_about_commands(first.robot, commands)
+    drivers = _drivers(controller)
+    together = controller is not None and not drivers and callable(controller)
     motions = _count(
         models, variation, q0=starts[0], qd0=starts[1], commands=commands, drivers=drivers
     )
     d = first.num_coordinates
     batch = Batch(
-        models=variation.models() if parameters else models,
+        models=variation.models() if variation.values else models,
         q0=np.broadcast_to(starts[0], (motions, d)),
         qd0=np.broadcast_to(starts[1], (motions, d)),
         commands=commands,
-        controllers=None if together else controller,
-        loads=loads(wrenches),
+        controllers=None if together else drivers or controller,
+        loads=load,
         method=chosen,
         options=options,
         step=seconds,
@@ -250,6 +251,20 @@ def _models(given: object) -> tuple[Model, ...]:
     for i, one in enumerate(given):
         require_kind(f"model[{i}] (motion {i + 1})", one, Model)
     return tuple(given)
+
+
+def _drivers(controller: object) -> Sequence[object]:
+    """Return the controllers of a sequence; nothing for one of all motions, or none."""
+    if controller is None or isinstance(controller, _core.Controller) or callable(controller):
+        return ()
+    if not isinstance(controller, Sequence) or isinstance(controller, (str, bytes)):
+        got = type(controller).__name__
+        raise TypeError(f"controller must be a cdcr.Pid, a list of them or a function, got {got}")
+    if not controller:
+        raise ValueError("controller must be a cdcr.Pid, a list of them or a function, got no one")
+    for i, one in enumerate(controller):
+        require_kind(f"controller[{i}] (motion {i + 1})", one, _core.Controller)
+    return controller
 
 
 def _start(model: Model, name: str, given: ArrayLike) -> FloatArray:

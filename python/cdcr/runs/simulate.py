@@ -17,6 +17,7 @@ from cdcr.model.wrench import Wrench, loads
 from cdcr.robot.units import ask_about_commands
 from cdcr.runs.command import Command, command_input
 from cdcr.runs.events import EventFunction, EventRecord, SlackEvent, watched
+from cdcr.runs.sensitivities import Asked, asked_of
 from cdcr.runs.trajectory import Trajectory
 
 MethodName = Literal["auto", "bdf", "adams", "dopri5", "dop853", "rk4", "rosenbrock"]
@@ -96,6 +97,7 @@ def simulate(
     max_steps: int | None = None,
     break_points: Sequence[float] = (),
     events: EventFunction | Sequence[EventFunction] = (),
+    sensitivities: str | Sequence[str] | Asked = (),
     progress: Callable[[float], object] | None = None,
     throw: bool = False,
 ) -> Trajectory:
@@ -152,6 +154,11 @@ def simulate(
         y = (q, qd), or ``f(t)``, that go through zero. An attribute ``terminal`` (True, or a
         number of times) ends the run there; ``direction`` > 0 counts upward, < 0 downward
         crossings alone. They are located on the interpolant of the method; see ``run.events``.
+    sensitivities : str or sequence of str, optional
+        By what to differentiate the run: "q0", "qd0", "tension" (the same amount more of each
+        command at all times), and numbers of the robot by path, as in
+        `Model.parameter_derivatives`. See ``run.sensitivities``; the steps are those of the run
+        without. Not under a controller or a callable, which may be feedback.
     progress : callable, optional
         Told the time reached, every few hundred steps.
     throw : bool, optional
@@ -184,15 +191,24 @@ def simulate(
     if tension is not None and command is not None:
         raise ValueError("give either tension or command, two names for one thing, not both")
     name, asked = ("tension", tension) if command is None else ("command", command)
+    by = sensitivities if isinstance(sensitivities, Asked) else asked_of(model, sensitivities)
     rest = chosen, options, progress, loads(wrenches), watched(events)
     if controller is not None:
         require_kind("controller", controller, _core.Controller)
         if asked is not None or np.size(break_points) > 0:
             raise ValueError(f"give either {name} or controller, not both")
+        if by.names:
+            raise ValueError(
+                "sensitivities need commands over time: derivatives of a controller are not known"
+            )
         raw = _core.simulate_controlled(model, q0, qd0, t, controller, *rest)
     else:
         source = command_input(model, asked, break_points, name)
-        raw = _core.simulate(model, q0, qd0, t, source, *rest)
+        raw = _core.simulate(model, q0, qd0, t, source, *rest, by.core() if by.names else None)
+    rows = (
+        raw.sensitivities.reshape(len(raw.t), 2 * model.num_coordinates, -1) if by.names else None
+    )
+    on_q, on_qd = ({}, {}) if rows is None else by.split(model, rows)
     run = Trajectory(
         model=model,
         t=raw.t,
@@ -206,6 +222,9 @@ def simulate(
         command=raw.command,
         slack_events=tuple(SlackEvent(*event) for event in raw.slack_events),
         events=tuple(EventRecord(*event) for event in raw.events),
+        deflection=raw.deflection if model.num_deflections else None,
+        sensitivities=on_q,
+        rate_sensitivities=on_qd,
     )
     warn_beyond_taylor_range(model, run.q)
     if run.stats.stiff is not None and not _core.with_cvode:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -52,6 +53,12 @@ class Trajectory(Pictures, ReadOnlyArrays):
         When length-driven cables turned slack or taut.
     events : tuple of EventRecord
         The events of `simulate`, in the order of time.
+    deflection : ndarray, shape (N, num_cables), optional
+        Of cables whose friction remembers, against where they stick [m]; files do not keep it.
+    sensitivities, rate_sensitivities : mapping of str to (N, d, k) array
+        Derivatives of q [rad] and of qd [rad/s] by what `simulate` was asked for: by the name given,
+        with k = d columns for "q0" and "qd0", num_cables for "tension", one for a number of the
+        robot, in SI units.
     """
 
     model: Model
@@ -66,6 +73,9 @@ class Trajectory(Pictures, ReadOnlyArrays):
     command: FloatArray = None  # type: ignore[assignment]  # the tensions
     slack_events: tuple[SlackEvent, ...] = ()
     events: tuple[EventRecord, ...] = ()
+    deflection: FloatArray | None = None
+    sensitivities: Mapping[str, FloatArray] = field(default_factory=dict)
+    rate_sensitivities: Mapping[str, FloatArray] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Take copies nobody else can write to, and check that they fit together."""
@@ -80,6 +90,8 @@ class Trajectory(Pictures, ReadOnlyArrays):
             if array.shape != shape:
                 raise ValueError(f"{name} must have shape {shape}, got {array.shape}")
             object.__setattr__(self, name, read_only(array))
+        if self.deflection is not None:
+            object.__setattr__(self, "deflection", read_only(np.array(self.deflection)))
         if rows == 0:
             raise ValueError(f"a run must have at least one sample, got none. {self.message}")
 
@@ -150,7 +162,13 @@ class Trajectory(Pictures, ReadOnlyArrays):
     @cached_property
     def friction_power(self) -> FloatArray:
         """Heat that friction of the cables makes (N,) [W], never negative."""
-        return read_only(self.model.friction_power(self.q, self.qd, self.command))
+        if not self.model.num_deflections:
+            return read_only(self.model.friction_power(self.q, self.qd, self.command))
+        if self.deflection is None:
+            raise ValueError(
+                "this run does not hold what its friction remembered: simulate it again"
+            )
+        return read_only(self.model.friction_power(self.q, self.qd, self.command, self.deflection))
 
     @property
     def energy_error(self) -> FloatArray:
@@ -178,8 +196,10 @@ class Trajectory(Pictures, ReadOnlyArrays):
         ``model.coordinate_names`` labels; ``theta`` and ``phi`` (time, section) [rad], ``tension``
         (time, cable) [N], ``tip`` (time, axis) [m], ``kinetic_energy``, ``potential_energy`` and
         ``energy`` (time) [J]; where cables are driven by length also ``command`` (time, cable), [N]
-        or [m], and ``cable_energy`` (time) [J]. Each has attributes ``units`` and ``long_name``;
-        those of the Dataset tell robot, formulation, method, how the run ended and what it cost.
+        or [m], and ``cable_energy`` (time) [J]; of sensitivities ``dq_dNAME`` and ``dqd_dNAME``
+        (time, ``of_coordinate``), with ``by_coordinate`` or ``cable`` where NAME is many. Each has
+        attributes ``units`` and ``long_name``; those of the Dataset tell robot, formulation,
+        method, how the run ended and what it cost.
 
         Returns
         -------

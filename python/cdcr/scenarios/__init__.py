@@ -50,6 +50,8 @@ _FIGURES = {
     "circle-control": None,
     "three-section-tracking": None,
     "motor-limits": None,
+    "estimator": None,
+    "contact-force": None,
 }
 # Modules of studies and figures that serve several scenarios.
 _SHARED = {

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from cdcr.base.arrays import FloatArray
-from cdcr.model.statics import ConvergenceError
+from cdcr.model.statics import ConvergenceError, checked_equilibrium
 from cdcr.model.wrench import Wrench
 from cdcr.runs.trajectory import Trajectory
 
@@ -71,7 +71,8 @@ def static_theta(run: Trajectory, wrenches: Sequence[Wrench] = ()) -> FloatArray
     if not constant:
         return None
     try:
-        rest = run.model.equilibrium(command[0], wrenches=wrenches)
+        found = run.model.equilibrium(command[0], wrenches=wrenches, throw=False)
+        rest = checked_equilibrium(found)
     except ConvergenceError:
         return None
     (x, y), phi = run.model.bending_vectors(rest).T, run.phi[-1]

@@ -243,8 +243,11 @@ class SensorTable(BaseModel):
 
     model_config = STRICT
 
-    kind: Literal["coordinates", "rates", "lengths", "tensions", "tip", "curvature"] = needed(
-        '"coordinates", "rates", "lengths", "tensions", "tip" or "curvature"', "what it measures"
+    kind: Literal[
+        "coordinates", "rates", "lengths", "tensions", "tip", "orientation", "curvature"
+    ] = needed(
+        '"coordinates", "rates", "lengths", "tensions", "tip", "orientation" or "curvature"',
+        "what it measures",
     )
     period: float = optional("a number >= 0 [s]", "a whole number of steps", ge=0.0)
     delay: float = optional("a number >= 0 [s]", "a whole number of steps", ge=0.0)
@@ -275,6 +278,9 @@ class LoopTable(BaseModel):
         "tables [[loop.sensors]] with kind",
         "without one of coordinates or of rates these are known exactly",
         min_length=1,
+    )
+    estimator: dict[str, Any] = optional(
+        "a table with type", "makes a state of what sensors tell, which the controller is told"
     )
 
 

@@ -8,6 +8,7 @@ from cdcr import _core, robots
 from cdcr.files.json_schema import Schema, document, one_of_keys, table_schema
 from cdcr.robot.json_schema import changes_schema, robot_schema, section_schema
 from cdcr.scenarios.file import control_schema as control
+from cdcr.scenarios.file import estimator_schema as estimators
 from cdcr.scenarios.file import schema as tables
 from cdcr.scenarios.file import shape_schema as shapes
 from cdcr.scenarios.file.values import RIVALS
@@ -56,7 +57,13 @@ def _loop() -> Schema:
         control.LoopTable,
         actuators=_array(actuator, minItems=1),
         sensors=_array(sensor, minItems=1),
+        estimator={"anyOf": _estimators()},
     )
+
+
+def _estimators() -> list[Schema]:
+    filters: list[Schema] = [table_schema(estimators.KalmanTable)]
+    return [*filters, table_schema(estimators.ObserverTable, states=filters[0])]
 
 
 def _array(items: Schema, **limits: Any) -> Schema:

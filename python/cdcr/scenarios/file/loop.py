@@ -11,9 +11,11 @@ import numpy as np
 from cdcr.base.arrays import FloatArray
 from cdcr.files.toml import refuse, schema_errors
 from cdcr.model.model import Model
-from cdcr.runs.loop import Actuator, Loop, Sensor, Winch
+from cdcr.runs.loop import Loop, LoopRun
+from cdcr.runs.parts import Actuator, Sensor, Winch
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.file.controller import ControlLoop
+from cdcr.scenarios.file.estimator import EstimatorMaker, read_estimator
 from cdcr.scenarios.file.values import error_prefix
 
 AT = "loop"
@@ -28,11 +30,17 @@ class ClosedLoop:
     controller: ControlLoop
     step: float
     options: dict[str, Any]
+    estimator: EstimatorMaker | None = None
     integrates = True
 
     def make(self, model: Model) -> Loop:
         """Return the loop."""
-        return Loop(model, self.controller(model), step=self.step, **self.options)
+        estimator = None
+        if self.estimator is not None:
+            around = self.options["sensors"], self.options["actuators"]
+            estimator = self.estimator(model, *around)
+        controller = self.controller(model)
+        return Loop(model, controller, step=self.step, estimator=estimator, **self.options)
 
     def run(
         self,
@@ -43,6 +51,17 @@ class ClosedLoop:
         **options: Any,
     ) -> Trajectory:
         """Run the robot from a state and sample it at output times (N,) [s]."""
+        return self.run_loop(model, q0, qd0, t, **options).trajectory
+
+    def run_loop(
+        self,
+        model: Model,
+        q0: tuple[float, ...],
+        qd0: tuple[float, ...],
+        t: FloatArray,
+        **options: Any,
+    ) -> LoopRun:
+        """Run it and return all that the loop tells."""
         steps = (t[-1] - t[0]) / (len(t) - 1) / self.step
         every = round(steps)
         if every < 1 or abs(steps - every) > _NEAR * steps:
@@ -54,7 +73,7 @@ class ClosedLoop:
         loop.reset(q0, qd0, time=float(t[0]))
         wrenches = options.get("wrenches", ())
         duration = every * (len(t) - 1) * self.step
-        return loop.run(duration, record_every=every, wrenches=wrenches).trajectory
+        return loop.run(duration, record_every=every, wrenches=wrenches)
 
 
 def read_loop(
@@ -73,7 +92,11 @@ def read_loop(
         ]
         options: dict[str, Any] = {"actuators": actuators, "sensors": sensors}
         options |= {key: table[key] for key in ("substeps", "method") if key in table}
-        closed = ClosedLoop(controller, float(table.get("step", STEP)), options)
+        step = float(table.get("step", STEP))
+        estimator = None
+        if "estimator" in table:
+            estimator = read_estimator(table["estimator"], model, step, "estimator")
+        closed = ClosedLoop(controller, step, options, estimator)
         closed.make(model)
     return closed
 

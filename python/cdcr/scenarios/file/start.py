@@ -15,7 +15,7 @@ from typing import Any
 from cdcr.base.arrays import FloatArray
 from cdcr.files.toml import refuse, schema_errors
 from cdcr.model.model import Model
-from cdcr.model.statics import ConvergenceError
+from cdcr.model.statics import ConvergenceError, checked_equilibrium
 from cdcr.scenarios.file.values import coordinates, error_prefix, length_errors, rival_errors
 
 _SHAPE = ("q", "theta", "theta_deg", "phi", "phi_deg")
@@ -54,7 +54,8 @@ class Rest:
         """Return the coordinates (d,) of rest."""
         loaded = carrying(model, self.payload)
         try:
-            return tuple(loaded.equilibrium(self.command(model), self.guess).tolist())
+            found = loaded.equilibrium(self.command(model), self.guess, throw=False)
+            return tuple(checked_equilibrium(found).tolist())
         except ConvergenceError as error:
             raise ValueError(f"{self.where}: initial.equilibrium: {error}") from None
 

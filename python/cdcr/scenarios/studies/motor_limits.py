@@ -10,7 +10,8 @@ import numpy as np
 from cdcr.model.coordinates import bending
 from cdcr.model.model import Model
 from cdcr.robots import amouri2020
-from cdcr.runs.loop import Actuator, Loop
+from cdcr.runs.loop import Loop
+from cdcr.runs.parts import Actuator
 from cdcr.runs.pid import Pid
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.metrics import Metric, run_metrics

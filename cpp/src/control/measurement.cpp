@@ -1,0 +1,101 @@
+#include "control/measurement.hpp"
+
+#include <cmath>
+
+#include "base/rotation.hpp"
+#include "base/sizes.hpp"
+#include "cdcr/cables.hpp"
+#include "cdcr/kinematics.hpp"
+
+namespace cdcr::detail {
+namespace {
+
+/// The bending there over the length, cpp/rods.md eq. (51).
+double curvature(const Model& model, const Place& place, const ConstVectorRef& q,
+                 Index axis) noexcept {
+  const Section& section = model.robot().sections[static_cast<std::size_t>(place.section)];
+  const Index first = model.first_coordinate(place.section) + axis;
+  double sum = 0.0;
+  legendre_at(place.fraction, section.bending_order,
+              [&](int j, double legendre) { sum += legendre * q[first + Index{2} * j]; });
+  return sum / section.length;
+}
+
+}  // namespace
+
+Index measurement_size(const Model& model, const Sensor& sensor) {
+  switch (sensor.kind) {
+    case Sensor::Kind::lengths:
+    case Sensor::Kind::tensions:
+      return model.num_cables();
+    case Sensor::Kind::tip:
+    case Sensor::Kind::orientation:
+      return 3;
+    case Sensor::Kind::curvature:
+      return 2 * static_cast<Index>(sensor.places.size());
+    default:
+      return model.num_coordinates();
+  }
+}
+
+void require_sensor(const Model& model, const Sensor& sensor) {
+  require_not_negative("noise of a sensor", sensor.noise, "in the unit of its values");
+  require(std::isfinite(sensor.bias), "bias of a sensor must be finite, got ", sensor.bias);
+  require(sensor.kind != Sensor::Kind::curvature || !sensor.places.empty(),
+          "a sensor of curvature needs places");
+  for (const Place& place : sensor.places) {
+    require(is_section(model, place.section) && is_fraction(place.fraction),
+            "places of a sensor must be sections 0 to ", model.num_sections() - 1,
+            " and fractions 0 to 1, got section ", place.section, " and fraction ", place.fraction);
+  }
+}
+
+void measure(const Model& model, const Sensor& sensor, const ConstVectorRef& q,
+             const ConstVectorRef& qd, const ConstVectorRef& command, VectorRef out) noexcept {
+  switch (sensor.kind) {
+    case Sensor::Kind::coordinates:
+      out = q;
+      return;
+    case Sensor::Kind::rates:
+      out = qd;
+      return;
+    case Sensor::Kind::lengths:
+      cable_lengths(model, q, out);
+      return;
+    case Sensor::Kind::tensions:
+      cable_tensions(model, q, qd, command, out);
+      return;
+    case Sensor::Kind::tip:
+      out = tip(model, q).p;
+      return;
+    case Sensor::Kind::orientation:
+      out = rotation_vector(tip(model, q).R);
+      return;
+    case Sensor::Kind::curvature:
+      for (Index i = 0; i < out.size(); ++i) {
+        out[i] = curvature(model, sensor.places[static_cast<std::size_t>(i / 2)], q, i % 2);
+      }
+      return;
+  }
+}
+
+void add_error(Sensor::Kind kind, const ConstVectorRef& error, VectorRef value) noexcept {
+  if (kind == Sensor::Kind::orientation) {
+    const Matrix3d R = rotation_of(value), turn = rotation_of(error);
+    value = rotation_vector(R * turn);
+  } else {
+    value += error;
+  }
+}
+
+void find_error(Sensor::Kind kind, const ConstVectorRef& told, const ConstVectorRef& expected,
+                VectorRef error) noexcept {
+  if (kind == Sensor::Kind::orientation) {
+    const Matrix3d R = rotation_of(expected), to = rotation_of(told);
+    error = rotation_vector(R.transpose() * to);
+  } else {
+    error = told - expected;
+  }
+}
+
+}  // namespace cdcr::detail

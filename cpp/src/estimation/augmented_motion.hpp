@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <optional>
+#include <vector>
+
+#include "cdcr/model.hpp"
+#include "cdcr/wrench.hpp"
+#include "integration/rk4.hpp"
+
+namespace cdcr::detail {
+
+/// How the state that filters estimate moves: x = (q, qd, f, s), a force f at a place (3) and
+/// shares s of variants, those of the two that there are, which stay; cpp/estimation.md eqs. (94),
+/// (95). Real-time safe after construction.
+class AugmentedMotion {
+ public:
+  AugmentedMotion(const Model& model, const std::vector<Model>& variants,
+                  const std::optional<Place>& force_at, double period, int substeps);
+
+  [[nodiscard]] Index size() const noexcept { return 2 * d_ + num_forces() + num_shares(); }
+  [[nodiscard]] Index num_forces() const noexcept { return static_cast<Index>(3 * force_.size()); }
+  [[nodiscard]] Index num_shares() const noexcept { return static_cast<Index>(models_.size()) - 1; }
+  [[nodiscard]] const Model& model() const noexcept { return models_.front(); }
+
+  /// d(qd)/dt.
+  void accelerate(const ConstVectorRef& x, const VectorXd& command, VectorRef qdd) noexcept;
+  /// A period on, by Runge-Kutta.
+  void advance(const VectorXd& x, const VectorXd& command, VectorXd& next) noexcept;
+  /// How the accelerations change with x (d, size).
+  void slopes(const VectorXd& x, const VectorXd& command, MatrixXd& out) noexcept;
+
+ private:
+  [[nodiscard]] double weight(std::size_t k, const ConstVectorRef& shares) const noexcept;
+  void set_mass(const ConstVectorRef& q, const ConstVectorRef& shares) noexcept;
+  void set_unbalanced(std::size_t k, const ConstVectorRef& q, const ConstVectorRef& qd,
+                      const VectorXd& command) noexcept;
+
+  std::vector<Model> models_;  // the filter's own, then the variants
+  std::vector<Data> data_;
+  Index d_;
+  double step_;
+  int substeps_;
+  Wrenches force_;  // one or none
+  Rk4Stages stages_;
+  VectorXd between_, qdd_, bias_, unbalanced_, added_;
+  MatrixXd M_, own_, A_;
+  Eigen::LLT<MatrixXd> llt_;
+};
+
+}  // namespace cdcr::detail

@@ -1,0 +1,245 @@
+#include "statics/slow_step.hpp"
+
+#include <cmath>
+
+#include "cdcr/dynamics.hpp"
+#include "cdcr/statics.hpp"
+#include "dynamics/bending.hpp"
+#include "loads/force_derivatives.hpp"
+#include "loads/wrench_force.hpp"
+
+namespace cdcr::detail {
+namespace {
+
+constexpr int max_iterations = 40;
+// Steps after which the curvature of the energy is computed anew.
+constexpr int keep_curvature = 3;
+// Places looked at along a step, and the share of the slope that may remain.
+constexpr int max_searches = 6;
+constexpr double kept_slope = 0.8;
+// Out of balance over its rounding that a search may be left with.
+constexpr double stalled_by = 1e3;
+// [rad], of one section.
+constexpr double longest_step = 0.5;
+// Stiffness of a cable that sticks, over that of the robot which it bends, where none is given.
+constexpr double sticks_by = 2e2;
+// Out of balance over the size of the forces in it: rounding, with a margin.
+constexpr double smooth = 2e-15, sticky = 2e-15;
+
+}  // namespace
+
+SlowStep::SlowStep(const Model& model, const Wrenches& wrenches)
+    : model_(model), wrenches_(wrenches), data_(model), stick_(model.robot().presliding_stiffness) {
+  const Index d = model.num_coordinates(), m = model.num_cables();
+  if (!(stick_ > 0.0)) {
+    double nearest = HUGE_VAL;
+    for (Index j = 0; j < m; ++j) {
+      nearest = std::fmin(nearest, model.actuation_matrix().col(j).lpNorm<Eigen::Infinity>());
+    }
+    if (m > 0) stick_ = sticks_by * model.stiffness().maxCoeff() / (nearest * nearest);
+  }
+  q_ = trial_ = moved_ = moved_from_ = r_ = step_ = size_ = VectorXd::Zero(d);
+  command_ = deflection_ = tension_ = friction_ = end_tension_ = new_deflection_ =
+      VectorXd::Zero(m);
+  sliding_.assign(static_cast<std::size_t>(m), Sliding::sticks);
+  H_ = K_ = MatrixXd::Zero(d, d);
+  lu_ = Eigen::PartialPivLU<MatrixXd>(d);
+}
+
+void SlowStep::reset(const VectorXd& q, const VectorXd& deflection) {
+  q_ = q;
+  deflection_ = deflection;
+}
+
+/// Of the backbone, its weight and wrenches; of rods that of cables that slide freely too.
+void SlowStep::set_curvature(const VectorXd& q) noexcept {
+  if (model_.has_rods()) return static_stiffness(model_, data_, q, command_, wrenches_, H_);
+  potential_hessian(model_, data_, q, H_);
+  subtract_wrench_stiffness(model_, q, wrenches_, H_);
+}
+
+void SlowStep::balance(const VectorXd& q, Wanted wanted) noexcept {
+  potential_gradient(model_, data_, q, r_);
+  size_ = r_.cwiseAbs();
+  if (!wrenches_.empty()) {
+    data_.force.setZero();
+    add_wrench_force(model_, q, wrenches_, data_.force);
+    r_ -= data_.force;
+    size_ += data_.force.cwiseAbs();
+  }
+  if (wanted != Wanted::force) K_ = H_;
+  sticking_ = 0.0;
+  moved_ = q - q_;
+  CableGeometry<double> geometry(model_, q.data());
+  for (Index j = 0; j < model_.num_cables(); ++j) {
+    geometry.set_cable(j);
+    add_cable(geometry, j, q, wanted);
+  }
+}
+
+/// The return mapping of one cable, eq. (114).
+void SlowStep::add_cable(CableGeometry<double>& at, Index j, const VectorXd& q,
+                         Wanted wanted) noexcept {
+  const Cable& cable = model_.cables()[static_cast<std::size_t>(j)];
+  double tension = command_[j], lever = 0.0;
+  const Index last = model_.first_coordinate(at.last() + 1);
+  for (Index i = 0; i < last; ++i) lever = std::fmax(lever, std::abs(at.column()[i]));
+  if (cable.length_driven()) {
+    tension =
+        std::fmax(0.0, cable.stiffness * (at.length() - command_[j] - model_.slack_offset()[j]));
+    size_.array() += cable.stiffness * at.length() * lever;
+  }
+  FrictionProfile<double> profile(tension, cable.entry_friction, model_.sheath_decay()[j],
+                                  at.factors(), at.first(), at.last());
+  Sliding way = Sliding::sticks;
+  double friction = 0.0;
+  if (profile.most_out() > 0.0) {
+    profile.set_friction(limited(stick_ * deflection_[j], profile.most_in(), profile.most_out()));
+    double slid = 0.0;
+    for (int k = at.first(); k <= at.last(); ++k) {
+      slid += profile.share(k) * at.pulled_in(k, moved_.data());
+    }
+    const double asked = stick_ * (deflection_[j] + slid);
+    friction = limited(asked, profile.most_in(), profile.most_out());
+    if (asked >= profile.most_in()) way = Sliding::pulled_in;
+    if (asked <= -profile.most_out()) way = Sliding::paid_out;
+    profile.set_friction(friction);
+    if (way == Sliding::sticks) {
+      sticking_ = std::fmax(sticking_, stick_ * lever * lever * q.lpNorm<Eigen::Infinity>());
+    }
+  }
+  for (int k = at.first(); k <= at.last(); ++k) {
+    const double mean = profile.mean(k);
+    for (Index i = model_.first_coordinate(k); i < model_.first_coordinate(k + 1); ++i) {
+      const double pull = at.column()[i] * mean;
+      r_[i] -= pull;
+      size_[i] += std::abs(pull);
+    }
+  }
+  tension_[j] = tension;
+  friction_[j] = friction;
+  end_tension_[j] = profile.end();
+  new_deflection_[j] = profile.most_out() > 0.0 ? friction / stick_ : 0.0;
+  sliding_[static_cast<std::size_t>(j)] = way;
+  if (wanted == Wanted::force) return;
+  if (wanted == Wanted::free && way == Sliding::sticks) {
+    way = friction < 0.0 ? Sliding::paid_out : Sliding::pulled_in;
+  }
+  add_stiffness(at, j, q, profile, cable.length_driven() && tension > 0.0, way);
+}
+
+/// Takes the derivative of a cable's force from K, eq. (115).
+void SlowStep::add_stiffness(const CableGeometry<double>& at, Index j, const VectorXd& q,
+                             const FrictionProfile<double>& profile, bool taut,
+                             Sliding way) noexcept {
+  const Cable& cable = model_.cables()[static_cast<std::size_t>(j)];
+  const double* b = at.column();
+  const Index begin = model_.first_coordinate(at.first()),
+              end = model_.first_coordinate(at.last() + 1);
+  const bool sticks = way == Sliding::sticks && profile.most_out() > 0.0;
+  const double F = tension_[j];
+  double through = 1.0;  // d(mean tension)/dF, relative
+  if (!sticks && F > 0.0 && profile.most_out() > 0.0) {
+    const double e = cable.entry_friction;
+    const bool in = way == Sliding::pulled_in;
+    through = in ? (F > e ? F / (F - e) : 0.0) : F / (F + e);
+  }
+  for (int k = at.first(); k <= at.last(); ++k) {
+    const double mean = profile.mean(k), share = profile.share(k);
+    const double on_F = taut && !model_.has_rods()
+                            ? cable.stiffness * (sticks    ? 1.0
+                                                 : F > 0.0 ? through * mean / F
+                                                           : 1.0)
+                            : 0.0;
+    for (Index i = model_.first_coordinate(k); i < model_.first_coordinate(k + 1); ++i) {
+      for (Index l = begin; l < end; ++l) K_(i, l) += b[i] * on_F * b[l];
+    }
+    if (sticks) {
+      for (int other = at.first(); other <= at.last(); ++other) {
+        const double both = stick_ * share * profile.share(other);
+        for (Index l = model_.first_coordinate(other); l < model_.first_coordinate(other + 1);
+             ++l) {
+          for (Index i = model_.first_coordinate(k); i < model_.first_coordinate(k + 1); ++i) {
+            K_(i, l) += b[i] * both * b[l];
+          }
+        }
+      }
+      continue;
+    }
+    if (model_.has_rods() || !(profile.most_out() > 0.0)) continue;
+    // Turns: what lies before and half of the section's own, of a tension that falls evenly.
+    const double sign = way == Sliding::pulled_in ? 1.0 : -1.0;
+    for (int other = at.first(); other <= k; ++other) {
+      const double mu = model_.friction()(other, j), turn = at.turn(other);
+      if (!(mu > 0.0 && turn > 0.0)) continue;
+      const double falls = sign * mu * mean * (other == k ? 0.5 : 1.0) / turn;
+      const Index first = model_.first_coordinate(other);
+      for (Index l = first; l < first + 2; ++l) {
+        for (Index i = model_.first_coordinate(k); i < model_.first_coordinate(k + 1); ++i) {
+          K_(i, l) += b[i] * falls * q[l];
+        }
+      }
+    }
+  }
+}
+
+double SlowStep::tolerance() const noexcept {
+  return smooth * size_.maxCoeff() + sticky * sticking_;
+}
+
+/// Goes along the step until what is out of balance along it has become small: where cables stick
+/// and slide that is nearly the slope of an energy, which is convex, so this always ends.
+void SlowStep::search_along_step() noexcept {
+  const double before = r_.dot(step_);
+  double low = 0.0, slope_low = before, high = 0.0, slope_high = 0.0, at = 1.0;
+  moved_from_ = trial_;
+  for (int i = 0;; ++i) {
+    trial_ = moved_from_ - at * step_;
+    balance(trial_, Wanted::held);
+    const double slope = r_.dot(step_);
+    if (std::abs(slope) <= kept_slope * std::abs(before) || i == max_searches) return;
+    if (slope * before > 0.0) {
+      if (high == 0.0) return;  // the next step goes on
+      low = at;
+      slope_low = slope;
+    } else {
+      high = at;
+      slope_high = slope;
+    }
+    // The secant, kept off both ends.
+    const double secant = slope_low / (slope_low - slope_high);
+    at = low + (high - low) * std::fmin(0.9, std::fmax(0.1, secant));
+  }
+}
+
+bool SlowStep::step(const VectorXd& command, const VectorXd* near) noexcept {
+  command_ = command;
+  trial_ = near == nullptr ? q_ : *near;
+  set_curvature(trial_);
+  balance(trial_, near == nullptr ? Wanted::free : Wanted::held);
+  double out = r_.lpNorm<Eigen::Infinity>();
+  int stalled = 0;
+  for (int i = 0; i < max_iterations && out > tolerance(); ++i) {
+    ++iterations_;
+    lu_.compute(K_);
+    step_ = lu_.solve(r_);
+    const double longest = largest_bending(model_, step_);
+    if (!(longest < HUGE_VAL)) return false;
+    if (longest > longest_step) step_ *= longest_step / longest;
+    if (i > 0 && i % keep_curvature == 0) set_curvature(trial_);
+    search_along_step();
+    const double now = r_.lpNorm<Eigen::Infinity>();
+    // Rounding, of cables that stick above all, lets it come no nearer.
+    stalled = now < 0.5 * out ? 0 : stalled + 1;
+    out = now;
+    if (stalled >= 3 && out <= stalled_by * tolerance()) break;
+  }
+  if (!(out <= stalled_by * tolerance()) || !(largest_bending(model_, trial_) <= max_bending)) {
+    return false;
+  }
+  q_ = trial_;
+  deflection_ = new_deflection_;
+  return true;
+}
+
+}  // namespace cdcr::detail

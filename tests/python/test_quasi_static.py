@@ -1,0 +1,130 @@
+"""Rest with a history from Python: what it returns, refuses, and what friction in motion keeps."""
+
+from __future__ import annotations
+
+import pickle
+import warnings
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import cdcr
+
+SAME = 1e-9  # [rad]: two searches for one rest
+
+
+def rubbing(mu: float = 0.3, **fields: Any) -> cdcr.Robot:
+    robot = cdcr.robots.amouri2020(damping=0.05)
+    section = replace(robot.sections[0], cable_friction=mu)
+    return replace(robot, sections=(section,), **fields)
+
+
+def pulls(*tensions: float) -> Any:
+    return np.array([[one, 0.0, 0.0] for one in tensions])
+
+
+def test_without_friction_it_is_the_equilibrium() -> None:
+    model = cdcr.Model(cdcr.robots.three_sections())
+    command = np.random.default_rng(1).uniform(0.0, 4.0, (20, 9))
+    run = cdcr.quasi_static(model, command)
+    assert len(run) == 20
+    assert run.status is cdcr.Status.ok
+    for q, one in zip(run.q, command, strict=True):
+        np.testing.assert_allclose(q, model.equilibrium(one, q), rtol=0.0, atol=SAME)
+    np.testing.assert_array_equal(run.tension, run.end_tension)
+    np.testing.assert_allclose(run.tip, model.tips(run.q))
+
+
+def test_it_goes_on_after_another_run() -> None:
+    model = cdcr.Model(rubbing())
+    whole = cdcr.quasi_static(model, pulls(0.0, 8.0, 4.0, 6.0, 7.0))
+    first = cdcr.quasi_static(model, pulls(0.0, 8.0, 4.0))
+    rest = cdcr.quasi_static(model, pulls(6.0, 7.0), after=first)
+    np.testing.assert_allclose(rest.q, whole.q[3:], rtol=0.0, atol=SAME)
+    assert whole.sliding[:, 0].tolist() == [0, 1, -1, 1, 1]
+    np.testing.assert_allclose(whole.friction, whole.tension - whole.end_tension, atol=1e-12)
+    copy = pickle.loads(pickle.dumps(whole))
+    np.testing.assert_array_equal(copy.q, whole.q)
+    assert not copy.q.flags.writeable
+    assert repr(whole) == "<QuasiStatic: 5 samples, status ok>"
+
+
+def test_it_says_what_it_does_not_take() -> None:
+    model = cdcr.Model(rubbing())
+    with pytest.raises(ValueError, match="commands must have shape"):
+        cdcr.quasi_static(model, [[1.0, 2.0]])
+    with pytest.raises(ValueError, match="give either q0 or after, not both"):
+        cdcr.quasi_static(
+            model, pulls(1.0), q0=[0.0, 0.0], after=cdcr.quasi_static(model, pulls(0.0))
+        )
+    with pytest.raises(cdcr.ConvergenceError, match="Stopped before sample 2 of 2"):
+        cdcr.quasi_static(model, pulls(1.0, 5e3))
+    run = cdcr.quasi_static(model, pulls(1.0, 5e3), throw=False)
+    assert len(run) == 1
+    assert run.status is cdcr.Status.not_converged
+
+
+def test_equilibrium_warns_that_friction_is_left_out() -> None:
+    model = cdcr.Model(rubbing())
+    with pytest.warns(UserWarning, match="equilibrium leaves out the friction of the cables"):
+        model.equilibrium([1.0, 0.0, 0.0])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert model.equilibrium([1.0, 0.0, 0.0], throw=False).friction_left_out
+        cdcr.Model(rubbing(0.0)).equilibrium([1.0, 0.0, 0.0])
+
+
+def test_fields_of_friction_stand_in_files(tmp_path: Path) -> None:
+    section = replace(
+        rubbing().sections[0], cable_stiffness=1e4, cable_entry_friction=0.5,
+        cable_sheath_friction=0.1, cable_viscosity=2.0, cable_pretension=3.0, cable_backlash=1e-4,
+    )  # fmt: skip
+    cable = cdcr.Cable(radius=0.01, angle=1.0, end_section=0, entry_friction=0.25)
+    robot = replace(rubbing(presliding_stiffness=1e4), sections=(section,), cables=(cable,))
+    robot.save(tmp_path / "robot.toml")
+    assert cdcr.Robot.load(tmp_path / "robot.toml") == robot
+    assert robot.all_cables[0].pretension == 3.0
+    assert robot.subdivide(3).all_cables[0].backlash == 1e-4
+    with pytest.raises(ValueError, match="cable_backlash must be 0 m where the stiffness is 0"):
+        replace(section, cable_stiffness=0.0, cable_pretension=0.0)
+    with pytest.raises(ValueError, match="cable 1 of cables: entry_friction must be >= 0 N"):
+        replace(robot, cables=(replace(cable, entry_friction=-1.0),))
+    with pytest.raises(ValueError, match="presliding_stiffness must be >= 0 N/m"):
+        replace(robot, presliding_stiffness=-1.0)
+
+
+@pytest.mark.parametrize("method", ["rk4", "dopri5", "bdf"])
+def test_motion_remembers_by_every_method(method: Any) -> None:
+    model = cdcr.Model(rubbing(presliding_stiffness=2e4))
+    table = cdcr.TensionTable([0.0, 10.0, 20.0], pulls(0.0, 10.0, 3.0))
+    options: dict[str, Any] = {"step": 2e-3} if method == "rk4" else {"rtol": 1e-7, "atol": 1e-9}
+    run = cdcr.simulate(model, [0, 0], [0, 0], t=np.linspace(0, 25, 51), tension=table,
+                        method=method, **options)  # fmt: skip
+    assert run.success
+    assert run.deflection is not None
+    assert run.deflection.shape == (51, 3)
+    assert np.min(run.friction_power) >= -1e-12
+    rest = cdcr.quasi_static(model, run.command)
+    assert np.max(np.abs(rest.q - run.q)) < 0.03
+
+
+def test_a_drive_with_play_takes_no_function() -> None:
+    robot = rubbing()
+    section = replace(robot.sections[0], cable_stiffness=1e4, cable_backlash=1e-3)
+    model = cdcr.Model(replace(robot, sections=(section,)))
+    with pytest.raises(ValueError, match="a drive with backlash takes tables and constants"):
+        cdcr.simulate(model, [0, 0], [0, 0], t=[0.0, 1.0], command=lambda t, q, qd: [0.8] * 3)
+
+
+def test_poses_with_a_history_find_friction() -> None:
+    known = rubbing(0.25)
+    rng = np.random.default_rng(2)
+    command = rng.uniform(0.5, 8.0, (60, 3))
+    tip = cdcr.quasi_static(cdcr.Model(known), command).tip + rng.normal(0.0, 1e-5, (60, 3))
+    poses = cdcr.identification.Poses(command, tip=tip, history=True)
+    found = cdcr.identify(poses, rubbing(0.1), {"sections[0].cable_friction": None})
+    assert found["sections[0].cable_friction"] == pytest.approx(0.25, abs=2e-3)
+    assert found.cross_validate(3).held_out["poses: tip"] < 4e-5
