@@ -54,7 +54,7 @@ class MomentumObserver : public Estimator {
  private:
   void observe(const ConstVectorRef& q, const ConstVectorRef& qd) noexcept;
   void set_drift(const ConstVectorRef& q, const ConstVectorRef& qd, VectorRef drift) noexcept;
-  void set_force(const ConstVectorRef& q) noexcept;
+  void set_force(const Place& at, const ConstVectorRef& q) noexcept;
   [[nodiscard]] Index num_own() const noexcept {
     return residual_.size() + (options_.force_at ? 3 : 0);
   }
@@ -65,7 +65,7 @@ class MomentumObserver : public Estimator {
   Estimator* states_;
   Index num_others_;
   Actuators actuators_;
-  double damping_ = 0.0;  // [m/rad]
+  double damping_ = 0.0;                // [m/rad]
   bool set_ = false, started_ = false;  // reset, and updated since
   VectorXd q_, qd_, momentum_, drift_;  // of the update before
   VectorXd residual_, next_momentum_, next_drift_, cables_, near_, tension_;

@@ -109,8 +109,7 @@ void MomentumObserver::observe(const ConstVectorRef& q, const ConstVectorRef& qd
 
 /// force_: J^T force nearest to the residual, no eigenvalue of J J^T below the squared damping, eq.
 /// (104).
-void MomentumObserver::set_force(const ConstVectorRef& q) noexcept {
-  const Place& at = *options_.force_at;
+void MomentumObserver::set_force(const Place& at, const ConstVectorRef& q) noexcept {
   jacobian(model_, q, at.section, at.fraction, J_);
   const auto J = J_.topRows<3>();
   const Matrix3d normal = J * J.transpose();
@@ -140,7 +139,7 @@ Status MomentumObserver::update(double t, const std::vector<Measurement>& told,
     actuators_.step(command, tension_);
   }
   observe(q, qd);
-  if (options_.force_at) set_force(q);
+  if (options_.force_at) set_force(*options_.force_at, q);
   diagnostics_.duration =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return residual_.allFinite() ? Status::ok : Status::non_finite_state;
