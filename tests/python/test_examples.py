@@ -357,3 +357,16 @@ def test_optimal_pull(example: Example) -> None:
         ends.append(np.concatenate([second.q[-1], second.qd[-1]]))
     column = found["end"](pulls)[2][:, 1]
     np.testing.assert_allclose((ends[0] - ends[1]) / (2 * h), column, atol=1e-5)
+
+
+def test_hysteresis(example: Example) -> None:
+    found = example(32)
+    # Without friction the way back is the way there, and the equilibrium.
+    smooth, rough = found["runs"]["no friction"], found["runs"]["in the holes"]
+    shape = smooth.model.equilibrium(found["command"][70])
+    np.testing.assert_allclose(smooth.q[70], shape, rtol=0, atol=1e-9)
+    # At full sliding the last cable loses as the capstan has it, by all that it turns.
+    theta, _ = rough.model.polar(rough.q[45])
+    lost = np.exp(-0.25 * np.sum(theta))
+    assert rough.end_tension[45, 6] / rough.tension[45, 6] == pytest.approx(lost, rel=1e-9)
+    assert np.all(np.abs(smooth.friction) == 0.0)

@@ -128,3 +128,9 @@ def test_poses_with_a_history_find_friction() -> None:
     found = cdcr.identify(poses, rubbing(0.1), {"sections[0].cable_friction": None})
     assert found["sections[0].cable_friction"] == pytest.approx(0.25, abs=2e-3)
     assert found.cross_validate(3).held_out["poses: tip"] < 4e-5
+
+
+def test_an_fmu_has_no_memory(tmp_path: Path) -> None:
+    robot = rubbing(presliding_stiffness=1e4)
+    with pytest.raises(ValueError, match="an FMU keeps no memory of friction and of play"):
+        cdcr.export.write_fmu(robot, tmp_path / "robot.fmu")

@@ -180,3 +180,15 @@ def test_short_runs_are_told_and_drawn_too(name: str) -> None:
     run = scenario.simulate(t_end=0.2)
     assert scenario.summary(run)
     scenario.figure(run)
+
+
+def test_friction_that_remembers_neither_creeps_nor_leaves_its_way() -> None:
+    _, run, found = told("hysteresis")
+    assert run.success
+    assert found["creep_deg"] < 0.01 < 0.1 < found["creep_forgetting_deg"]
+    assert found["behind_deg"] < 0.01 * float(np.degrees(np.max(run.theta)))
+    # What the cable gave is stored, damped or heat of friction, of which none is negative.
+    assert np.min(run.friction_power) >= -1e-12
+    damped = run.model.robot.sections[0].damping * float(integral(np.sum(run.qd**2, axis=1), run.t))
+    gained = float(run.energy[-1] - run.energy[0])
+    assert found["work_J"] == pytest.approx(found["friction_J"] + damped + gained, rel=1e-2)

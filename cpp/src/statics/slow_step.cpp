@@ -92,10 +92,13 @@ void SlowStep::add_cable(CableGeometry<double>& at, Index j, const VectorXd& q,
   FrictionProfile<double> profile(tension, cable.entry_friction, model_.sheath_decay()[j],
                                   at.factors(), at.first(), at.last());
   Sliding way = Sliding::sticks;
-  double friction = 0.0;
-  if (profile.most_out() > 0.0) {
+  double friction = 0.0, slid = 0.0;
+  if (!(profile.most_out() > 0.0)) {
+    for (int k = at.first(); k <= at.last(); ++k) slid += at.pulled_in(k, moved_.data());
+    if (slid > 0.0) way = Sliding::pulled_in;
+    if (slid < 0.0) way = Sliding::paid_out;
+  } else {
     profile.set_friction(limited(stick_ * deflection_[j], profile.most_in(), profile.most_out()));
-    double slid = 0.0;
     for (int k = at.first(); k <= at.last(); ++k) {
       slid += profile.share(k) * at.pulled_in(k, moved_.data());
     }

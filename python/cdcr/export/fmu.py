@@ -101,6 +101,11 @@ def fmu_bytes(robot: Robot, file: Path, *, fmi: int = 3, step: float | None = No
         check.done()
     folder = _folder(fmi)
     model = Model(robot)
+    if model.num_deflections or any(cable.backlash for cable in robot.all_cables):
+        raise ValueError(
+            "an FMU keeps no memory of friction and of play: presliding_stiffness and backlash "
+            "must be 0"
+        )
     _core.Simulator(model)  # refuses a robot without inertia
     lines = list(setup_lines(robot, step))
     told = "\n".join([_core.__version__, str(fmi), *lines])

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 class QuasiStatic(ReadOnlyArrays):
     """What `quasi_static` returns: a row for each sample reached. All arrays are read-only.
 
-    Attributes
+    Parameters
     ----------
     model : Model
         The robot.
@@ -37,7 +37,7 @@ class QuasiStatic(ReadOnlyArrays):
     friction : ndarray, shape (T, num_cables)
         The difference of these: positive where a cable was last pulled in [N].
     sliding : ndarray of int, shape (T, num_cables)
-        What each cable does from the sample before: 1 is pulled in, -1 is paid out, 0 sticks.
+        What each cable does from the sample before [1]: 1 is pulled in, -1 paid out, 0 sticks.
     deflection : ndarray, shape (T, num_cables)
         Of cables against where they stick [m].
     felt : ndarray, shape (T, num_cables)
@@ -48,6 +48,15 @@ class QuasiStatic(ReadOnlyArrays):
         Anything but ``ok`` leaves the samples up to there.
     message : str
         Empty when all went well.
+
+    Examples
+    --------
+    >>> import cdcr
+    >>> run = cdcr.quasi_static(cdcr.Model(cdcr.robots.amouri2020()), [[0, 0, 0], [5, 0, 0]])
+    >>> run
+    <QuasiStatic: 2 samples, status ok>
+    >>> run.q.round(4)[1] + 0.0
+    array([0.2614, 0.    ])
     """
 
     model: Model

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 class Shown:
     """A robot that is simulated in the browser, live or recorded."""
 
-    def view(self, *, port: int = 8080, browser: bool = True) -> View:
+    def view(self, *, markers: Any = None, port: int = 8080, browser: bool = True) -> View:
         """Simulate the robot in the browser, live. Needs the extra ``view``.
 
         It begins at rest. Sliders change cables, gravity and payload; the mouse pulls the backbone.
@@ -24,6 +24,9 @@ class Shown:
 
         Parameters
         ----------
+        markers : optional
+            What was measured, shown as points: positions (k, 3) [m] in the base frame, or as in
+            `Trajectory.view`, over the time that is simulated.
         port : int, default 8080
             Where it is served, to this machine alone; 0 for any free one.
         browser : bool, default True
@@ -50,7 +53,8 @@ class Shown:
         """
         from cdcr import view
 
-        return view.show(view.Session(cast("Robot", self)), "robot", port=port, browser=browser)
+        session = view.Session(cast("Robot", self), markers=markers)
+        return view.show(session, "robot", port=port, browser=browser)
 
     def record(self, path: str | PathLike[str], *, overwrite: bool = False) -> Path:
         """Write a page on which the robot goes round in a circle once. Needs the extra ``view``.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -126,6 +126,7 @@ class Pictures:
         self,
         *,
         reference: Motion | None = None,
+        markers: Any = None,
         speed: float = 1.0,
         port: int = 8080,
         browser: bool = True,
@@ -140,6 +141,10 @@ class Pictures:
         ----------
         reference : Trajectory or Reference, optional
             What is shown beside it, faintly, at the same times.
+        markers : optional
+            What was measured, shown as points at the same times: a `cdcr.identification.Motion`, a
+            pair of times (N,) [s] and positions (N, 3) or (N, k, 3) [m] in the base frame, where
+            NaN is a gap, or positions (k, 3) that stay.
         speed : float, default 1
             Time played over real time.
         port : int, default 8080
@@ -170,7 +175,7 @@ class Pictures:
         """
         from cdcr import view
 
-        session = self._session(reference, speed)
+        session = self._session(reference, markers, speed)
         return view.show(session, "run", port=port, browser=browser)
 
     def record(
@@ -178,6 +183,7 @@ class Pictures:
         path: str | PathLike[str],
         *,
         reference: Motion | None = None,
+        markers: Any = None,
         speed: float = 1.0,
         overwrite: bool = False,
     ) -> Path:
@@ -189,7 +195,7 @@ class Pictures:
         ----------
         path : path-like
             The file, ending in ``.html``.
-        reference, speed
+        reference, markers, speed
             As in `view`.
         overwrite : bool, default False
             Whether an existing file may be replaced.
@@ -220,12 +226,18 @@ class Pictures:
         """
         from cdcr import view
 
-        return view.View(self._session(reference, speed), "run").record(path, overwrite=overwrite)
+        session = self._session(reference, markers, speed)
+        return view.View(session, "run").record(path, overwrite=overwrite)
 
-    def _session(self, reference: Motion | None, speed: float) -> Session:
+    def _session(self, reference: Motion | None, markers: Any, speed: float) -> Session:
         from cdcr import view
 
         run = self._run
         return view.Session(
-            run.model.robot, run.model.formulation, run=run, reference=reference, speed=speed
+            run.model.robot,
+            run.model.formulation,
+            run=run,
+            reference=reference,
+            markers=markers,
+            speed=speed,
         )

@@ -40,6 +40,7 @@ _FIGURES = {
     "hanging-arm": None,
     "payload-drop": None,
     "pull-release": None,
+    "hysteresis": None,
     "length-drive": None,
     "subdivision": None,
     "helical-cable": None,

@@ -8,7 +8,7 @@ import numpy as np
 
 from cdcr.base.arrays import FloatArray
 from cdcr.plotting.geometry import base_frame, base_plate
-from cdcr.plotting.style import BLACK, DISK, GREY, LIGHT_GREY
+from cdcr.plotting.style import BLACK, COLORS, DISK, GREY, LIGHT_GREY
 from cdcr.view.colors import rgb, section_rgb, shaded, tension_colors
 from cdcr.view.live import LiveModel, round_up
 from cdcr.view.placement import OVERLAP, Poses, cylinder, place, quaternion, sizes
@@ -17,7 +17,9 @@ from cdcr.view.session import TRAIL_POINTS, Moment
 LINE, TRAIL_LINE = 2.5, 2.0  # of cables and of the trail [px]
 GHOST = 0.3  # opacity of the reference
 FRAME, ARROW = 0.07, 0.012  # length of axes and width of the arrow over the robot's length
+MARKER = 0.03  # diameter of a measured marker over the robot's length
 BACKGROUND, TRAIL_COLOR, PULL_COLOR = (255, 255, 255), GREY, BLACK
+MARKER_COLOR = COLORS[3]
 CELLS = 8  # of the grid on the floor, over the robot's length
 
 
@@ -90,6 +92,16 @@ class Drawing:
             head_length=3 * ARROW * length,
             visible=False,
         )
+        self.markers: Any = None
+        if moment.markers is not None:
+            self.markers = scene.add_point_cloud(
+                "/markers",
+                moment.markers.astype(np.float32),
+                rgb(MARKER_COLOR),
+                point_size=MARKER * length,
+                point_shape="circle",
+                precision="float32",
+            )
         self.ghost: list[Any] = []
         if moment.reference is not None:
             faint = {**solid, "opacity": GHOST}
@@ -129,6 +141,8 @@ class Drawing:
             self.cables.points = at.cables.astype(np.float32)
             self.cables.colors = shaded(np.repeat(colors[:, None], 2, axis=1))
         self.trail.points = _pieces(trail).astype(np.float32)
+        if moment.markers is not None:
+            self.markers.points = moment.markers.astype(np.float32)
         if moment.reference is not None:
             there = place(model, moment.reference)
             for handle, poses in zip(self.ghost, (there.backbone, there.disks), strict=True):

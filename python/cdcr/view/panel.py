@@ -149,6 +149,7 @@ class Panel:
             "frames": [drawing.frames],
             "path of the tip": [drawing.trail],
             "reference": drawing.ghost,
+            "markers measured": [drawing.markers],
         }
         for name, handles in parts.items():
             if shown := [handle for handle in handles if handle is not None]:

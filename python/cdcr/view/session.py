@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from cdcr.base.arrays import FloatArray
 from cdcr.base.check import Check, count, format_value
 from cdcr.plotting.geometry import Motion, states_at
 from cdcr.view.live import LiveModel, LiveRobot, Pull, command_ranges, first_damping, round_up
+from cdcr.view.markers import Markers
 
 if TYPE_CHECKING:
     from cdcr.robot.robot import Robot
@@ -32,6 +33,7 @@ class Moment(NamedTuple):
     q: FloatArray  # (d,)
     tension: FloatArray  # (num_cables,) [N]
     reference: FloatArray | None = None  # (d,)
+    markers: FloatArray | None = None  # (k, 3) [m]
 
 
 class Session:
@@ -47,6 +49,8 @@ class Session:
         The run to play; without one the robot is simulated.
     reference : Trajectory or Reference, optional
         What is shown beside it: anything with times `t`, states `q` and rates `qd`.
+    markers : optional
+        What was measured, shown beside it; as `Markers` takes it.
     speed : float, default 1
         Time simulated or played over real time.
     """
@@ -58,12 +62,14 @@ class Session:
         *,
         run: Trajectory | None = None,
         reference: Motion | None = None,
+        markers: Any = None,
         speed: float = 1.0,
     ) -> None:
         check = Check()
         self.speed = check.number("speed", speed, "a number > 0 and finite", above=0.0)
         check.done()
         self.run, self.reference = run, reference
+        self.markers = None if markers is None else Markers(markers)
         self.playing, self.time = True, 0.0 if run is None else float(run.t[0])
         self.refusal = ""  # of what was asked last
         self._robot, self._formulation = robot, formulation
@@ -266,7 +272,7 @@ class Session:
         assert self.run is not None
         q = states_at(self.run, np.array([self.time]))[0]
         tension = self.run.tension[self._sample(self.time)]
-        return Moment(self.time, q, tension, self._reference(self.time))
+        return Moment(self.time, q, tension, *self._beside(self.time))
 
     def trail(self) -> FloatArray:
         """Return where the tip was lately (TRAIL_POINTS, 3), oldest first [m]."""
@@ -283,7 +289,7 @@ class Session:
     def _latest(self) -> Moment:
         assert self.live is not None
         live = self.live
-        return Moment(live.time, live.q, live.tension, self._reference(live.time))
+        return Moment(live.time, live.q, live.tension, *self._beside(live.time))
 
     def _keep(self) -> None:
         self._kept.append(self._latest)
@@ -297,6 +303,10 @@ class Session:
         """Return which sample of the run holds at a time."""
         assert self.run is not None
         return max(0, int(np.searchsorted(self.run.t, time, side="right")) - 1)
+
+    def _beside(self, time: float) -> tuple[FloatArray | None, FloatArray | None]:
+        """Return reference and markers at a time."""
+        return self._reference(time), None if self.markers is None else self.markers.at(time)
 
     def _reference(self, time: float) -> FloatArray | None:
         if self.reference is None:
