@@ -134,3 +134,24 @@ def test_an_fmu_has_no_memory(tmp_path: Path) -> None:
     robot = rubbing(presliding_stiffness=1e4)
     with pytest.raises(ValueError, match="an FMU keeps no memory of friction and of play"):
         cdcr.export.write_fmu(robot, tmp_path / "robot.fmu")
+
+
+@pytest.mark.parametrize("presliding_stiffness", [0.0, 2e4])
+def test_bdf_goes_past_the_turns_of_drives_that_rub(presliding_stiffness: float) -> None:
+    # Triangles of three lengths under much friction, which turns over a range of 10 um/s.
+    robot = cdcr.robots.three_sections()
+    sections = [
+        replace(one, cable_stiffness=2e4, cable_damping=20.0, cable_friction=0.7)
+        for one in robot.sections
+    ]
+    robot = replace(
+        robot, sections=tuple(sections), sliding_speed=1e-5,
+        presliding_stiffness=presliding_stiffness,
+    )  # fmt: skip
+    model = cdcr.Model(robot)
+    lengths = np.tile(model.rest_command() - 1e-4, (4, 1))
+    lengths[1::2, [0, 4]] -= [4e-3, 3e-3]
+    table = cdcr.TensionTable([0.0, 4.0, 8.0, 12.0], lengths)
+    run = cdcr.simulate(model, np.zeros(6), np.zeros(6), t=[0.0, 12.0], command=table, method="bdf")
+    assert run.success
+    assert run.t[-1] == 12.0
