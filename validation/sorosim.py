@@ -113,8 +113,11 @@ def section(rod: Rod, beta: float, length: float, **kind: int) -> cdcr.Section:
     )
 
 
-def run(path: Path, kind: tuple[int, int] | int) -> Found:
-    """Run a rod of orders of bending and twist, or arcs in that many parts, beside a release."""
+def moved(path: Path, kind: tuple[int, int] | int) -> tuple[Release, cdcr.Trajectory, float]:
+    """Let go a rod of orders of bending and twist, or arcs in that many parts, as a release says.
+
+    Returned are also seconds of the processor.
+    """
     parts = kind if isinstance(kind, int) else 1
     middle = (parts // 2 - 1, 1.0) if parts > 1 else (0, 0.5)
     told = read(path, middle, parts - 1)
@@ -124,11 +127,17 @@ def run(path: Path, kind: tuple[int, int] | int) -> Found:
         model = cdcr.Model(cdcr.Robot(sections=[piece] * parts, gravity=told.gravity))
         q0 = model.equilibrium(wrenches=told.wrenches)
         qd0 = np.zeros(model.num_coordinates)
-        moved = cdcr.simulate(model, q0, qd0, t=told.t, rtol=RTOL, atol=0.01 * RTOL, throw=True)
+        run = cdcr.simulate(model, q0, qd0, t=told.t, rtol=RTOL, atol=0.01 * RTOL, throw=True)
+    return told, run, spent[0]
+
+
+def beside(path: Path, kind: tuple[int, int] | int) -> Found:
+    """Set a model beside a release."""
+    told, run, seconds = moved(path, kind)
     early = told.t <= COMPARED
-    R, p = model.tip(moved.q[early])
+    R, p = run.model.tip(run.q[early])
     angle = angle_between(R, told.turned[early])
-    return Found(rms(p - told.tip[early]), angle, spent[0], model.num_coordinates)
+    return Found(rms(p - told.tip[early]), angle, seconds, run.model.num_coordinates)
 
 
 def rows(paths: list[Path], parts: int, order: int, twist: int = 1) -> list[Row]:
@@ -145,7 +154,7 @@ def rows(paths: list[Path], parts: int, order: int, twist: int = 1) -> list[Row]
     for rod in (TPU, STEEL):
         chosen = [file for file in files if file.name.startswith("TPU") == (rod is TPU)]
         for name, kind in kinds.items() if chosen else ():
-            every = [run(file, kind) for file in chosen]
+            every = [beside(file, kind) for file in chosen]
             error, angle = (float(np.sqrt(np.mean([one[k] ** 2 for one in every]))) for k in (0, 1))
             slowest = max(one.seconds for one in every)
             print(

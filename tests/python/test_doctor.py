@@ -18,7 +18,7 @@ from rich.console import Console
 from cdcr.cli import doctor, self_test
 from command import cdcr_
 
-DATA = Path(__file__).parents[1] / "data" / "dynamics_cases.json"
+DATA = Path(__file__).parents[1] / "data"
 MARGIN = 0.1  # of the tolerances, that residuals keep
 
 
@@ -39,8 +39,12 @@ def test_all_is_well_with_margin(told: dict[str, Any]) -> None:
 
 def test_the_stored_numbers_are_those_of_the_independent_model() -> None:
     stored = json.loads(Path(self_test.__file__).with_suffix(".json").read_text(encoding="utf-8"))
-    known = json.loads(DATA.read_text(encoding="utf-8"))
-    assert [len(case["sections"]) for case in stored] == [1, 3]
+    known = [
+        case
+        for name in ("dynamics_cases.json", "general_sections.json")
+        for case in json.loads((DATA / name).read_text(encoding="utf-8"))
+    ]
+    assert [len(case["sections"]) for case in stored] == [1, 3, 2]
     for case in stored:
         assert any(case.items() <= other.items() for other in known)
 
@@ -102,5 +106,5 @@ def test_the_self_test_notices_a_library_that_computes_otherwise(
         return original(self, *arguments) * (1.0 + 1e-7)
 
     monkeypatch.setattr(cdcr.Model, "forward_dynamics", slightly_off)
-    outcomes = islice(self_test.self_test(pictures=False, netcdf=False), 3)
-    assert [one.ok for one in outcomes] == [False, False, True]
+    outcomes = islice(self_test.self_test(pictures=False, netcdf=False), 4)
+    assert [one.ok for one in outcomes] == [False, False, False, True]
