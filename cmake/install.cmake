@@ -37,6 +37,12 @@ set(pc_flags "")
 if(BUILD_SHARED_LIBS)
   set(pc_flags -DCDCR_SHARED)
 endif()
+if(CDCR_EIGEN_ALIGN)
+  string(
+    APPEND pc_flags
+    " -DEIGEN_MAX_ALIGN_BYTES=${CDCR_EIGEN_ALIGN} -DEIGEN_MALLOC_ALREADY_ALIGNED=0"
+  )
+endif()
 configure_file(
   ${PROJECT_SOURCE_DIR}/cmake/cdcr.pc.in
   ${build_dir}/cdcr.pc
