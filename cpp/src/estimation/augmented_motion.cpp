@@ -21,7 +21,7 @@ AugmentedMotion::AugmentedMotion(const Model& model, const std::vector<Model>& v
     force_[0].section = force_at->section;
     force_[0].fraction = force_at->fraction;
   }
-  between_ = VectorXd::Zero(size());
+  between_ = slope_ = VectorXd::Zero(size());
   qdd_ = bias_ = unbalanced_ = added_ = VectorXd::Zero(d_);
   M_ = own_ = MatrixXd::Zero(d_, d_);
   A_ = MatrixXd::Zero(2 * d_, 2 * d_);
@@ -78,8 +78,8 @@ void AugmentedMotion::advance(const VectorXd& x, const VectorXd& command, Vector
   };
   between_ = x;
   for (int i = 0; i < substeps_; ++i) {
-    f(0.0, between_.data(), stages_.k1.data());
-    stages_.step(f, 0.0, step_, between_, next);
+    f(0.0, between_.data(), slope_.data());
+    stages_.step(f, 0.0, step_, between_, slope_, next);
     between_ = next;
   }
 }

@@ -43,7 +43,7 @@ class AugmentedMotion {
   int substeps_;
   Wrenches force_;  // one or none
   Rk4Stages stages_;
-  VectorXd between_, qdd_, bias_, unbalanced_, added_;
+  VectorXd between_, slope_, qdd_, bias_, unbalanced_, added_;
   MatrixXd M_, own_, A_;
   Eigen::LLT<MatrixXd> llt_;
 };
