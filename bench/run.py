@@ -70,6 +70,7 @@ def main() -> None:
     import scipy
     from python_rows import python_rows
     from scipy_rows import scipy_rows
+    from sensitivity_rows import sensitivity_rows
 
     import cdcr
 
@@ -86,6 +87,7 @@ def main() -> None:
     rows += ratios(rows)
     say("Python")
     rows += [{**row, **about} for row in python_rows(quick, build / "bench_runs")]
+    rows += [{**row, **about} for row in sensitivity_rows(quick)]
     say("SciPy")
     rows += [{**row, **about} for row in scipy_rows(quick)]
     started = datetime.now(timezone.utc).isoformat(timespec="seconds")

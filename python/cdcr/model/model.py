@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
@@ -15,7 +14,6 @@ from cdcr.base.arrays import FloatArray, finite
 from cdcr.base.check import one_of, require_kind
 from cdcr.model.inverse_kinematics import InverseKinematics
 from cdcr.model.modes import Modes
-from cdcr.model.parameters import ParameterSets
 from cdcr.model.statespace import StateSpaceModel
 from cdcr.model.statics import checked_allocation, checked_equilibrium
 from cdcr.robot.robot import Robot
@@ -97,11 +95,6 @@ class Model(StateSpaceModel):
         model._robot = replace(self._robot, gravity=tuple(vector.tolist()))
         model._formulation = self._formulation
         return model
-
-    @cached_property
-    def _parameter_sets(self) -> ParameterSets:
-        """What parameter derivatives are made of, for the parameters asked for before."""
-        return ParameterSets(self._robot)
 
     @property
     def robot(self) -> Robot:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
@@ -11,6 +12,7 @@ from numpy.typing import ArrayLike
 from cdcr.base.arrays import FloatArray, finite
 from cdcr.base.extras import require
 from cdcr.model.derivatives import Derivatives
+from cdcr.model.parameters import ParameterSets
 from cdcr.model.shape import ShapeModel
 
 if TYPE_CHECKING:
@@ -20,6 +22,11 @@ if TYPE_CHECKING:
 
 class StateSpaceModel(ShapeModel):
     """A model, its derivatives and linear systems."""
+
+    @cached_property
+    def _parameter_sets(self) -> ParameterSets:
+        """What parameter derivatives are made of, for the parameters asked for before."""
+        return ParameterSets(cast("Model", self).robot)
 
     def derivatives(
         self,
@@ -91,8 +98,8 @@ class StateSpaceModel(ShapeModel):
         Returns
         -------
         (..., d, k) array
-            Of the accelerations [rad/s^2], in rows, by the parameters, in SI units. Of the force that
-            keeps given accelerations [N m] it is ``-mass_matrix(q)`` times that.
+            Of the accelerations [rad/s^2], in rows, by the parameters, in SI units. Of the force
+            that keeps given accelerations [N m] it is ``-mass_matrix(q)`` times that.
 
         Raises
         ------
@@ -113,7 +120,7 @@ class StateSpaceModel(ShapeModel):
         >>> bool(abs(by_modulus[0, 0] * modulus - acceleration[0]) < 1e-11 * abs(acceleration[0]))
         True
         """
-        found = cast("Model", self)._parameter_sets.find(self, parameters)
+        found = self._parameter_sets.find(self, parameters)
         return self._parameter_derivatives(q, qd, tension, wrenches, found)
 
     def equilibrium_derivatives(
@@ -159,7 +166,7 @@ class StateSpaceModel(ShapeModel):
         >>> print(f"{by_radius[0, 0] * 1e-3:.4f} rad for each mm")
         0.0261 rad for each mm
         """
-        found = cast("Model", self)._parameter_sets.find(self, parameters)
+        found = self._parameter_sets.find(self, parameters)
         return self._equilibrium_derivatives(q, tension, wrenches, found)
 
     def to_statespace(

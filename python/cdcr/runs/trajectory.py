@@ -56,9 +56,9 @@ class Trajectory(Pictures, ReadOnlyArrays):
     deflection : ndarray, shape (N, num_cables), optional
         Of cables whose friction remembers, against where they stick [m]; files do not keep it.
     sensitivities, rate_sensitivities : mapping of str to (N, d, k) array
-        Derivatives of q [rad] and of qd [rad/s] by what `simulate` was asked for: by the name given,
-        with k = d columns for "q0" and "qd0", num_cables for "tension", one for a number of the
-        robot, in SI units.
+        Derivatives of q [rad] and of qd [rad/s] by what `simulate` was asked for: by the name
+        given, with k = d columns for "q0" and "qd0", num_cables for "tension", one for a number of
+        the robot, in SI units.
     """
 
     model: Model
