@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "cdcr/types.hpp"
+#include "section/number_traits.hpp"
 
 namespace cdcr::detail {
 
@@ -112,17 +113,7 @@ void set_lane(Twin<W>& twin, Index lane, double value) {
 namespace Eigen {
 
 template <int W>
-struct NumTraits<cdcr::detail::Pack<W>> : GenericNumTraits<cdcr::detail::Pack<W>> {
-  enum {  // NOLINTBEGIN(readability-identifier-naming): names of Eigen
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 0,
-    ReadCost = 1,
-    AddCost = 1,
-    MulCost = 1
-  };  // NOLINTEND(readability-identifier-naming)
-};
+struct NumTraits<cdcr::detail::Pack<W>> : cdcr::detail::NumberTraits<cdcr::detail::Pack<W>> {};
 template <int W>
 struct NumTraits<cdcr::detail::Twin<W>> : NumTraits<cdcr::detail::Pack<W>> {};
 template <int W, class Operation>

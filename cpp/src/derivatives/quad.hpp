@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "section/number_traits.hpp"
+
 namespace cdcr::detail {
 
 /// Four doubles that are worked on at once, by one instruction where the processor has it. A scalar
@@ -42,17 +44,7 @@ struct alignas(32) Quad {                                  // as packs are where
 namespace Eigen {
 
 template <>
-struct NumTraits<cdcr::detail::Quad> : GenericNumTraits<cdcr::detail::Quad> {
-  enum {  // NOLINTBEGIN(readability-identifier-naming): names of Eigen
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 0,
-    ReadCost = 1,
-    AddCost = 1,
-    MulCost = 1
-  };  // NOLINTEND(readability-identifier-naming)
-};
+struct NumTraits<cdcr::detail::Quad> : cdcr::detail::NumberTraits<cdcr::detail::Quad> {};
 template <class Operation>
 struct ScalarBinaryOpTraits<cdcr::detail::Quad, double, Operation> {
   using ReturnType = cdcr::detail::Quad;

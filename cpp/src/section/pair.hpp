@@ -4,6 +4,8 @@
 #include <cstring>
 #include <type_traits>
 
+#include "section/number_traits.hpp"
+
 namespace cdcr::detail {
 
 /// Two doubles that are worked on at once, by one instruction where the processor has it. A scalar
@@ -116,17 +118,7 @@ template <class S>
 namespace Eigen {
 
 template <>
-struct NumTraits<cdcr::detail::Pair> : GenericNumTraits<cdcr::detail::Pair> {
-  enum {  // NOLINTBEGIN(readability-identifier-naming): names of Eigen
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 0,
-    ReadCost = 1,
-    AddCost = 1,
-    MulCost = 1
-  };  // NOLINTEND(readability-identifier-naming)
-};
+struct NumTraits<cdcr::detail::Pair> : cdcr::detail::NumberTraits<cdcr::detail::Pair> {};
 template <class Operation>
 struct ScalarBinaryOpTraits<cdcr::detail::Pair, double, Operation> {
   using ReturnType = cdcr::detail::Pair;
