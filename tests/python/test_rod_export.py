@@ -21,7 +21,7 @@ HELIX = cdcr.Cable(radius=0.02, angle=[(0.0, 1.0)], end_section=0)
 @pytest.mark.parametrize(
     ("change", "sentence"),
     [
-        ({"sections": [replace(SECTION, bending_order=1)]}, "section 1 is more than that"),
+        ({"sections": [replace(SECTION, stretch_order=0)]}, "section 1 is more than that"),
         ({"cables": [HELIX]}, "cable 1 of cables does not run so"),
     ],
 )
@@ -31,6 +31,27 @@ def test_no_chain_of_rigid_links_is_made_of_rods(
     robot = replace(ROBOT, **change)
     with pytest.raises(ValueError, match=f"a chain of rigid links can be made .*{sentence}"):
         cdcr.export.write_mjcf(robot, tmp_path / "arm.xml")
+
+
+def test_a_rod_that_bends_alone_is_a_chain_of_links(tmp_path: Path) -> None:
+    mujoco: Any = pytest.importorskip("mujoco", reason="needs MuJoCo, group test")
+    rod = replace(SECTION, bending_order=3, nodes=24)
+    robot = replace(ROBOT, sections=(rod,), gravity=(0.0, 0.0, 9.81))
+    cdcr.export.write_mjcf(robot, tmp_path / "rod.xml", links=10)
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / "rod.xml"))
+    data = mujoco.MjData(model)
+    data.ctrl[:] = [4.0, 0.0, 1.0]
+    for _ in range(4000):  # to rest: it is stopped where it is fastest
+        mujoco.mj_step(model, data)
+        if data.qvel @ data.qacc < 0.0:
+            data.qvel[:] = 0.0
+    assert abs(data.qacc).max() < 0.1
+    wanted = cdcr.Model(robot)
+    p = wanted.tip(wanted.equilibrium([4.0, 0.0, 1.0]))[1]
+    assert np.linalg.norm(data.site("tip").xpos - p) < 1e-3 * robot.length
+    arc = cdcr.Model(replace(robot, sections=(SECTION,)))
+    bent = arc.tip(arc.equilibrium([4.0, 0.0, 1.0]))[1]
+    assert np.linalg.norm(bent - p) > 4e-3 * robot.length  # which an arc is not
 
 
 def test_a_tube_is_told_as_the_solid_arc_that_moves_alike() -> None:

@@ -15,11 +15,13 @@ from cdcr.robot.section import Section
 def as_solid_arcs(robot: Robot, what: str) -> Robot:
     """Return an equal robot of round, solid arcs with straight cables, or refuse it.
 
-    `what` is what cannot be made of others: "an FMU", "a chain of rigid links".
+    `what` is what cannot be made of others: "a chain of rigid links", which bends as freely as a
+    rod of any bending order.
     """
+    robot = replace(robot, sections=tuple(map(_of_one_bend, robot.sections)))
     for i, section in enumerate(robot.sections):
         if section.is_rod:
-            more = "of constant curvature, untapered, straight at rest, without twist and stretch"
+            more = "that bend alone, untapered, straight at rest, without twist and stretch"
             raise ValueError(
                 f"{what} can be made of sections {more}; {entry('sections', i)} is more than that"
             )
@@ -34,6 +36,11 @@ def as_solid_arcs(robot: Robot, what: str) -> Robot:
         sections=tuple(map(_solid, robot.sections)),
         cables=tuple(map(_plain, robot.cables)),
     )
+
+
+def _of_one_bend(section: Section) -> Section:
+    """Return a section without its bends of higher order; one that cannot bend stays."""
+    return replace(section, bending_order=0, nodes=None) if section.bending_order else section
 
 
 def _solid(section: Section) -> Section:

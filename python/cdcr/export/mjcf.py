@@ -45,8 +45,9 @@ def write_mjcf(
 
     Each section becomes rigid links, with a joint in the middle of each of `links` equal parts that
     bends by two hinges; the angles of the hinges add up to the section's part of q. The links bend
-    freely, as a rod does, so this is the robot of ``robot.subdivide(links)``. One arc a section is
-    stiffer: the first frequency of ``cdcr.robots.amouri2020()`` is a quarter higher as one arc.
+    freely, as a rod of any `bending_order` does, so this is the robot of
+    ``robot.subdivide(links)``. One arc a section is stiffer: the first frequency of
+    ``cdcr.robots.amouri2020()`` is a quarter higher as one arc.
 
     With ten links a section, tips at rest are within 0.5 % of the robot's length of those of
     ``robot.subdivide(10)``, cable lengths within 0.05 %, and its first four frequencies within 1 %.
@@ -75,7 +76,7 @@ def write_mjcf(
     ------
     ValueError
         For other `links`, for a name that ends otherwise, for links without mass, and for a robot
-        of more than arcs and straight cables.
+        that does more than bend (twist, stretch, taper, bends at rest), or whose cables wind.
     OSError
         Where the file exists and is not to be replaced, or there is no such folder.
 
