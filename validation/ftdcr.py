@@ -32,7 +32,7 @@ SERVOS = 4, 3, 9, 5, 2, 8, 6, 1, 7  # of the cables, section by section
 # Of the disks nothing is known but the total of 50 g, drives and all; this one is a start.
 DISK = 1e-4  # [kg]
 
-PARAMETERS = dict.fromkeys([
+PARAMETERS: dict[str, dict[str, float] | None] = dict.fromkeys([
     "sections[*].cable_radius",
     "base tilt",
     "base position z",
@@ -41,8 +41,8 @@ PARAMETERS = dict.fromkeys([
     "command_offset[5]",
     "sections[0].cable_angles[2]",
     "tip offset y",
-    "sections[*].cable_entry_friction",
 ])  # fmt: skip
+PARAMETERS["sections[*].cable_entry_friction"] = {"start": 0.1}  # [N]
 
 
 def robot() -> cdcr.Robot:

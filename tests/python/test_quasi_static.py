@@ -155,3 +155,13 @@ def test_bdf_goes_past_the_turns_of_drives_that_rub(presliding_stiffness: float)
     run = cdcr.simulate(model, np.zeros(6), np.zeros(6), t=[0.0, 12.0], command=table, method="bdf")
     assert run.success
     assert run.t[-1] == 12.0
+
+
+def test_cables_that_are_slack_and_straight_begin_smoothly() -> None:
+    section = replace(rubbing().sections[0], cable_entry_friction=0.1)
+    model = cdcr.Model(replace(rubbing(presliding_stiffness=2e3), sections=(section,)))
+    table = cdcr.TensionTable([0.0, 2.0, 4.0], [[0, 0, 0], [8, 0, 0], [0, 3, 0]])
+    run = cdcr.simulate(model, [0, 0], [0, 0], t=np.linspace(0, 4, 41), tension=table,
+                        method="bdf", rtol=1e-6, atol=1e-8)  # fmt: skip
+    assert run.success
+    assert run.stats.steps < 20000

@@ -8,6 +8,8 @@
 
 namespace cdcr::detail {
 
+/// Friction below which a cable counts as free [N].
+inline constexpr double least_friction = 1e-3;
 /// Share of the full friction up to which a cable that sticks springs back all the way.
 inline constexpr double elastic_share = 0.5;
 /// What a deflection loses of the way slid, where friction is beyond full; and so at most.
@@ -49,9 +51,10 @@ struct CapstanFactors {
 template <class S>
 class FrictionProfile {
  public:
-  /// Tension F at the drive; factors of its sections, from `first` to `last`.
+  /// Tension F at the drive; factors of its sections, from `first` to `last`. With a `least`
+  /// friction, shares go to zero where there is next to none, and so does what is slid.
   FrictionProfile(const S& F, double entry, double sheath_decay, const CapstanFactors<S>* factors,
-                  int first, int last)
+                  int first, int last, double least = 0.0)
       : F_(F), first_(first), last_(last) {
     const S left = F - entry;
     S in = left > 0.0 ? S(left * sheath_decay) : S(0.0);
@@ -62,8 +65,8 @@ class FrictionProfile {
       in *= factors[k].decay;
       out *= factors[k].growth;
     }
-    most_in_ = F - in;
-    most_out_ = out - F;
+    most_in_ = F - in + least;
+    most_out_ = out - F + least;
   }
 
   /// Full friction where the cable is pulled in, and where it is paid out [N].
@@ -217,7 +220,7 @@ CableMotion<S> add_memory_force(const Model& model, const CableGeometry<S>& at, 
     if (!(tension > 0.0)) tension = S(0.0);
   }
   FrictionProfile<S> profile(tension, cable.entry_friction, model.sheath_decay()[j], at.factors(),
-                             at.first(), at.last());
+                             at.first(), at.last(), least_friction);
   const S spring = model.robot().presliding_stiffness * deflection;
   profile.set_friction(limited(spring, profile.most_in(), profile.most_out()));
   const S viscous = cable.viscosity * speed;
