@@ -9,6 +9,7 @@
 #include "cdcr/loop.hpp"
 #include "controllers.hpp"
 #include "docs.hpp"
+#include "driving.hpp"
 #include "gil.hpp"
 
 namespace cdcr::python {
@@ -79,11 +80,22 @@ class PythonLoop final : public Loop {
       : Loop(read_model(of), by.cast<Controller&>(), read_loop(options)),
         model(std::move(of)),
         controlled_by(std::move(by)) {}
+  PythonLoop(const PythonLoop&) = delete;
+  PythonLoop& operator=(const PythonLoop&) = delete;
+  ~PythonLoop() { Driving::forget(controller(), this); }
+
+  /// Goes on with the controller, as `asking` does.
+  template <class Call>
+  auto going_on(Call&& call) {
+    if (status() != Status::not_started) Driving::require_last(controller(), this);
+    return asking(std::forward<Call>(call));
+  }
 
   /// Calls what asks the controller, which may be one written in Python, whose exceptions it
   /// throws.
   template <class Call>
   auto asking(Call&& call) {
+    const Driving driving(controller(), this);
     const auto unlocked = [&] {
       const Unlocked here;
       return call();
@@ -103,7 +115,7 @@ py::dict sampled(PythonLoop& self, double duration, Index record_every,
                  const py::object& wrenches) {
   const Wrenches loads = read_wrenches(self.plant().model(), wrenches);
   Interruption interruption;
-  const LoopRun found = self.asking(
+  const LoopRun found = self.going_on(
       [&] { return run(self, duration, record_every, loads, [&] { return interruption(); }); });
   interruption.raise();
   py::list told;
@@ -149,7 +161,11 @@ void bind_loop(py::module_& m) {
           "step",
           [](PythonLoop& self, const py::object& wrenches) {
             const Wrenches loads = read_wrenches(self.plant().model(), wrenches);
-            return self.asking([&] { return self.step(loads); });
+            Interruption interruption;
+            const Status status =
+                self.going_on([&] { return self.step(loads, [&] { return interruption(); }); });
+            interruption.raise();
+            return status;
           },
           "wrenches"_a = py::tuple(),
           Doc("Advance one step of the plant.", {docs::wrenches},

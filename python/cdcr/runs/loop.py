@@ -333,14 +333,12 @@ class Loop(_core.Loop):
         Raises
         ------
         ValueError
-            For an argument out of its range, or a loop without a state.
+            For an argument out of its range, or a loop without a state or that has ended.
         """
         check = Check()
         duration = check.number("duration", duration, "a number")
         every = check.whole("record_every", record_every, "a whole number >= 1")
         check.done()
-        if self.status == _core.Status.not_started:
-            raise ValueError("the loop has no state: call reset(q, qd) first")
         found = self._sampled(duration, every, wrenches)
         names = ("t", "q", "qd", "tension", "command", "status", "message", "stats")
         run = Trajectory(model=self.model, method="rk4", **{name: found[name] for name in names})
