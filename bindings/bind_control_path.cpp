@@ -1,3 +1,4 @@
+#include <cmath>
 #include <sstream>
 
 #include "docs.hpp"
@@ -53,6 +54,7 @@ ReferencePath put_path(const py::tuple& parts) {
 }
 
 void bind_reference_path(py::module_& m) {
+  const py::arg_v rests = "rest_to_rest"_a.noconvert() = true;
   py::class_<ReferencePath> path(
       m, "ReferencePath",
       "A motion that a controller follows: coordinates (d,) [rad] or the tip's position (3,) "
@@ -116,11 +118,10 @@ void bind_reference_path(py::module_& m) {
             const VectorXd none = VectorXd::Zero(read_one(center, "center").size());
             return helix(center, x, y, to_array(none), turns, duration, rest_to_rest);
           },
-          "center"_a, "x"_a, "y"_a, "turns"_a, "duration"_a, "rest_to_rest"_a = true,
+          "center"_a, "x"_a, "y"_a, "turns"_a, "duration"_a, rests,
           Doc("Round a circle or an ellipse.", {round, turning}, a_path, docs::bad_argument))
       .def_static(
-          "helix", &helix, "center"_a, "x"_a, "y"_a, "climb"_a, "turns"_a, "duration"_a,
-          "rest_to_rest"_a = true,
+          "helix", &helix, "center"_a, "x"_a, "y"_a, "climb"_a, "turns"_a, "duration"_a, rests,
           Doc("Round a circle that moves on.",
               {round,
                "climb : (m,) array_like\n    By how much it moves on in a turn [rad], [m].\n",
@@ -132,6 +133,7 @@ void bind_reference_path(py::module_& m) {
       .def(
           "evaluate",
           [](const ReferencePath& self, double t) {
+            if (std::isnan(t)) throw py::value_error("t must be a number [s], got nan");
             Setpoint found(self.size());
             self.evaluate(t, found);
             return py::make_tuple(to_array(found.value), to_array(found.rate),
@@ -140,7 +142,8 @@ void bind_reference_path(py::module_& m) {
           "t"_a,
           Doc("Value, rate and acceleration at one time.", {"t : float\n    The time [s].\n"},
               "tuple of (m,) array\n    Coordinates [rad] or positions [m], per second and per "
-              "second squared."))
+              "second squared.",
+              docs::bad_argument))
       .def_property_readonly("size", &ReferencePath::size, "Number of values m.")
       .def_property_readonly("start", &ReferencePath::start, "When it begins [s].")
       .def_property_readonly("end", &ReferencePath::end, "When it ends [s].")

@@ -6,6 +6,7 @@
 #include "cdcr/state_feedback.hpp"
 #include "cdcr/task_space.hpp"
 #include "docs.hpp"
+#include "driving.hpp"
 #include "pickling.hpp"
 #include "tracking.hpp"
 
@@ -139,6 +140,7 @@ void bind_tracking_controller(py::module_& m) {
           "reference",
           [](const TrackingController& self) { return to_array(self.setpoint().value); },
           [](TrackingController& self, const py::object& value) {
+            Driving::refuse_during_run(self);
             const Index size = self.path().size();
             const bool of_tip = size != self.num_coordinates();
             self.set_reference(
@@ -149,7 +151,14 @@ void bind_tracking_controller(py::module_& m) {
           "rest\nuntil set.")
       .def_property(
           "path", [](const TrackingController& self) { return self.path(); },
-          [](TrackingController& self, const ReferencePath& path) { self.set_path(path); },
+          [](TrackingController& self, const py::object& path) {
+            if (!py::isinstance<ReferencePath>(path)) {
+              throw py::type_error("path must be a cdcr.ReferencePath, got " +
+                                   py::type::of(path).attr("__name__").cast<std::string>());
+            }
+            Driving::refuse_during_run(self);
+            self.set_path(path.cast<const ReferencePath&>());
+          },
           "The motion to follow, a ReferencePath; `reference` is where it is now.")
       .def_property_readonly(
           "diagnostics", &diagnostics,
@@ -160,6 +169,7 @@ void bind_tracking_controller(py::module_& m) {
       .def(
           "update",
           [](TrackingController& self, double t, const py::object& q, const py::object& qd) {
+            Driving::refuse_during_run(self);
             const Index d = self.num_coordinates();
             VectorXd command(self.num_cables());
             const Entries entries = of_coordinates(*self.reckons_with());

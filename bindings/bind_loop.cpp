@@ -8,6 +8,7 @@
 #include "cdcr/loop.hpp"
 #include "controllers.hpp"
 #include "docs.hpp"
+#include "driving.hpp"
 #include "gil.hpp"
 #include "loop_options.hpp"
 #include "methods.hpp"
@@ -39,11 +40,22 @@ class PythonLoop final : public Loop {
         model(std::move(of)),
         controlled_by(std::move(by)),
         estimated_by(std::move(from)) {}
+  PythonLoop(const PythonLoop&) = delete;
+  PythonLoop& operator=(const PythonLoop&) = delete;
+  ~PythonLoop() { Driving::forget(controller(), this); }
+
+  /// Goes on with the controller, as `asking` does.
+  template <class Call>
+  auto going_on(Call&& call) {
+    if (status() != Status::not_started) Driving::require_last(controller(), this);
+    return asking(std::forward<Call>(call));
+  }
 
   /// Calls what asks the controller, which may be one written in Python, whose exceptions it
   /// throws.
   template <class Call>
   auto asking(Call&& call) {
+    const Driving driving(controller(), this);
     const auto unlocked = [&] {
       const Unlocked here;
       return call();
@@ -63,7 +75,7 @@ py::dict sampled(PythonLoop& self, double duration, Index record_every,
                  const py::object& wrenches) {
   const Wrenches loads = read_wrenches(self.plant().model(), wrenches);
   Interruption interruption;
-  const LoopRun found = self.asking(
+  const LoopRun found = self.going_on(
       [&] { return run(self, duration, record_every, loads, [&] { return interruption(); }); });
   interruption.raise();
   py::list told;
@@ -76,7 +88,8 @@ py::dict sampled(PythonLoop& self, double duration, Index record_every,
       "durations"_a = to_array(found.durations), "estimated"_a = to_rows(found.estimated),
       "deviations"_a = to_rows(found.deviations), "innovation"_a = to_array(found.innovation),
       "measured"_a = to_array(found.measured), "status"_a = found.status,
-      "message"_a = found.message, "stats"_a = found.stats);
+      "message"_a = found.message, "method"_a = fixed_step_name(self.options().method),
+      "stats"_a = found.stats);
 }
 
 }  // namespace
@@ -114,7 +127,11 @@ void bind_loop(py::module_& m) {
           "step",
           [](PythonLoop& self, const py::object& wrenches) {
             const Wrenches loads = read_wrenches(self.plant().model(), wrenches);
-            return self.asking([&] { return self.step(loads); });
+            Interruption interruption;
+            const Status status =
+                self.going_on([&] { return self.step(loads, [&] { return interruption(); }); });
+            interruption.raise();
+            return status;
           },
           "wrenches"_a = py::tuple(),
           Doc("Advance one step of the plant.", {docs::wrenches},

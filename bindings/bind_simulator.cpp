@@ -29,9 +29,8 @@ namespace {
 
 py::tuple take_apart(const PythonSimulator& s) {
   return py::make_tuple(s.model, s.period(), s.substeps(), s.started(), to_array(s.q()),
-                        to_array(s.qd()), s.start(), s.periods(),
-                        s.method() == Method::rk4 ? "rk4" : "rosenbrock", to_array(s.deflection()),
-                        to_array(s.felt()));
+                        to_array(s.qd()), s.start(), s.periods(), fixed_step_name(s.method()),
+                        to_array(s.deflection()), to_array(s.felt()));
 }
 
 PythonSimulator* put_together(const py::tuple& state) {

@@ -1,10 +1,6 @@
 #pragma once
 
-#include <pybind11/pybind11.h>
-
 #include <exception>
-#include <set>
-#include <utility>
 
 #include "cdcr/controller.hpp"
 
@@ -31,26 +27,6 @@ class PythonController final : public Controller {
 
   double period_;
   std::exception_ptr exception_;
-};
-
-/// Keeps a controller, which has a state, from driving two runs at once.
-class Driving {
- public:
-  explicit Driving(const Controller& controller) : controller_(&controller) {
-    if (all().insert(controller_).second) return;
-    throw pybind11::value_error(
-        "the controller drives another run at this moment: make one for each run");
-  }
-  Driving(const Driving&) = delete;
-  Driving& operator=(const Driving&) = delete;
-  ~Driving() { all().erase(controller_); }
-
- private:
-  static std::set<const Controller*>& all() {  // Python's lock guards it
-    static std::set<const Controller*> controllers;
-    return controllers;
-  }
-  const Controller* controller_;
 };
 
 }  // namespace cdcr::python

@@ -26,5 +26,8 @@ inline Method read_fixed_step(const std::string& name) {
   }
   return name == "rk4" ? Method::rk4 : Method::rosenbrock;
 }
+inline const char* fixed_step_name(Method method) {
+  return method == Method::rk4 ? "rk4" : "rosenbrock";
+}
 
 }  // namespace cdcr::python

@@ -202,6 +202,11 @@ TEST_CASE("out of reach, it names the cables at their limits") {
   CHECK(answer.limiting == std::vector<Index>{0, 1, 2});
   CHECK(residual(answer.distance, 6.0 * radius) <= tolerance::closed);
 
+  // Forces whose squares overflow.
+  const Allocation large = allocate(model, Eigen::Vector2d(1e300, 1e300), {});
+  CHECK(large.feasible);
+  CHECK(large.distance <= tolerance::closed * 1e300);
+
   // One cable free: cables 0 and 1 pull alike, and only cable 0 may.
   const Allocation alone = allocate(model, radius * Eigen::Vector2d(1.0, 1.0), {0.0, 4.0, {0}});
   CHECK_FALSE(alone.feasible);

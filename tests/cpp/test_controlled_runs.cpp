@@ -205,20 +205,29 @@ TEST_CASE("a controller's failure ends the run") {
     Status update(double /*t*/, const ConstVectorRef& /*q*/, const ConstVectorRef& /*qd*/,
                   VectorRef tension) noexcept override {
       tension.setZero();
-      return ++calls_ > 3 ? Status::invalid_tension : Status::ok;
+      return ++calls_ > good_ ? Status::invalid_tension : Status::ok;
     }
     double period() const noexcept override { return 0.125; }
     Index num_coordinates() const noexcept override { return any_size; }
     Index num_cables() const noexcept override { return any_size; }
 
+    explicit Failing(int good) : good_(good) {}
+
    private:
-    int calls_ = 0;
+    int good_, calls_ = 0;
   };
   const Model model(amouri2020());
-  Failing failing;
+  Failing failing(3);
   const Trajectory found = run(model, failing, even_times(0.0, 1.0, 65));
   CHECK(found.status == Status::invalid_tension);
   CHECK(found.t[found.t.size() - 1] == 0.375 - 1.0 / 64.0);
+
+  Failing never(0);
+  const Trajectory start = run(model, never, even_times(2.0, 3.0, 65));
+  CHECK(start.status == Status::invalid_tension);
+  REQUIRE(start.t.size() == 1);
+  CHECK(start.t[0] == 2.0);
+  CHECK(start.command.row(0).isZero());
 }
 
 /// Two sections with three cables in all, those of the first or of the second alone.

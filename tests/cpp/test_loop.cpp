@@ -150,6 +150,27 @@ TEST_CASE("after a failure the last good state stays, until reset") {
   CHECK(cut.status == Status::bending_limit);
   CHECK(cut.t.size() == cut.q.rows());
   CHECK(cut.message.find("stopped at t = ") == 0);
+  CHECK_THROWS_WITH(run(loop, 5.0), "the loop has ended (bending_limit): call reset(q, qd) first");
+
+  Steady breaking(Vector3d(1e300, 0.0, 0.0));
+  Loop broken(model, breaking);
+  broken.reset(zero, zero, 3.0);
+  const LoopRun first = run(broken, 5.0);
+  CHECK(first.status != Status::ok);
+  REQUIRE(first.t.size() == 1);
+  CHECK(first.t[0] == 3.0);
+  CHECK(first.command(0, 0) == 1e300);
+
+  loop.reset(zero, zero);
+  CHECK(loop.step(no_wrenches(), [] { return true; }) == Status::ok);  // asked in long steps alone
+  LoopOptions long_steps;
+  long_steps.step = 1e-3;
+  long_steps.substeps = 1 << 30;
+  Steady idle(Vector3d(0.0, 0.0, 0.0));
+  Loop slow(model, idle, long_steps);
+  slow.reset(zero, zero);
+  CHECK(slow.step(no_wrenches(), [] { return true; }) == Status::interrupted);
+  CHECK(slow.time() == 0.0);
 
   Steady pushing(Vector3d(-1.0, 0.0, 0.0));
   Loop refused(model, pushing);

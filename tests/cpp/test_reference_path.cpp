@@ -157,6 +157,8 @@ TEST_CASE("evaluate allocates nothing; what is no path is refused") {
                         "corners of a path must differ from those before, got corner 2 twice");
   CHECK_THROWS_SENTENCE(ReferencePath::polygon(points(), 0.0),
                         "duration of a path must be > 0 s and finite, got 0");
+  CHECK_THROWS_SENTENCE(path.delayed(1.7e308).delayed(1.7e308),
+                        "delay must be finite, and the path's end after it, got 1.7e+308");
 }
 
 TEST_SUITE_END();

@@ -253,6 +253,8 @@ TEST_CASE("bad arguments are refused in a sentence that names the motion") {
   Pid loop(batch.model, {});
   refused([&] { batch.motions.controllers = {&loop}; },
           "controllers must be one for each of the 7 motions, got 1");
+  refused([&] { batch.motions.commands = {}; },
+          "motions need commands or controllers, got neither");
   const Model other(split(amouri2020(), 2));
   refused([&] { batch.motions.models = {6, &batch.model}, batch.motions.models.push_back(&other); },
           "model 7 must have 2 coordinates and 3 cables as the first, got 4 and 3");

@@ -17,6 +17,18 @@ def long_step() -> None:
     simulator.step(np.zeros(9))
 
 
+def long_loop_step() -> None:
+    loop = cdcr.Loop(MODEL, cdcr.ComputedTorque(MODEL), substeps=2**30)
+    loop.reset(np.zeros(6), np.zeros(6))
+    loop.step()
+
+
+def long_loop_run() -> None:
+    loop = cdcr.Loop(MODEL, cdcr.ComputedTorque(MODEL), substeps=2**30)
+    loop.reset(np.zeros(6), np.zeros(6))
+    loop.run(1.0)
+
+
 def long_search() -> None:
     MODEL.inverse_kinematics([9.0, 9.0, 9.0], np.eye(3), seeds=100000)
 
@@ -31,7 +43,10 @@ def many_states() -> None:
     MODEL.linearize(q, np.zeros(6), tension)
 
 
-@pytest.mark.parametrize("work", [long_step, long_search, long_start, many_states])
+WORK = [long_step, long_loop_step, long_loop_run, long_search, long_start, many_states]
+
+
+@pytest.mark.parametrize("work", WORK)
 def test_control_c(work: Callable[[], None]) -> None:
     with interrupt_soon() as since:
         with pytest.raises(KeyboardInterrupt):

@@ -108,9 +108,86 @@ def test_after_a_failure_the_last_good_state_stays() -> None:
     assert run.trajectory.message.startswith("stopped at t = ")
     assert np.isfinite(loop.q).all()
     assert loop.step() == cdcr.Status.bending_limit
+    with pytest.raises(ValueError, match=r"the loop has ended \(bending_limit\): call reset"):
+        loop.run(0.1)
     loop.reset([0.0, 0.0], [0.0, 0.0])
     with pytest.raises(RuntimeError, match="stopped at t = "):
         loop.run(5.0, throw=True)
+
+
+def test_a_run_that_fails_at_once_keeps_its_start() -> None:
+    loop = cdcr.Loop(MODEL, Push(1e300))
+    loop.reset([0.1, 0.0], [0.0, 0.0], time=2.0)
+    run = loop.run(0.1)
+    assert not run.trajectory.success
+    np.testing.assert_array_equal(run.trajectory.t, [2.0])
+    np.testing.assert_array_equal(run.trajectory.q, [[0.1, 0.0]])
+
+
+def test_a_loop_refuses_to_go_on_with_a_controller_that_others_drove_since() -> None:
+    pid = cdcr.Pid(MODEL, kp=1.0, ki=5.0)
+    pid.reference = [0.4, 0.1]
+    loop, other = cdcr.Loop(MODEL, pid), cdcr.Loop(MODEL, pid)
+    start = np.zeros(2), np.zeros(2)
+
+    def half() -> Any:
+        return loop.run(0.1).trajectory.q[-1]
+
+    loop.reset(*start)
+    half()
+    alone = half()
+    others = (
+        lambda: other.reset(*start),
+        lambda: cdcr.simulate(MODEL, *start, t=[0.0, 0.1], controller=pid),
+        lambda: cdcr.rollout(MODEL, *start, step=1e-3, steps=9, controller=[pid]),
+    )
+    for drive in others:
+        loop.reset(*start)
+        half()
+        drive()
+        for go_on in (half, loop.step):
+            with pytest.raises(ValueError, match="has driven another run since this loop was res"):
+                go_on()
+    loop.reset(*start)
+    half()
+    cdcr.rollout(MODEL, *start, step=1e-3, steps=9, controller=pid)  # which drives a copy
+    np.testing.assert_array_equal(half(), alone)
+
+
+class Meddler(cdcr.Controller):
+    """Does something while it drives a loop."""
+
+    def __init__(self, deed: Any) -> None:
+        super().__init__(period=1e-3)
+        self.deed = deed
+
+    def update(self, t: float, q: Any, qd: Any) -> list[float]:
+        """Do it."""
+        self.deed()
+        return [0.0, 0.0, 0.0]
+
+
+def test_what_drives_a_run_is_left_alone_meanwhile() -> None:
+    loops: list[cdcr.Loop] = []
+    meddler = Meddler(lambda: loops[0].step())
+    loops.append(cdcr.Loop(MODEL, meddler))
+    loops[0].reset([0.0, 0.0], [0.0, 0.0])
+    with pytest.raises(ValueError, match="the controller drives another run at this moment"):
+        loops[0].step()
+    pid = cdcr.Pid(MODEL, kp=1.0)
+    deeds = (
+        lambda now: setattr(pid, "path", PATH),
+        lambda now: setattr(pid, "reference", [0.1, 0.0]),
+        lambda now: pid.update(now, [0.0, 0.0], [0.0, 0.0]),
+    )
+    for deed in deeds:
+        with pytest.raises(ValueError, match="the controller drives a run at this moment"):
+            cdcr.simulate(
+                MODEL, [0, 0], [0, 0], t=[0.0, 0.1], controller=pid, progress=cast("Any", deed)
+            )
+        deed(0.0)  # after it, as one likes
+    with pytest.raises(TypeError, match=r"path must be a cdcr\.ReferencePath, got None"):
+        pid.path = cast("Any", None)
 
 
 NONE = cast("Any", None)
@@ -148,6 +225,11 @@ REFUSALS: dict[str, tuple[Any, str]] = {
     "ragged gain": (
         lambda: cdcr.Pid(MODEL, kp=cast("Any", [[1.0], [2.0, 3.0]])),
         "kp must be numbers, got",
+    ),
+    "no time": (lambda: PATH.evaluate(float("nan")), "t must be a number [s], got nan"),
+    "rest": (
+        lambda: cdcr.ReferencePath.circle([0], [1], [2], 1.0, 1.0, cast("Any", float("nan"))),
+        "rest_to_rest must be True or False, got nan (float)",
     ),
     "winch": (
         lambda: cdcr.Actuator(winch=cast("Any", 3.0)),

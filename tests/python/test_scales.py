@@ -36,8 +36,11 @@ def test_huge_forces_without_limits_grow_the_tensions_alike(model: cdcr.Model, s
 
 def test_gains_that_overflow_end_the_run(model: cdcr.Model) -> None:
     pid = cdcr.Pid(model, kp=1e308, ki=1e308, period=1e-3)
-    with pytest.raises(ValueError, match=r"Stopped at t = 0 s \(non_finite_state\)"):
-        cdcr.simulate(model, [2.0, 0.5], [0.0, 0.0], t=[0.0, 0.1], controller=pid)
+    run = cdcr.simulate(model, [2.0, 0.5], [0.0, 0.0], t=[0.0, 0.1], controller=pid)
+    assert run.status is cdcr.Status.non_finite_state
+    np.testing.assert_array_equal(run.q, [[2.0, 0.5]])
+    with pytest.raises(ValueError, match="The state became infinite or not a number"):
+        pid.update(0.0, [0.2, 0.0], [0.0, 0.0])
 
 
 def test_a_robot_beyond_all_sizes_has_no_equilibrium() -> None:

@@ -40,6 +40,8 @@ class Loop {
 
   [[nodiscard]] Status step() noexcept { return step(no_wrenches()); }
   [[nodiscard]] Status step(const Wrenches& wrenches) noexcept;
+  /// The same, asking now and then whether to stop: Status::interrupted then.
+  [[nodiscard]] Status step(const Wrenches& wrenches, const Interrupt& stop) noexcept;
 
   [[nodiscard]] const Simulator& plant() const noexcept { return plant_; }
   [[nodiscard]] const VectorXd& q() const noexcept { return plant_.q(); }    ///< (d) [rad]
@@ -60,7 +62,7 @@ class Loop {
   [[nodiscard]] const LoopOptions& options() const noexcept { return options_; }
 
  private:
-  [[nodiscard]] Status close(const Wrenches& wrenches) noexcept;
+  [[nodiscard]] Status close(const Wrenches& wrenches, const Interrupt& stop) noexcept;
   [[nodiscard]] Status look() noexcept;
 
   LoopOptions options_;
@@ -88,9 +90,9 @@ struct LoopRun : Trajectory {
 };
 
 /// Steps a loop that has been reset over a duration [s], a whole number of steps; a sample at the
-/// start and after every so many of them. What holds over the step that begins at a sample stands
-/// in its row; in the last row, of which no step begins, what held before. Throws
-/// std::invalid_argument.
+/// start, though it fails there, and after every so many of them. What holds over the step that
+/// begins at a sample stands in its row; in the last row, of which no step begins, what held
+/// before. Throws std::invalid_argument.
 [[nodiscard]] LoopRun run(Loop& loop, double duration, Index record_every = 1,
                           const Wrenches& wrenches = no_wrenches(), const Interrupt& stop = {});
 

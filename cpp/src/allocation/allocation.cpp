@@ -294,7 +294,7 @@ Allocation allocate_at(const Model& model, const VectorXd& q, const VectorXd& fo
   result.tension = allocator.tension();
   result.force = allocator.force();
   const VectorXd missing = force - result.force;
-  result.distance = missing.norm();
+  result.distance = missing.stableNorm();  // whose squares do not overflow
   for (Index j = 0; j < model.num_cables() && !result.feasible; ++j) {
     if (!allocator.at_limit(j)) continue;
     const double wanted = B.col(j).dot(missing);

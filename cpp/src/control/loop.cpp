@@ -65,7 +65,7 @@ Status Loop::look() noexcept {
   return estimator_->update(time(), told_, asked_, told_q_, told_qd_);
 }
 
-Status Loop::close(const Wrenches& wrenches) noexcept {
+Status Loop::close(const Wrenches& wrenches, const Interrupt& stop) noexcept {
   Status status = look();
   if (status != Status::ok) return status;
   if (plant_.periods() % every_ == 0) {
@@ -77,16 +77,24 @@ Status Loop::close(const Wrenches& wrenches) noexcept {
   }
   cable_tensions(plant_.model(), q(), qd(), given(), tension_);
   actuators_.step(asked_, tension_);
-  return plant_.step(given(), wrenches);
+  return plant_.step(given(), wrenches, stop);
 }
 
 Status Loop::step(const Wrenches& wrenches) noexcept {
-  if (status_ == Status::ok) status_ = close(wrenches);
+  return step(wrenches, Interrupt());
+}
+
+Status Loop::step(const Wrenches& wrenches, const Interrupt& stop) noexcept {
+  if (status_ == Status::ok) status_ = close(wrenches, stop);
   return status_;
 }
 
 LoopRun run(Loop& loop, double duration, Index record_every, const Wrenches& wrenches,
             const Interrupt& stop) {
+  detail::require(loop.status() != Status::not_started,
+                  "the loop has no state: call reset(q, qd) first");
+  detail::require(loop.status() == Status::ok, "the loop has ended (", name(loop.status()),
+                  "): call reset(q, qd) first");
   const Model& model = loop.plant().model();
   const double step = loop.options().step;
   const Index steps = detail::whole_steps("duration", duration, step, 1);
@@ -112,9 +120,9 @@ LoopRun run(Loop& loop, double duration, Index record_every, const Wrenches& wre
     const double t = loop.time();
     q = loop.q();
     qd = loop.qd();
-    if (k < steps) out.status = loop.step(wrenches);
+    if (k < steps) out.status = loop.step(wrenches, stop);
     if (stop && k % 256 == 255 && stop()) out.status = Status::interrupted;
-    if (!records || out.status != Status::ok) continue;
+    if (!records) continue;
     out.t[row] = t;
     out.q.row(row) = q;
     out.qd.row(row) = qd;

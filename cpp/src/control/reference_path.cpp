@@ -199,7 +199,8 @@ ReferencePath ReferencePath::circle(const VectorXd& center, const VectorXd& x, c
 }
 
 ReferencePath ReferencePath::delayed(double delay) const {
-  detail::require(std::isfinite(delay), "delay must be finite, got ", delay);
+  detail::require(std::isfinite(delay) && std::isfinite(end() + delay),
+                  "delay must be finite, and the path's end after it, got ", delay);
   ReferencePath path = *this;
   path.times_.array() += delay;
   return path;

@@ -66,6 +66,7 @@ Status TrackingController::update(double t, const ConstVectorRef& q, const Const
     path_.evaluate(t, setpoint_);
     status = control(t, q, qd, setpoint_);
   }
+  if (status == Status::ok && !drive_.command().allFinite()) status = Status::non_finite_state;
   if (status == Status::ok) command = drive_.command();
   diagnostics_.limited = drive_.num_limited();
   diagnostics_.duration =

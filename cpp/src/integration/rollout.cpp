@@ -54,6 +54,8 @@ void check_motions(const Motions& motions) {
 void check_commands(const Motions& motions, const RolloutOptions& options) {
   const RolloutCommands& given = motions.commands;
   if (!motions.controllers.empty() || motions.size() == 0) return;
+  require(given.data != nullptr || motions.model(0).num_cables() == 0,
+          "motions need commands or controllers, got neither");
   const Index all = given.between_motions == 0 ? 1 : motions.size();
   const Index steps = given.between_steps == 0 ? 1 : options.steps;
   for (Index i = 0; i < all; ++i) {

@@ -92,7 +92,10 @@ class Run {
     double t = 0.0;
     while (true) {
       out_.status = ode_.start_segment(t, y_);
-      if (out_.status != Status::ok) break;
+      if (out_.status != Status::ok) {
+        if (stretches_ == 0) recorder_.record(y_);  // a controller failed at once
+        break;
+      }
       ++stretches_;
       if (accept(crossings_.start(t, y_), y_)) out_.status = Status::event;
       if (!recorder_.done() && recorder_.next_time() == t) recorder_.record(y_);

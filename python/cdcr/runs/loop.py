@@ -181,17 +181,15 @@ class Loop(_core.Loop):
         Raises
         ------
         ValueError
-            For an argument out of its range, or a loop without a state.
+            For an argument out of its range, or a loop without a state or that has ended.
         """
         check = Check()
         duration = check.number("duration", duration, "a number")
         every = check.whole("record_every", record_every, "a whole number >= 1")
         check.done()
-        if self.status == _core.Status.not_started:
-            raise ValueError("the loop has no state: call reset(q, qd) first")
         found = self._sampled(duration, every, wrenches)
-        names = ("t", "q", "qd", "tension", "command", "status", "message", "stats")
-        run = Trajectory(model=self.model, method="rk4", **{name: found[name] for name in names})
+        names = ("t", "q", "qd", "tension", "command", "method", "status", "message", "stats")
+        run = Trajectory(model=self.model, **{name: found[name] for name in names})
         ask_about_commands(self.model.robot, found["asked"])
         if throw and not run.success:
             raise RuntimeError(run.message)
