@@ -86,6 +86,7 @@ void bind_reference_path(pybind11::module_& m);  ///< called by bind_control
 void bind_controllers(pybind11::module_& m);     ///< called by bind_control
 void bind_estimators(pybind11::module_& m);
 void bind_loop(pybind11::module_& m);
+void bind_methods(pybind11::module_& m);
 void bind_simulate(pybind11::module_& m);
 void bind_simulator(pybind11::module_& m);
 void bind_rollout(pybind11::module_& m);

@@ -7,6 +7,7 @@
 #include "cdcr/rollout.hpp"
 #include "controllers.hpp"
 #include "docs.hpp"
+#include "driving.hpp"
 #include "gil.hpp"
 #include "methods.hpp"
 

@@ -21,6 +21,7 @@ PYBIND11_MODULE(_core, m) {
   cdcr::python::bind_model(m);
   cdcr::python::bind_quasi_static(m);
   cdcr::python::bind_control(m);
+  cdcr::python::bind_methods(m);
   cdcr::python::bind_simulate(m);
   cdcr::python::bind_simulator(m);
   cdcr::python::bind_rollout(m);

@@ -2,7 +2,7 @@
 
 import enum
 from collections.abc import Callable, Sequence
-from typing import Any, TypeAlias, final, overload
+from typing import Any, TypeAlias, overload
 
 from numpy.typing import ArrayLike
 
@@ -25,6 +25,11 @@ from cdcr._core_robot import Loads as Loads
 from cdcr._core_robot import Robot as Robot
 from cdcr._core_robot import Section as Section
 from cdcr._core_robot import _Bound, _FloatArray
+from cdcr._core_runs import Method as Method
+from cdcr._core_runs import Options as Options
+from cdcr._core_runs import Stats as Stats
+from cdcr._core_runs import TensionInput as TensionInput
+from cdcr._core_runs import Trajectory as Trajectory
 from cdcr._core_statics import Allocation as Allocation
 from cdcr._core_statics import Equilibrium as Equilibrium
 from cdcr.model.wrench import Wrench
@@ -55,15 +60,6 @@ class Status(enum.Enum):
     wrong_size = 11
     invalid_wrench = 12
     compression_limit = 13
-
-class Method(enum.Enum):
-    """How to integrate."""
-
-    rk4 = 0
-    dopri5 = 1
-    bdf = 2
-    adams = 3
-    dop853 = 4
 
 class Formulation(enum.Enum):
     """Which inertia functions to use."""
@@ -231,97 +227,6 @@ class ParameterSet(metaclass=_Bound):
     @property
     def names(self) -> list[str]: ...
     def is_exact(self, parameter: int) -> bool: ...
-
-class Options(metaclass=_Bound):
-    def __init__(
-        self,
-        *,
-        rtol: float | None = None,
-        atol: float | None = None,
-        step: float = ...,
-        max_step: float = ...,
-        max_steps: int | None = None,
-    ) -> None: ...
-    @property
-    def rtol(self) -> float | None: ...
-    @property
-    def atol(self) -> float | None: ...
-    @property
-    def step(self) -> float: ...
-    @property
-    def max_step(self) -> float: ...
-    @property
-    def max_steps(self) -> int | None: ...
-
-@final
-class Stats(metaclass=_Bound):
-    """What a run cost."""
-
-    def __init__(
-        self,
-        steps: int = 0,
-        rejected: int = 0,
-        evaluations: int = 0,
-        jacobians: int = 0,
-        newton_failures: int = 0,
-        switches: int = 0,
-        method: str | None = None,
-        stiff: float | None = None,
-    ) -> None: ...
-    @property
-    def steps(self) -> int: ...
-    @property
-    def rejected(self) -> int: ...
-    @property
-    def evaluations(self) -> int: ...
-    @property
-    def jacobians(self) -> int: ...
-    @property
-    def newton_failures(self) -> int: ...
-    @property
-    def switches(self) -> int: ...
-    @property
-    def method(self) -> str | None: ...
-    @property
-    def stiff(self) -> float | None: ...
-
-@final
-class TensionInput(metaclass=_Bound):
-    @staticmethod
-    def constant(model: Model, tension: ArrayLike, name: str = "tension") -> TensionInput: ...
-    @staticmethod
-    def table(model: Model, t: ArrayLike, tension: ArrayLike, linear: bool) -> TensionInput: ...
-    @staticmethod
-    def function(
-        model: Model, function: Callable[..., ArrayLike], break_points: Sequence[float]
-    ) -> TensionInput: ...
-
-@final
-class Trajectory(metaclass=_Bound):
-    @property
-    def t(self) -> _FloatArray: ...
-    @property
-    def q(self) -> _FloatArray: ...
-    @property
-    def qd(self) -> _FloatArray: ...
-    @property
-    def tension(self) -> _FloatArray: ...
-    @property
-    def command(self) -> _FloatArray: ...
-    @property
-    def deflection(self) -> _FloatArray: ...
-    @property
-    def sensitivities(self) -> _FloatArray: ...
-    @property
-    def slack_events(self) -> list[tuple[float, int, bool]]: ...
-    @property
-    def events(self) -> list[tuple[float, int, _FloatArray, _FloatArray]]: ...
-    @property
-    def status(self) -> Status: ...
-    @property
-    def message(self) -> str: ...
-    @property
-    def stats(self) -> Stats: ...
 
 def simulate(
     model: Model,

@@ -1,8 +1,8 @@
-"""Derivatives of accelerations with respect to parameters, at 60 digits, of independent making.
+"""Derivatives of accelerations with respect to parameters, at 80 digits, of independent making.
 
 A robot is a list of mass elements: one for each disk, and the points of Gauss quadrature of each
 backbone. Only place and rotation of each element are written down; mass matrix, bias and weight
-follow by differences at 60 digits, and so do the derivatives.
+follow by differences at 80 digits, and so do the derivatives.
 """
 
 import copy

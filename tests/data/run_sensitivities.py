@@ -1,4 +1,4 @@
-"""A run of one disk on a massless arc at 60 digits, and its derivatives, of independent making.
+"""A run of one disk on a massless arc at 96 digits, and its derivatives, of independent making.
 
 The equations of motion are those of the Lagrangian in closed form, checked against the element of
 mass of parameter_derivatives.py; runs by extrapolation, their derivatives by differences of runs.

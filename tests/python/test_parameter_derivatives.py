@@ -1,23 +1,25 @@
-"""Derivatives with respect to numbers of the robot: 60 digits, closed forms, differences."""
+"""Derivatives with respect to numbers of the robot: 80 digits, closed forms, differences."""
 
 import json
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 import cdcr
 
-CASES = json.loads(
+CASES: list[dict[str, Any]] = json.loads(
     (Path(__file__).parents[1] / "data" / "parameter_derivatives.json").read_text(encoding="utf-8")
 )
 ROUNDING = 2e-11  # of the largest of a column: differences of eighth order of lengths and diameters
 SMALL_STEP = 1e-7  # relative error of central differences of fourth order, of the tests
 
 
-def changed(robot, path, factor=1.0, by=0.0):
+def changed(robot: cdcr.Robot, path: str, factor: float = 1.0, by: float = 0.0) -> cdcr.Robot:
     """Return a robot with one number changed; of all sections where the path says so."""
     words = path.split(".")
     if words[0] == "payload":
@@ -30,7 +32,7 @@ def changed(robot, path, factor=1.0, by=0.0):
     return replace(robot, sections=tuple(sections))
 
 
-def difference(function, value, share=1e-3):
+def difference(function: Callable[[float], Any], value: float, share: float = 1e-3) -> Any:
     """Return the derivative by a number of that size: central, of fourth order."""
     step = share * value
     near = function(step) - function(-step)
@@ -39,8 +41,8 @@ def difference(function, value, share=1e-3):
 
 
 @pytest.mark.parametrize("case", CASES, ids=["one section", "two sections"])
-def test_60_digits(case):
-    """Made of mass elements at 60 digits, tests/data/parameter_derivatives.py."""
+def test_80_digits(case: dict[str, Any]) -> None:
+    """Made of mass elements at 80 digits, tests/data/parameter_derivatives.py."""
     sections = [cdcr.Section(**one) for one in case["robot"]["sections"]]
     robot = cdcr.Robot(
         sections=sections, gravity=case["robot"]["gravity"], payload=case["robot"]["payload"]
@@ -91,7 +93,7 @@ ROBOTS = {
     "path",
     ["length", "youngs_modulus", "cable_radius", "disk_diameter", "backbone_mass", "payload"],
 )
-def test_differences(name, path):
+def test_differences(name: str, path: str) -> None:
     """Rods and rubbing cables under a wrench, against accelerations of rebuilt robots."""
     robot = ROBOTS[name]
     full = path if path == "payload" else f"sections.*.{path}"
@@ -102,7 +104,7 @@ def test_differences(name, path):
     command = np.where(rest > 0, 0.95 * rest, 2.0)
     push = cdcr.Wrench(section=0, force=(0.3, -0.2, 0.1), fraction=0.6)
 
-    def accelerations(by):
+    def accelerations(by: float) -> Any:
         return cdcr.Model(changed(robot, full, by=by)).forward_dynamics(q, qd, command, push)
 
     size = robot.payload if path == "payload" else getattr(robot.sections[0], path)
@@ -111,7 +113,7 @@ def test_differences(name, path):
     assert found == pytest.approx(wanted, abs=SMALL_STEP * abs(wanted).max())
 
 
-def test_many_states_at_once():
+def test_many_states_at_once() -> None:
     """An answer for each state, as the functions of one state give it."""
     model = cdcr.Model(cdcr.robots.three_sections())
     q = np.random.default_rng(1).uniform(-1, 1, (4, 6))
@@ -122,7 +124,7 @@ def test_many_states_at_once():
         assert np.array_equal(slopes, model.parameter_derivatives(one, q[0], np.ones(9), paths))
 
 
-def test_equilibrium_in_closed_form():
+def test_equilibrium_in_closed_form() -> None:
     """Without weight q = r l F e/(E I), a power of each number."""
     robot = cdcr.robots.amouri2020()
     model = cdcr.Model(robot)
@@ -135,21 +137,23 @@ def test_equilibrium_in_closed_form():
         assert slope * value == pytest.approx(power * q, rel=1e-11)
 
 
-def test_equilibrium_under_weight():
+def test_equilibrium_under_weight() -> None:
     """Against equilibria of rebuilt robots."""
     robot = cdcr.robots.three_sections(gravity=(0.0, 0.0, -9.81), payload=0.05)
     model = cdcr.Model(robot)
     pull = np.linspace(1.0, 2.0, 9)
     q = model.equilibrium(pull)
     for path, size in {"payload": 0.05, "sections.2.length": robot.sections[1].length}.items():
-        wanted = difference(
-            lambda by, path=path: cdcr.Model(changed(robot, path, by=by)).equilibrium(pull, q), size
-        )
+
+        def rest(by: float, path: str = path) -> Any:
+            return cdcr.Model(changed(robot, path, by=by)).equilibrium(pull, q)
+
+        wanted = difference(rest, size)
         found = model.equilibrium_derivatives(q, pull, path)[:, 0]
         assert found == pytest.approx(wanted, abs=SMALL_STEP * abs(wanted).max())
 
 
-def test_numbers_at_their_bounds():
+def test_numbers_at_their_bounds() -> None:
     """No payload, no damping, a disk at the tip: one side is left, and is enough."""
     robot = cdcr.robots.amouri2020(gravity=(0.0, 0.0, -9.81))
     disks = replace(robot.sections[0], disk_positions=(0.5, 1.0), num_disks=2)
@@ -177,21 +181,21 @@ def test_numbers_at_their_bounds():
         ("sections.1.cable_stiffness", "parameter sections.1.cable_stiffness: .* another kind"),
     ],
 )
-def test_refusals(path, sentence):
+def test_refusals(path: Any, sentence: str) -> None:
     """Paths of nothing, of whole numbers, of what a cable is."""
     model = cdcr.Model(cdcr.robots.amouri2020())
     with pytest.raises(ValueError, match=sentence):
         model.parameter_derivatives([0.1, 0.0], [0.0, 0.0], [1.0, 0.0, 0.0], path)
 
 
-def test_what_is_no_path():
+def test_what_is_no_path() -> None:
     """A number is none."""
     model = cdcr.Model(cdcr.robots.amouri2020())
     with pytest.raises(TypeError, match="parameters must be paths"):
         model.equilibrium_derivatives([0.1, 0.0], [1.0, 0.0, 0.0], [1])  # type: ignore[list-item]
 
 
-def test_angles_of_cables():
+def test_angles_of_cables() -> None:
     """The moment of a cable turns with its angle."""
     robot = cdcr.robots.amouri2020()
     model = cdcr.Model(robot)

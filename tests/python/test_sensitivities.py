@@ -1,18 +1,20 @@
-"""Derivatives of runs: 60 digits, a closed form, differences of tight runs, refusals."""
+"""Derivatives of runs: 96 digits, a closed form, differences of tight runs, refusals."""
 
 import json
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 import cdcr
 
-CASE = json.loads(
+CASE: dict[str, Any] = json.loads(
     (Path(__file__).parents[1] / "data" / "run_sensitivities.json").read_text(encoding="utf-8")
 )
-TIGHT = {"method": "dop853", "rtol": 1e-13, "atol": 1e-14}
+TIGHT: dict[str, Any] = {"method": "dop853", "rtol": 1e-13, "atol": 1e-14}
 # Largest error over the largest value, of methods at the tolerances below.
 METHODS = {"dop853": 1e-9, "dopri5": 1e-9, "bdf": 1e-8, "adams": 1e-8}
 DIFFERENCE = 1e-8  # of runs, of fourth order: what their own errors leave
@@ -26,14 +28,14 @@ methods = pytest.mark.parametrize(
 )
 
 
-def difference(function, size):
+def difference(function: Callable[[float], Any], size: float) -> Any:
     """Return the derivative at zero: central, of fourth order."""
     near, far = function(size) - function(-size), function(2 * size) - function(-2 * size)
     return (8 * near - far) / (12 * size)
 
 
 @methods
-def test_60_digits(method):
+def test_96_digits(method: Any) -> None:
     """A disk on a massless arc, tests/data/run_sensitivities.py."""
     robot = cdcr.Robot(sections=[cdcr.Section(**CASE["section"])], gravity=CASE["gravity"])
     names = list(CASE["slopes"])
@@ -51,7 +53,7 @@ def test_60_digits(method):
         assert found == pytest.approx(wanted, abs=METHODS[method] * abs(wanted).max()), name
 
 
-def test_small_swings_in_closed_form():
+def test_small_swings_in_closed_form() -> None:
     """A straight robot barely moved: a damped oscillator of stiffness K and mass a."""
     robot = cdcr.robots.amouri2020(damping=2e-4)
     model = cdcr.Model(robot)
@@ -77,7 +79,7 @@ ARM = replace(ARM, sections=tuple(replace(one, damping=3e-3) for one in ARM.sect
 
 
 @methods
-def test_differences_under_a_table(method):
+def test_differences_under_a_table(method: Any) -> None:
     """Commands that ramp and jump, a wrench that comes and goes; the run is the one without."""
     model = cdcr.Model(ARM)
     rows = np.random.default_rng(3).uniform(0.5, 3.0, (5, 9))
@@ -85,7 +87,9 @@ def test_differences_under_a_table(method):
     t = np.linspace(1.0, 1.8, 17)
     q0 = np.full(6, 0.2)
 
-    def go(by=0.0, length=0.0, robot=ARM, **options):
+    def go(
+        by: float = 0.0, length: float = 0.0, robot: cdcr.Robot = ARM, **options: Any
+    ) -> cdcr.Trajectory:
         first = replace(robot.sections[0], length=robot.sections[0].length + length)
         changed = cdcr.Model(replace(robot, sections=(first, *robot.sections[1:])))
         table = cdcr.TensionTable([1.0, 1.2, 1.5, 1.6, 1.8], rows + by * np.eye(9)[4], "previous")
@@ -104,14 +108,14 @@ def test_differences_under_a_table(method):
     assert found == pytest.approx(by_length, abs=DIFFERENCE * abs(by_length).max())
 
 
-def test_springs_that_turn_slack():
+def test_springs_that_turn_slack() -> None:
     """Cables driven by length, released: they hang slack on the way and pull again."""
     section = replace(
         cdcr.robots.amouri2020(damping=1e-3).sections[0], cable_stiffness=3e3, cable_damping=2.0
     )
     robot = cdcr.Robot(sections=[section], gravity=(0.0, 0.0, 9.81))
 
-    def go(by=0.0, **options):
+    def go(by: float = 0.0, **options: Any) -> cdcr.Trajectory:
         changed = cdcr.Model(replace(robot, sections=(replace(section, cable_stiffness=3e3 + by),)))
         command = changed.rest_command() + np.array([-4e-3, 1e-3, 1e-3])
         return cdcr.simulate(
@@ -126,15 +130,17 @@ def test_springs_that_turn_slack():
     assert found == pytest.approx(wanted, abs=1e-6 * abs(wanted).max())
 
 
-def test_rk4_is_of_its_order():
+def test_rk4_is_of_its_order() -> None:
     """Half the step, a sixteenth of the error."""
     model = cdcr.Model(ARM)
-    start = np.full(6, 0.2), np.zeros(6)
-    options = {"t": [0.0, 0.3], "tension": np.ones(9), "sensitivities": ["q0"]}
-    truth = cdcr.simulate(model, *start, **options, **TIGHT).sensitivities["q0"][-1]
+    q0, qd0 = np.full(6, 0.2), np.zeros(6)
+    options: dict[str, Any] = {"t": [0.0, 0.3], "tension": np.ones(9), "sensitivities": ["q0"]}
+    truth = cdcr.simulate(model, q0, qd0, **options, **TIGHT).sensitivities["q0"][-1]
     errors = [
         abs(
-            cdcr.simulate(model, *start, **options, method="rk4", step=step).sensitivities["q0"][-1]
+            cdcr.simulate(model, q0, qd0, **options, method="rk4", step=step).sensitivities["q0"][
+                -1
+            ]
             - truth
         ).max()
         for step in (1e-3, 5e-4)
@@ -142,7 +148,7 @@ def test_rk4_is_of_its_order():
     assert 12 < errors[0] / errors[1] < 20
 
 
-def test_xarray_has_them():
+def test_xarray_has_them() -> None:
     """A variable each, of the parameters without a dimension."""
     pytest.importorskip("xarray")
     model = cdcr.Model(ARM)
@@ -166,7 +172,7 @@ def test_xarray_has_them():
         (["q0"], {"controller": "pid"}, "derivatives of a controller are not known"),
     ],
 )
-def test_refusals(asked, options, sentence):
+def test_refusals(asked: Any, options: dict[str, Any], sentence: str) -> None:
     """Names given twice, numbers that are none, feedback."""
     model = cdcr.Model(ARM)
     if "controller" in options:
