@@ -26,6 +26,7 @@ LONGEST = {
     "test_completion",
     "test_example_learning",
     "test_examples",
+    "test_examples_control",
     "test_exit",
     "test_figures",
     "test_inverse_kinematics",
