@@ -13,10 +13,18 @@ namespace cdcr::test {
 namespace {
 
 static_assert(is_noexcept<decltype(&cable_tensions)>);
-static_assert(is_noexcept<decltype(&cable_force)>);
+using CableForce = void(const Model&, const ConstVectorRef&, const ConstVectorRef&,
+                        const ConstVectorRef&, VectorRef) noexcept;
+static_assert(is_noexcept<decltype(static_cast<CableForce*>(&cable_force))>);
+using CableForceThatRemembers = void(const Model&, const ConstVectorRef&, const ConstVectorRef&,
+                                     const ConstVectorRef&, const ConstVectorRef&, VectorRef,
+                                     VectorRef) noexcept;
+static_assert(is_noexcept<decltype(static_cast<CableForceThatRemembers*>(&cable_force))>);
 static_assert(is_noexcept<decltype(&cable_pull)>);
 static_assert(is_noexcept<decltype(&tensions_along)>);
-static_assert(is_noexcept<decltype(&friction_power)>);
+using FrictionPower = double(const Model&, const ConstVectorRef&, const ConstVectorRef&,
+                             const ConstVectorRef&) noexcept;
+static_assert(is_noexcept<decltype(static_cast<FrictionPower*>(&friction_power))>);
 static_assert(is_noexcept<decltype(&cable_energy)>);
 static_assert(is_noexcept<decltype(&rest_command)>);
 static_assert(is_noexcept<decltype(&add_wrench_force)>);

@@ -46,11 +46,6 @@ inline const std::vector<Field<Section>>& section_fields() {
       {"cable_stiffness", &Section::cable_stiffness, "a number >= 0 N/m and finite"},
       {"cable_damping", &Section::cable_damping, "a number >= 0 N s/m and finite"},
       {"cable_friction", &Section::cable_friction, "a number >= 0 and finite"},
-      {"cable_entry_friction", &Section::cable_entry_friction, "a number >= 0 N and finite"},
-      {"cable_sheath_friction", &Section::cable_sheath_friction, "a number >= 0 and finite"},
-      {"cable_viscosity", &Section::cable_viscosity, "a number >= 0 N s/m and finite"},
-      {"cable_pretension", &Section::cable_pretension, "a number >= 0 N and finite"},
-      {"cable_backlash", &Section::cable_backlash, "a number >= 0 m and finite"},
       {"damping", &Section::damping, "a number >= 0 N m s/rad and finite"},
       {"bending_order", &Section::bending_order, order},
       {"twist_order", &Section::twist_order, order},
@@ -67,6 +62,11 @@ inline const std::vector<Field<Section>>& section_fields() {
       {"rest_bending", &Section::rest_bending, "an array of 2 numbers [rad]"},
       {"rest_twist", &Section::rest_twist, "a finite number [rad]"},
       {"nodes", &Section::nodes, "a whole number 3 to 32"},
+      {"cable_entry_friction", &Section::cable_entry_friction, "a number >= 0 N and finite"},
+      {"cable_sheath_friction", &Section::cable_sheath_friction, "a number >= 0 and finite"},
+      {"cable_viscosity", &Section::cable_viscosity, "a number >= 0 N s/m and finite"},
+      {"cable_pretension", &Section::cable_pretension, "a number >= 0 N and finite"},
+      {"cable_backlash", &Section::cable_backlash, "a number >= 0 m and finite"},
   };
   return fields;
 }
@@ -82,12 +82,12 @@ inline const std::vector<Field<Cable>>& cable_fields() {
       {"stiffness", &Cable::stiffness, "a number >= 0 N/m and finite"},
       {"damping", &Cable::damping, "a number >= 0 N s/m and finite"},
       {"friction", &Cable::friction, "a number >= 0 and finite"},
+      {"start_section", &Cable::start_section, number},
       {"entry_friction", &Cable::entry_friction, "a number >= 0 N and finite"},
       {"sheath_friction", &Cable::sheath_friction, "a number >= 0 and finite"},
       {"viscosity", &Cable::viscosity, "a number >= 0 N s/m and finite"},
       {"pretension", &Cable::pretension, "a number >= 0 N and finite"},
       {"backlash", &Cable::backlash, "a number >= 0 m and finite"},
-      {"start_section", &Cable::start_section, number},
       {"radii", &Cable::radii},
       {"angles", &Cable::angles},
   };
@@ -103,8 +103,8 @@ inline const std::vector<Field<Robot>>& robot_fields() {
       {"payload_position", &Robot::payload_position, "an array of 3 numbers [m]"},
       {"payload_inertia", &Robot::payload_inertia, "an array of 3 rows of 3 numbers [kg m^2]"},
       {"sliding_speed", &Robot::sliding_speed, "a number > 0 m/s and finite"},
-      {"presliding_stiffness", &Robot::presliding_stiffness, "a number >= 0 N/m and finite"},
       {"tool", &Robot::tool, "an array of 4 rows of 4 numbers"},
+      {"presliding_stiffness", &Robot::presliding_stiffness, "a number >= 0 N/m and finite"},
   };
   return fields;
 }
