@@ -13,10 +13,13 @@ REL = 4e-15
 
 
 # What a section of an arc leaves unsaid.
+SAID = {"disk_positions", "disk_masses", "disk_diameters"} | {
+    f"cable_{name}" for name in ("stiffness", "damping", "friction")
+}
 UNSAID = {
     item.name: item.default
     for item in dataclasses.fields(cdcr.Section)
-    if item.metadata["advanced"] and not item.name.startswith(("disk", "cable"))
+    if item.metadata["advanced"] and item.name not in SAID
 }
 
 
@@ -53,6 +56,7 @@ def test_table_1() -> None:
         "payload_inertia": ((0.0, 0.0, 0.0),) * 3,
         "sliding_speed": 1e-3,
         "tool": tuple(tuple(row) for row in np.eye(4).tolist()),
+        "presliding_stiffness": 0.0,
     }
 
 

