@@ -82,8 +82,8 @@ void imbalance_derivatives(const ParameterSet& parameters, ParameterData& room,
                            const ConstVectorRef& qdd, const ConstVectorRef& command,
                            const Wrenches& wrenches, MatrixRef slopes) noexcept;
 
-/// d(qdd)/dp (d, size) of forward_dynamics at a state, cpp/sensitivities.md eq. (116). NaN where the
-/// mass matrix is singular. Real-time safe.
+/// d(qdd)/dp (d, size) of forward_dynamics at a state, cpp/sensitivities.md eq. (116). NaN where
+/// the mass matrix is singular. Real-time safe.
 void parameter_derivatives(const Model& model, Data& data, const ParameterSet& parameters,
                            ParameterData& room, const ConstVectorRef& q, const ConstVectorRef& qd,
                            const ConstVectorRef& command, const Wrenches& wrenches,

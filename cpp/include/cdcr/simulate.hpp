@@ -34,12 +34,12 @@ struct SlackEvent {
 
 /// A run, sampled: one row for each output time reached.
 struct Trajectory {
-  VectorXd t;              ///< (N) [s]
-  RowMatrixXd q;           ///< (N, d) [rad]
-  RowMatrixXd qd;          ///< (N, d) [rad/s]
-  RowMatrixXd tension;     ///< at the base (N, num_cables) [N]; at a jump, the value after it
-  RowMatrixXd command;     ///< what was asked of the cables (N, num_cables), [N] or [m]
-  RowMatrixXd deflection;  ///< of cables whose friction remembers (N, num_deflections) [m]
+  VectorXd t;                 ///< (N) [s]
+  RowMatrixXd q;              ///< (N, d) [rad]
+  RowMatrixXd qd;             ///< (N, d) [rad/s]
+  RowMatrixXd tension;        ///< at the base (N, num_cables) [N]; at a jump, the value after it
+  RowMatrixXd command;        ///< what was asked of the cables (N, num_cables), [N] or [m]
+  RowMatrixXd deflection;     ///< of cables whose friction remembers (N, num_deflections) [m]
   RowMatrixXd sensitivities;  ///< (N, 2 d k), where asked for (cdcr/sensitivities.hpp)
   std::vector<SlackEvent> slack_events;  ///< in the order of time
   std::vector<EventRecord> events;       ///< in the order of time

@@ -47,7 +47,7 @@ class Simulator {
   [[nodiscard]] const VectorXd& felt() const noexcept { return felt_; }              ///< [N] or [m]
   [[nodiscard]] double time() const noexcept { return time_; }                       ///< [s]
   [[nodiscard]] double period() const noexcept { return period_; }                   ///< [s]
-  [[nodiscard]] int substeps() const noexcept { return substeps_; }      ///< in a period
+  [[nodiscard]] int substeps() const noexcept { return substeps_; }  ///< in a period
   [[nodiscard]] Method method() const noexcept { return method_; }
   [[nodiscard]] bool started() const noexcept { return started_; }       ///< reset has been called
   [[nodiscard]] double start() const noexcept { return start_; }         ///< as reset was told [s]

@@ -16,6 +16,7 @@ constexpr double beta = 0.04, safety = 0.8;
 template <const auto& terms>
 double sum_of(const double* slopes, Index n) {
   double sum = 0.0;
+  // NOLINTNEXTLINE(readability-redundant-parentheses): none are there
   for (const dop853::Term& term : terms) sum += term.weight * slopes[term.slope * n];
   return sum;
 }

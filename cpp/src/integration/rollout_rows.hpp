@@ -7,10 +7,11 @@
 
 namespace cdcr::detail {
 
-/// The commands of a motion over a step.
+/// The commands of a motion over a step; null where a controller gives them.
 [[nodiscard]] inline const double* command_of(const Motions& motions, Index motion,
                                               Index step) noexcept {
   const RolloutCommands& given = motions.commands;
+  if (given.data == nullptr) return nullptr;
   return given.data + motion * given.between_motions + step * given.between_steps;
 }
 

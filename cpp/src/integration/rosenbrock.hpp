@@ -30,7 +30,7 @@ struct RosenbrockStages {
 
   /// How that step ended: bent beyond the limit at its stage, the state ends up not a number.
   template <class Check>
-  Status status_after(Check&& check, const VectorXd& next) const {
+  [[nodiscard]] Status status_after(Check&& check, const VectorXd& next) const {
     const Status status = check(next.data());
     if (status != Status::non_finite_state) return status;
     const Status of_stage = check(trial.data());

@@ -41,9 +41,8 @@ RunSensitivities::RunSensitivities(RobotOde& ode, const Sensitivities& asked, do
       method_(Collocation::radau(stages_for(method))),
       data_(ode.model()),
       room_(ode.model()),
-      largest_error_(has_fixed_steps(method)
-                         ? std::numeric_limits<double>::infinity()
-                         : 2.0 * std::sqrt(Tolerances(options, method).rtol)),
+      largest_error_(has_fixed_steps(method) ? std::numeric_limits<double>::infinity()
+                                             : 2.0 * std::sqrt(Tolerances(options, method).rtol)),
       y_(2 * d_),
       on_q_(d_, d_),
       on_qd_(d_, d_),

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "base/arguments.hpp"
 #include "robot_file/fields.hpp"
 #include "robot_file/values.hpp"
 
@@ -178,7 +179,7 @@ void read_tables(const toml::array* tables, const std::vector<Field<T>>& fields,
                  Sentences& sentences) {
   if (tables == nullptr) return;
   for (const toml::node& node : *tables) {
-    const std::string in = before + std::to_string(things.size() + 1) + after;
+    const std::string in = detail::sentence(before, things.size() + 1, after);
     T& thing = things.emplace_back();
     if (const toml::table* table = node.as_table()) {
       TableReader<T>(*table, in, fields, sentences).read_into(thing);

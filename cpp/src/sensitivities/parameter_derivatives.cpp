@@ -44,7 +44,7 @@ void ParameterData::Rooms::find_slack(const Model& model, const double* q, const
   for (Index j = 0; j < model.num_cables(); ++j) {
     const Cable& cable = model.cables()[static_cast<std::size_t>(j)];
     slack_[static_cast<std::size_t>(j)] =
-        cable.length_driven() && !(detail::spring_force(model, j, q, qd, command[j]) > 0.0);
+        cable.length_driven() && !(detail::spring_force(model, j, q, qd, command[j]) > 0.0) ? 1 : 0;
   }
 }
 

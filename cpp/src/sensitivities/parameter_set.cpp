@@ -186,7 +186,8 @@ Slope slope_of(const Model& model, const Parameter& parameter, Probing& probing)
       slope.points = std::move(plain.points);
       slope.exact = true;
     }
-  } catch (const std::invalid_argument&) {  // it may not go so far
+  } catch (const std::invalid_argument&) {
+    return slope;  // it may not go so far
   }
   return slope;
 }
