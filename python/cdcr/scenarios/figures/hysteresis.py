@@ -67,7 +67,7 @@ def _draw_angle(axes: Axes, run: Trajectory, other: Trajectory) -> None:
     axes.set_ylabel("bending angle [deg]")
     axes.margins(x=0.0)
     panels.legend_above(axes)
-    panels.show_time(axes, run, named=False)
+    panels.show_time(axes, run, named=True)
 
 
 def _draw_creep(axes: Axes, run: Trajectory, other: Trajectory) -> None:
