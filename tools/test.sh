@@ -5,7 +5,7 @@ cd "$(dirname "$0")/.."
 
 cpp() { cmake --preset release && cmake --build --preset release && ctest --preset release; }
 types() {
-  mypy && python -m mypy.stubtest cdcr._core --allowlist tests/python/stubtest_allowlist.txt
+  mypy && python tools/stubtest.py
 }
 python_tests() {
   pytest -n auto --maxprocesses 4 --dist loadfile --no-loadscope-reorder \
