@@ -86,7 +86,7 @@ def test_installed_with_the_shared_object_of_fmus() -> None:
 
 def test_installs_the_package_and_nothing_else() -> None:
     belongs = re.compile(
-        r"cdcr/([\w/-]+\.(html|json|py|pyi|toml)|py\.typed|_core\.[\w.-]+\.so|_fmu\.so)"
+        r"cdcr/([\w/-]+\.(c|h|html|json|py|pyi|toml)|py\.typed|_core\.[\w.-]+\.so|_fmu\.so)"
         r"|cdcr-[\d.]+\.dist-info/.*"
         r"|(\.\./)+bin/cdcr"
     )
@@ -98,7 +98,7 @@ def test_every_file_is_installed() -> None:
     files = {
         path.relative_to(source).as_posix()
         for path in source.rglob("*")
-        if path.suffix in (".html", ".py", ".pyi", ".toml")
+        if path.suffix in (".c", ".h", ".html", ".py", ".pyi", ".toml")
     }
     assert files - set(installed_files()) == set()
 
