@@ -92,7 +92,8 @@ void bind_controller(py::module_& m) {
       .def(py::init([](double period) { return new PythonController(period); }), "period"_a,
            Doc("Make a controller, of which a class derived from this one tells what it does.",
                {"period : float\n    Sampling period [s], > 0.\n"}, "", docs::bad_argument))
-      .def_property_readonly("period", &Controller::period, "Sampling period [s].")
+      .def_property_readonly("period", &Controller::period,
+                             "Time between two updates [s], its period.")
       .def(
           "reset",
           [](Controller& self) {

@@ -111,7 +111,7 @@ py::class_<Tracking<Law>, TrackingController> bind_law(py::module_& m, const cha
                "options : dict\n    What the class in Python takes by keyword, all of it.\n"},
               "", docs::bad_argument))
       .def_readonly("model", &Tracking<Law>::model, "The robot that it reckons with.")
-      .def_readonly("options", &Tracking<Law>::options, "What it was made of, a dict.");
+      .def_readonly("options", &Tracking<Law>::options, "What it was made of, by name, in a dict.");
   make_picklable(
       law,
       [](const Tracking<Law>& self) {

@@ -146,10 +146,10 @@ void bind_loop(py::module_& m) {
       .def_readonly("estimator", &PythonLoop::estimated_by, "What estimates its state, or None.")
       .def_property_readonly(
           "q", [](const PythonLoop& self) { return to_array(self.q()); },
-          "Bending vectors (d,) [rad].")
+          "Coordinates (d,) at the time reached [rad].")
       .def_property_readonly(
           "qd", [](const PythonLoop& self) { return to_array(self.qd()); },
-          "Their rates (d,) [rad/s].")
+          "Their rates (d,) at the time reached [rad/s].")
       .def_property_readonly(
           "asked", [](const PythonLoop& self) { return to_array(self.asked()); },
           "What the controller last asked for (num_cables,) [N], [m].")
@@ -171,7 +171,8 @@ void bind_loop(py::module_& m) {
           },
           "What each sensor tells, a list of arrays (m,) [of its kind].")
       .def_property_readonly(
-          "time", [](const PythonLoop& self) { return self.time(); }, "Time reached [s].")
+          "time", [](const PythonLoop& self) { return self.time(); },
+          "Time reached [s], after whole periods.")
       .def_property_readonly(
           "status", [](const PythonLoop& self) { return self.status(); },
           "How the last step ended.");

@@ -39,7 +39,8 @@ void bind_model(py::module_& m) {
            Doc("The same model under another gravity, which shares its tables.",
                {docs::model, "gravity : (3,) array_like\n    In the base frame [m/s^2].\n"}, "",
                docs::bad_argument))
-      .def_property_readonly("num_sections", &Model::num_sections, "Number n of sections.")
+      .def_property_readonly("num_sections", &Model::num_sections,
+                             "Number n of sections, from base to tip.")
       .def_property_readonly("num_coordinates", &Model::num_coordinates,
                              "Number d of coordinates q: two for each section of constant\n"
                              "curvature, those of cpp/rods.md eq. (51) for others.")
@@ -59,7 +60,8 @@ void bind_model(py::module_& m) {
           Doc("Where the coordinates of a section, cpp/README.md eq. (1), stand in q.",
               {docs::section}, "slice\n    Of the last axis of q, qd and what is like them.",
               docs::bad_argument))
-      .def_property_readonly("num_cables", &Model::num_cables, "Number of all cables.")
+      .def_property_readonly("num_cables", &Model::num_cables,
+                             "Number of all cables, those of sections first.")
       .def_property_readonly("has_inertia", &Model::has_inertia,
                              "Whether the robot has dynamics: every motion moves some mass.")
       .def_property_readonly("has_rods", &Model::has_rods,

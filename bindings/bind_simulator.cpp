@@ -116,16 +116,18 @@ void bind_simulator(py::module_& m) {
               "Status\n    ``ok``, or why the state is still the one before.", docs::bad_argument))
       .def_property_readonly(
           "q", [](const PythonSimulator& self) { return to_array(self.q()); },
-          "Bending vectors (d,) [rad].")
+          "Coordinates (d,) at the time reached [rad].")
       .def_property_readonly(
           "qd", [](const PythonSimulator& self) { return to_array(self.qd()); },
-          "Their rates (d,) [rad/s].")
+          "Their rates (d,) at the time reached [rad/s].")
       .def_property_readonly(
           "deflection", [](const PythonSimulator& self) { return to_array(self.deflection()); },
           "Of cables whose friction remembers (num_deflections,) [m].")
-      .def_readonly("model", &PythonSimulator::model, "The robot.")
-      .def_property_readonly("time", &PythonSimulator::time, "Time reached [s].")
-      .def_property_readonly("period", &PythonSimulator::period, "Control period [s].")
+      .def_readonly("model", &PythonSimulator::model, "The robot that is moved, a cdcr.Model.")
+      .def_property_readonly("time", &PythonSimulator::time,
+                             "Time reached [s], after whole periods.")
+      .def_property_readonly("period", &PythonSimulator::period,
+                             "Control period [s], over which commands hold.")
       .def("__repr__", [](const PythonSimulator& self) {
         std::ostringstream text;
         text << "<Simulator at t = " << self.time() << " s, period " << self.period()

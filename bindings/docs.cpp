@@ -1,5 +1,7 @@
 #include "docs.hpp"
 
+#include <cstring>
+
 namespace cdcr::python {
 namespace {
 
@@ -58,6 +60,21 @@ void show_constructors(const py::module_& m) {
     // Where the core alone makes objects, pybind11 leaves a slot that refuses.
     if (constructor.is_none() || Py_IS_TYPE(constructor.ptr(), &PyWrapperDescr_Type)) continue;
     py::setattr(item.second, "__signature__", property);
+  }
+}
+
+void show_getters(const py::module_& m) {
+  for (const auto& item : py::dict(m.attr("__dict__"))) {
+    if (!PyType_Check(item.second.ptr())) continue;
+    for (const py::handle of_class : item.second.attr("__dict__").attr("values")()) {
+      if (!PyObject_TypeCheck(of_class.ptr(), &PyProperty_Type)) continue;
+      const py::object text = of_class.attr("__doc__"), fget = of_class.attr("fget");
+      const py::handle getter = py::detail::get_function(fget);
+      if (text.is_none() || !PyCFunction_Check(getter.ptr())) continue;
+      PyMethodDef* const made = reinterpret_cast<PyCFunctionObject*>(getter.ptr())->m_ml;
+      // pybind11 frees it with the function.
+      if (made->ml_doc == nullptr) made->ml_doc = strdup(text.cast<std::string>().c_str());
+    }
   }
 }
 

@@ -28,6 +28,9 @@ class Doc {
 /// that of the constructor.
 void show_constructors(const pybind11::module_& m);
 
+/// Gives the getters of properties the words of these, so that help of either has them.
+void show_getters(const pybind11::module_& m);
+
 /// What many functions take; d is the model's num_coordinates.
 namespace docs {
 

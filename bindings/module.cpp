@@ -28,6 +28,7 @@ PYBIND11_MODULE(_core, m) {
   cdcr::python::bind_estimators(m);
   cdcr::python::bind_loop(m);
   cdcr::python::show_constructors(m);
+  cdcr::python::show_getters(m);
   cdcr::python::finish_pickling(m);
   cdcr::python::tell_calls_plainly(m);
 }

@@ -213,6 +213,13 @@ def test_signatures_of_the_core_have_names_and_defaults() -> None:
     assert list(inspect.signature(cdcr.Model).parameters) == ["robot", "formulation"]
 
 
+def test_getters_of_the_core_have_the_words_of_their_properties() -> None:
+    classes = [thing for thing in vars(_core).values() if inspect.isclass(thing)]
+    getters = [one for cls in classes for one in vars(cls).values() if isinstance(one, property)]
+    assert len(getters) > 100
+    assert [one for one in getters if one.__doc__ != inspect.getdoc(one.fget)] == []
+
+
 def test_examples_of_the_core_run() -> None:
     flags = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS
     failed, attempted = doctest.testmod(_core, optionflags=flags)

@@ -48,7 +48,7 @@ def test_every_motion_is_that_of_simulate(method: Any) -> None:
 
 def test_each_motion_may_have_a_robot_of_its_own() -> None:
     models = [cdcr.Model(cdcr.robots.amouri2020(damping=0.01 * i)) for i in range(N)]
-    runs = cdcr.rollout(models, Q0, QD0, tension=PULLS, **RUN)
+    runs = cdcr.rollout(models, Q0, QD0, PULLS, **RUN)  # tensions may go without their name
     for i, model in enumerate(models):
         np.testing.assert_allclose(runs.q[i], alone(i, runs.t, model=model).q, **SAME)
         assert runs[i].model is model

@@ -98,7 +98,7 @@ class Model(StateSpaceModel):
 
     @property
     def robot(self) -> Robot:
-        """The robot described."""
+        """The robot that it was made of, as described."""
         return self._robot
 
     @property

@@ -207,7 +207,7 @@ class Robot(Filed, Shown):
 
     @property
     def num_cables(self) -> int:
-        """Number of all cables."""
+        """Number of all cables, those of sections first."""
         return sum(len(section.cable_angles) for section in self.sections) + len(self.cables)
 
     @property

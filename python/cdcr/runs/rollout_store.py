@@ -31,6 +31,7 @@ def rollout_to_zarr(
     model: Model | Sequence[Model],
     q0: ArrayLike,
     qd0: ArrayLike,
+    tension: ArrayLike | None = None,
     *,
     chunk: int = 4096,
     overwrite: bool = False,
@@ -46,7 +47,7 @@ def rollout_to_zarr(
     ----------
     path : path-like
         The folder, ending in ``.zarr``, in one that exists. Needs the extra ``zarr``.
-    model, q0, qd0
+    model, q0, qd0, tension
         As in `rollout`.
     chunk : int, optional
         Motions that are run and written together.
@@ -96,7 +97,8 @@ def rollout_to_zarr(
     try:
         done = 0
         costs, failures = [], []
-        for given in _chunks(size, model, {"q0": q0, "qd0": qd0, **options}):
+        whole = {"q0": q0, "qd0": qd0, "tension": tension, **options}
+        for given in _chunks(size, model, whole):
             runs = rollout(**given)
             if any(one.status is _core.Status.interrupted for one in runs.failures):
                 raise KeyboardInterrupt
