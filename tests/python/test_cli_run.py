@@ -251,6 +251,7 @@ def test_progress_is_shown_on_long_runs_at_a_terminal(
     monkeypatch: pytest.MonkeyPatch, delay: float, terminal: bool, shown: bool
 ) -> None:
     monkeypatch.setattr(cli_run, "BAR_DELAY", delay)
+    monkeypatch.setenv("TERM", "xterm")  # a dumb one has no bar
     screen = io.StringIO()
     console = Console(file=screen, force_terminal=terminal, width=80)
     with cli_run.DelayedBar(console, "step-tension", 10.0) as bar:
@@ -261,6 +262,7 @@ def test_progress_is_shown_on_long_runs_at_a_terminal(
 
 
 def test_progress_tells_time_simulated_and_how_fast(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("TERM", "xterm")
     clock = iter([0.0, 2.0, 2.0, 4.0, 4.0])
     monkeypatch.setattr("cdcr.cli.run.time.monotonic", lambda: next(clock))
     screen = io.StringIO()

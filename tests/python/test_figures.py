@@ -187,6 +187,7 @@ def test_the_bar_is_on_the_console_it_is_given(
     from io import StringIO
 
     monkeypatch.setattr("cdcr.cli.run.BAR_DELAY", 0.0)
+    monkeypatch.setenv("TERM", "xterm")
     stream = StringIO()
     console = Console(file=stream, force_terminal=True, width=80)
     files = figures.figures(tmp_path, overwrite=False, console=console)
