@@ -294,10 +294,11 @@ def test_missing_extra_is_named(run: cdcr.Trajectory, monkeypatch: pytest.Monkey
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
-        ({"num": 0}, "num must be a whole number >= 1, got 0 (int)"),
-        ({"num": 2.5}, "num must be a whole number >= 1, got 2.5 (float)"),
-        ({"times": []}, "times must have shape (M,) with M at least 1, got (0,)"),
-        ({"times": [[0.0]]}, "times must have shape (M,) with M at least 1, got (1, 1)"),
+        ({"num": 0}, "num must be a whole number 1 to 100, got 0 (int)"),
+        ({"num": 10**9}, "num must be a whole number 1 to 100, got 1000000000 (int)"),
+        ({"num": 2.5}, "num must be a whole number 1 to 100, got 2.5 (float)"),
+        ({"times": []}, "times must have shape (M,) with M 1 to 100, got (0,)"),
+        ({"times": [[0.0]]}, "times must have shape (M,) with M 1 to 100, got (1, 1)"),
         (
             {"ax": Figure().add_subplot()},
             "ax must be an Axes3D, as projection='3d' makes one, got Axes",

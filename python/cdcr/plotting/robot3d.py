@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 SLACK_WIDTH, TAUT_WIDTH = 0.8, 2.2  # of the line of a cable [pt]
 FINER = 0.6  # share of these, of the cables of several sections
+MOST = 100  # shapes in a picture, beyond which nobody tells them apart
 FAINTEST = 0.25  # opacity of the earliest of several shapes
 PICTURE = np.array([7.0, 6.5])  # largest picture of a robot, legend apart [in]
 
@@ -196,12 +197,12 @@ def plot_run_robot(
     """
     if times is None:
         check = Check()
-        count = check.whole("num", num, "a whole number >= 1", low=1)
+        count = check.whole("num", num, f"a whole number 1 to {MOST}", low=1, high=MOST)
         check.done()
         times = np.linspace(run.t[0], run.t[-1], count)
     chosen = np.atleast_1d(finite(times, "times"))
-    if chosen.ndim != 1 or not chosen.size:
-        raise ValueError(f"times must have shape (M,) with M at least 1, got {chosen.shape}")
+    if chosen.ndim != 1 or not 1 <= chosen.size <= MOST:
+        raise ValueError(f"times must have shape (M,) with M 1 to {MOST}, got {chosen.shape}")
     states = states_at(run, chosen)
     fading = np.linspace(FAINTEST, 1.0, len(chosen)) if len(chosen) > 1 else [1.0]
     with style():
