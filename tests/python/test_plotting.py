@@ -312,6 +312,23 @@ def test_wrong_arguments_of_pictures(arguments: dict[str, Any], sentence: str) -
         run.plot_robot(**arguments)
 
 
+@pytest.mark.parametrize(
+    ("call", "sentence"),
+    [
+        (lambda run: cdcr.plotting.plot_run(run.model), "run must be a cdcr.Trajectory, got Model"),
+        (lambda run: cdcr.plotting.plot_run_robot(3), "run must be a cdcr.Trajectory, got int"),
+        (lambda run: cdcr.plotting.plot_robot(run, [0.0, 0.0]), "model must be a cdcr.Model, got "),
+        (lambda run: cdcr.plotting.animate(None, "a.gif"), "run must be a cdcr.Trajectory, got "),
+        (lambda run: cdcr.plotting.plot_modes(run.model), "modes must be a cdcr.Modes, got Model"),
+        (lambda run: cdcr.plotting.plot_identified(run), "fit must be a mapping with channels, "),
+        (lambda run: cdcr.plotting.plot_identified({}), "fit must be a mapping with channels, "),
+    ],
+)
+def test_pictures_of_something_else(call: Any, sentence: str, run: cdcr.Trajectory) -> None:
+    with pytest.raises(TypeError, match=f"^{re.escape(sentence)}"):
+        call(run)
+
+
 def test_a_robot_of_micrometres_is_drawn_as_one_of_metres() -> None:
     """Scaled so that its motion is the same, the limits of its panels scale with it."""
     section = cdcr.robots.amouri2020().sections[0]

@@ -11,7 +11,7 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # type: ignore[import-u
 from numpy.typing import ArrayLike
 
 from cdcr.base.arrays import FloatArray, finite
-from cdcr.base.check import Check
+from cdcr.base.check import Check, require_like
 from cdcr.plotting import panels, space
 from cdcr.plotting.geometry import base_plate, robot_shape, states_at
 from cdcr.plotting.legend import ShapeSample, legend_of
@@ -149,6 +149,7 @@ def plot_robot(
     >>> cdcr.plotting.plot_robot(model, [0.5, 0.0]).get_zlabel()
     'z [m]'
     """
+    require_like("model", model, "Model", "robot", "num_coordinates")
     state = _checked("q", q, model.num_coordinates)
     with style():
         axes = _axes(ax, size)
@@ -195,6 +196,7 @@ def plot_run_robot(
     >>> cdcr.plotting.plot_run_robot(run, [0.0, 1.0]).get_zlabel()
     'z [m]'
     """
+    require_like("run", run, "Trajectory", "model", "tension", "tip")
     if times is None:
         check = Check()
         count = check.whole("num", num, f"a whole number 1 to {MOST}", low=1, high=MOST)
