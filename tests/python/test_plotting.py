@@ -316,9 +316,15 @@ def test_wrong_arguments_of_pictures(arguments: dict[str, Any], sentence: str) -
     ("call", "sentence"),
     [
         (lambda run: cdcr.plotting.plot_run(run.model), "run must be a cdcr.Trajectory, got Model"),
-        (lambda run: cdcr.plotting.plot_run_robot(3), "run must be a cdcr.Trajectory, got int"),
+        (
+            lambda run: cdcr.plotting.plot_run_robot(run.t),
+            "run must be a cdcr.Trajectory, got ndarray",
+        ),
         (lambda run: cdcr.plotting.plot_robot(run, [0.0, 0.0]), "model must be a cdcr.Model, got "),
-        (lambda run: cdcr.plotting.animate(None, "a.gif"), "run must be a cdcr.Trajectory, got "),
+        (
+            lambda run: cdcr.plotting.animate(run.model, "a.gif"),
+            "run must be a cdcr.Trajectory, got ",
+        ),
         (lambda run: cdcr.plotting.plot_modes(run.model), "modes must be a cdcr.Modes, got Model"),
         (lambda run: cdcr.plotting.plot_identified(run), "fit must be a mapping with channels, "),
         (lambda run: cdcr.plotting.plot_identified({}), "fit must be a mapping with channels, "),
