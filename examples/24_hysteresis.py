@@ -57,7 +57,7 @@ away = {name: np.linalg.norm(run.tip[:, :2], axis=1) for name, run in runs.items
 for name in runs:
     rests = [
         np.interp(3.5, np.sort(way), there[np.argsort(way)])
-        for way, there in zip(ways, np.split(away[name], len(ways)))
+        for way, there in zip(ways, np.split(away[name], len(ways)), strict=True)
     ]
     print(f"{name}: on {len(ways)} ways to 3.5 N the tip rests {1e3 * np.ptp(rests):.1f} mm apart")
 sticks = np.mean(runs["in the holes"].sliding[:, 6] == 0)
