@@ -58,7 +58,7 @@ class Trajectory(Pictures, ReadOnlyArrays):
     sensitivities, rate_sensitivities : mapping of str to (N, d, k) array
         Derivatives of q [rad] and of qd [rad/s] by what `simulate` was asked for: by the name
         given, with k = d columns for "q0" and "qd0", num_cables for "tension", one for a number of
-        the robot, in SI units.
+        the robot, in SI units. netCDF files keep them, CSV files do not.
     """
 
     model: Model
