@@ -70,6 +70,8 @@ def asked_of(model: Model, names: str | Sequence[str]) -> Asked:
         For what is no name.
     """
     given = (names,) if isinstance(names, str) else tuple(names)
+    if not given:
+        return Asked(())
     known = [name for name in given if name in (*_START, *_COMMANDS)]
     paths = [name for name in given if name not in known]
     twice = [name for name in given if given.count(name) > 1]
