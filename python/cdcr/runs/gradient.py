@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cdcr.base.arrays import FloatArray, ReadOnlyArrays, finite
+from cdcr.base.arrays import FloatArray, ReadOnlyArrays, finite, read_only
 from cdcr.base.check import Check, require_kind
 from cdcr.model.model import Model
 from cdcr.model.steps import AnyDynamics, Steps
@@ -190,9 +190,9 @@ def gradient(
     )
     return Gradient(
         value=float(value),
-        q0=by_start[:d],
-        qd0=by_start[d:],
-        tension=by_tension if pulls.ndim == 2 else by_tension.sum(axis=0),
+        q0=read_only(by_start[:d]),
+        qd0=read_only(by_start[d:]),
+        tension=read_only(by_tension if pulls.ndim == 2 else by_tension.sum(axis=0)),
         motion=motion,
         parameters=dict(zip(names, by_parameter.tolist(), strict=True)),
     )
