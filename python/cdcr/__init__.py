@@ -58,6 +58,7 @@ if TYPE_CHECKING:
     from cdcr.motion.reference import Reference
     from cdcr.runs.controllers import ComputedTorque, StateFeedback, TaskSpace
     from cdcr.runs.estimators import ExtendedKalman, MomentumObserver, UnscentedKalman
+    from cdcr.runs.gradient import Gradient, gradient
     from cdcr.runs.loop import Loop, LoopRun
     from cdcr.runs.parts import Actuator, Sensor, Winch
     from cdcr.runs.pid import Pid
@@ -78,6 +79,7 @@ __all__ = [
     "Derivatives",
     "Equilibrium",
     "ExtendedKalman",
+    "Gradient",
     "InfeasibleError",
     "InverseKinematics",
     "InverseRun",
@@ -112,6 +114,7 @@ __all__ = [
     "check_path",
     "control",
     "export",
+    "gradient",
     "identification",
     "identify",
     "inverse_run",
@@ -142,6 +145,7 @@ _LATER = {
     "Actuator": "runs.parts",
     "ComputedTorque": "runs.controllers",
     "ExtendedKalman": "runs.estimators",
+    "Gradient": "runs.gradient",
     "InverseRun": "motion.inverse",
     "Loop": "runs.loop",
     "LoopRun": "runs.loop",
@@ -157,6 +161,7 @@ _LATER = {
     "UnscentedKalman": "runs.estimators",
     "Winch": "runs.parts",
     "check_path": "motion.feasibility",
+    "gradient": "runs.gradient",
     "identify": "identification",
     "inverse_run": "motion.inverse",
     "rollout": "runs.rollout",
