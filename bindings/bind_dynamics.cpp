@@ -1,6 +1,7 @@
 #include <array>
 
 #include "bind.hpp"
+#include "cdcr/base_wrench.hpp"
 #include "cdcr/dynamics.hpp"
 #include "cdcr/linearization.hpp"
 #include "docs.hpp"
@@ -149,6 +150,27 @@ void bind_dynamics(PyModel& model) {
                "    Accelerations [rad/s^2].\n",
                docs::wrenches},
               "(..., d) array\n    Generalised force [N m].", docs::bad_states))
+      .def(
+          "base_wrench",
+          [](const Model& self, const py::object& q, const py::object& qd, const py::object& qdd,
+             const py::object& wrenches) {
+            const Wrenches loads = read_wrenches(self, wrenches);
+            return States{read_bendings(self, q), read_rates(self, qd, "qd"),
+                          read_rates(self, qdd, "qdd")}
+                .vectors(6, [&](auto& x, auto& xd, auto& xdd, auto& out) {
+                  base_wrench(self, x, xd, xdd, loads, out);
+                });
+          },
+          "q"_a, "qd"_a, "qdd"_a, "wrenches"_a = py::tuple(),
+          Doc("Force and moment of the robot on its base, where the drives of its cables stand "
+              "too:\ncpp/base-wrench.md eq. (121). At rest the weight, and the wrenches on it.",
+              {docs::q, docs::qd,
+               "qdd : (..., d) array_like\n"
+               "    Accelerations [rad/s^2].\n",
+               docs::wrenches},
+              "(..., 6) array\n    Force [N], and moment about base_position [N m], in the base "
+              "frame.",
+              docs::bad_states))
       .def(
           "linearize", &linearize_states, "q"_a, "qd"_a, "tension"_a, "wrenches"_a = py::tuple(),
           Doc("Derivatives A, B of d(q, qd)/dt by state and command, cpp/README.md eq. (19).\n\n"

@@ -51,6 +51,7 @@ if TYPE_CHECKING:
     from cdcr import gym as gym
     from cdcr import jax as jax
     from cdcr import plotting as plotting
+    from cdcr.base.rotations import rotation_vector
     from cdcr.identification import identify
     from cdcr.model.subdivision import subdivide_wrench
     from cdcr.motion.feasibility import PathReport, check_path
@@ -126,6 +127,7 @@ __all__ = [
     "robots",
     "rollout",
     "rollout_to_zarr",
+    "rotation_vector",
     "scenarios",
     "simulate",
     "stable_step",
@@ -166,6 +168,7 @@ _LATER = {
     "inverse_run": "motion.inverse",
     "rollout": "runs.rollout",
     "rollout_to_zarr": "runs.rollout_store",
+    "rotation_vector": "base.rotations",
     "subdivide_wrench": "model.subdivision",
     "sweep": "sweeps",
 }

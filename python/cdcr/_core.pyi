@@ -132,6 +132,13 @@ class Model(metaclass=_Bound):
         qdd: ArrayLike,
         wrenches: Wrench | Sequence[Wrench] = (),
     ) -> _FloatArray: ...
+    def base_wrench(
+        self,
+        q: ArrayLike,
+        qd: ArrayLike,
+        qdd: ArrayLike,
+        wrenches: Wrench | Sequence[Wrench] = (),
+    ) -> _FloatArray: ...
     def kinetic_energy(self, q: ArrayLike, qd: ArrayLike) -> _FloatOrArray: ...
     def potential_energy(self, q: ArrayLike) -> _FloatOrArray: ...
     kinetic_energies = kinetic_energy

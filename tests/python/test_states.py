@@ -17,6 +17,7 @@ FUNCTIONS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "bias": (("q", "qd"), ("d",)),
     "forward_dynamics": (("q", "qd", "tension"), ("d",)),
     "inverse_dynamics": (("q", "qd", "qdd"), ("d",)),
+    "base_wrench": (("q", "qd", "qdd"), ("6",)),
     "linearize": (("q", "qd", "tension"), ("ss", "sm")),
     "derivatives": (("q", "qd", "tension"), ("dd", "dd", "dm", "d16")),
     "kinetic_energy": (("q", "qd"), ("",)),

@@ -3,6 +3,7 @@
 // Everything of target cdcr::cdcr. cdcr/cvode.hpp belongs to cdcr::cvode.
 #include "cdcr/actuator.hpp"
 #include "cdcr/allocation.hpp"
+#include "cdcr/base_wrench.hpp"
 #include "cdcr/batch.hpp"
 #include "cdcr/cable_drive.hpp"
 #include "cdcr/cable_friction.hpp"

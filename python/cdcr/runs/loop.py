@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray
@@ -15,6 +15,14 @@ from cdcr.model.wrench import Wrench
 from cdcr.robot.units import ask_about_commands
 from cdcr.runs.parts import Actuator, Sensor, as_dicts
 from cdcr.runs.trajectory import Trajectory
+
+
+class ToldMotion(NamedTuple):
+    """States over time, as `Trajectory.view` shows them beside a run."""
+
+    t: FloatArray  # (N,) [s]
+    q: FloatArray  # (N, d) [rad]
+    qd: FloatArray  # (N, d) [rad/s]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -58,6 +66,11 @@ class LoopRun:
     deviations: dict[str, FloatArray]
     innovation: FloatArray
     measured: FloatArray
+
+    @property
+    def told(self) -> ToldMotion:
+        """What the controller was told: for ``run.trajectory.view(estimate=run.told)``."""
+        return ToldMotion(self.trajectory.t, self.told_q, self.told_qd)
 
     def __repr__(self) -> str:
         """Say what a person wants to know first."""
