@@ -59,6 +59,7 @@ if TYPE_CHECKING:
     from cdcr.runs.controllers import ComputedTorque, StateFeedback, TaskSpace
     from cdcr.runs.estimators import ExtendedKalman, MomentumObserver, UnscentedKalman
     from cdcr.runs.loop import Loop, LoopRun
+    from cdcr.runs.loop_log import LoopLog
     from cdcr.runs.parts import Actuator, Sensor, Winch
     from cdcr.runs.pid import Pid
     from cdcr.runs.rollout import rollout
@@ -82,6 +83,7 @@ __all__ = [
     "InverseKinematics",
     "InverseRun",
     "Loop",
+    "LoopLog",
     "LoopRun",
     "Model",
     "Modes",
@@ -144,6 +146,7 @@ _LATER = {
     "ExtendedKalman": "runs.estimators",
     "InverseRun": "motion.inverse",
     "Loop": "runs.loop",
+    "LoopLog": "runs.loop_log",
     "LoopRun": "runs.loop",
     "MomentumObserver": "runs.estimators",
     "PathReport": "motion.feasibility",
