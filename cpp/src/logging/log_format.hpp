@@ -30,7 +30,7 @@ using LogFormatPtr = std::unique_ptr<const LogFormat>;
 [[nodiscard]] LogFormatPtr numpy_format(const std::vector<LogColumn>& columns);
 [[nodiscard]] LogFormatPtr mcap_format(const std::vector<LogColumn>& columns);
 
-/// The shortest text from which every bit can be read back, whatever the locale.
+/// Text from which every bit can be read back, whatever the locale.
 void append_number(double number, std::string& text);
 
 /// The least significant byte first.

@@ -1,8 +1,10 @@
 // Logs as CSV, and as an array of records in NumPy's format 2.0:
 // https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
 
 #include "logging/log_format.hpp"
@@ -59,7 +61,13 @@ class NumPy final : public LogFormat {
 
 void append_number(double number, std::string& text) {
   std::array<char, 32> room{};
+#ifdef __cpp_lib_to_chars
   text.append(room.data(), std::to_chars(room.data(), room.data() + room.size(), number).ptr);
+#else  // libstdc++ before 11
+  const int size = std::snprintf(room.data(), room.size(), "%.17g", number);
+  std::replace(room.begin(), room.begin() + size, ',', '.');  // of a locale
+  text.append(room.data(), static_cast<std::size_t>(size));
+#endif
 }
 
 LogFormatPtr csv_format(const std::vector<LogColumn>& columns) {
