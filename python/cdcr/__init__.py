@@ -61,6 +61,7 @@ if TYPE_CHECKING:
     from cdcr.runs.estimators import ExtendedKalman, MomentumObserver, UnscentedKalman
     from cdcr.runs.gradient import Gradient, gradient
     from cdcr.runs.loop import Loop, LoopRun
+    from cdcr.runs.loop_log import LoopLog
     from cdcr.runs.parts import Actuator, Sensor, Winch
     from cdcr.runs.pid import Pid
     from cdcr.runs.rollout import rollout
@@ -85,6 +86,7 @@ __all__ = [
     "InverseKinematics",
     "InverseRun",
     "Loop",
+    "LoopLog",
     "LoopRun",
     "Model",
     "Modes",
@@ -150,6 +152,7 @@ _LATER = {
     "Gradient": "runs.gradient",
     "InverseRun": "motion.inverse",
     "Loop": "runs.loop",
+    "LoopLog": "runs.loop_log",
     "LoopRun": "runs.loop",
     "MomentumObserver": "runs.estimators",
     "PathReport": "motion.feasibility",

@@ -16,6 +16,7 @@ namespace CDCR_EXPORT cdcr {
 namespace detail {
 class PlantBase;
 }
+class LoopLog;
 
 struct LoopOptions {
   double step = 1e-3;               ///< of the plant [s]; all periods are whole numbers of it
@@ -51,6 +52,10 @@ class Loop {
   /// The same, asking now and then whether to stop: Status::interrupted then.
   [[nodiscard]] Status step(const Wrenches& wrenches, const Interrupt& stop) noexcept;
 
+  /// Writes each further step to a log that was made for this loop, which must outlive it; null: to
+  /// none. Throws std::invalid_argument for a log of other columns.
+  void set_log(LoopLog* log);
+
   [[nodiscard]] const Simulator& plant() const noexcept { return plant_; }
   [[nodiscard]] const VectorXd& q() const noexcept { return plant_.q(); }    ///< (d) [rad]
   [[nodiscard]] const VectorXd& qd() const noexcept { return plant_.qd(); }  ///< (d) [rad/s]
@@ -85,11 +90,13 @@ class Loop {
   Index every_, estimator_every_ = 1;  // steps in a period of controller and estimator
   VectorXd asked_, trial_, tension_, told_q_, told_qd_;
   Status status_ = Status::not_started;
+  LoopLog* log_ = nullptr;
 };
 
 /// A run of a loop, sampled.
 struct LoopRun : Trajectory {
   RowMatrixXd asked;              ///< by the controller (N, num_cables), [N] or [m]
+  RowMatrixXd reference;          ///< of the controller, Controller::reference_names (N, ...)
   RowMatrixXd told_q, told_qd;    ///< to the controller (N, d)
   std::vector<RowMatrixXd> told;  ///< by each sensor (N, its size)
   VectorXd durations;             ///< of the controller's last update (N) [s]

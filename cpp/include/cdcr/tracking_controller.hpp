@@ -44,6 +44,8 @@ class TrackingController : public Controller {
   [[nodiscard]] Index num_cables() const noexcept override { return model().num_cables(); }
   [[nodiscard]] const Model* reckons_with() const noexcept override { return &model(); }
   [[nodiscard]] ControlDiagnostics diagnostics() const noexcept override { return diagnostics_; }
+  [[nodiscard]] std::vector<std::string> reference_names() const override;
+  void write_reference(VectorRef values) const noexcept override { values = setpoint_.value; }
   [[nodiscard]] const CommandLimits& limits() const noexcept { return limits_; }
 
  protected:

@@ -4,6 +4,7 @@
 
 #include "base/sizes.hpp"
 #include "cdcr/cables.hpp"
+#include "cdcr/loop_log.hpp"
 #include "cdcr/robot_ode.hpp"
 #include "control/plant_base.hpp"
 #include "control/steps.hpp"
@@ -96,12 +97,20 @@ Status Loop::close(const Wrenches& wrenches, const Interrupt& stop) noexcept {
   return plant_.step(given(), wrenches, stop);
 }
 
+void Loop::set_log(LoopLog* log) {
+  if (log != nullptr) log->require_fit(*this);
+  log_ = log;
+}
+
 Status Loop::step(const Wrenches& wrenches) noexcept {
   return step(wrenches, Interrupt());
 }
 
 Status Loop::step(const Wrenches& wrenches, const Interrupt& stop) noexcept {
-  if (status_ == Status::ok) status_ = close(wrenches, stop);
+  if (status_ != Status::ok) return status_;
+  if (log_ != nullptr) log_->begin(*this);
+  status_ = close(wrenches, stop);
+  if (log_ != nullptr) log_->end(*this);
   return status_;
 }
 
@@ -128,7 +137,9 @@ LoopRun run(Loop& loop, double duration, Index record_every, const Wrenches& wre
   const Index more = estimator == nullptr ? 0 : static_cast<Index>(estimator->value_names().size());
   out.estimated = out.deviations = RowMatrixXd::Zero(rows, more);
   out.innovation = out.measured = VectorXd::Zero(rows);
-  VectorXd tension(c), q(d), qd(d), values(more), deviations(more);
+  const auto followed = static_cast<Index>(loop.controller().reference_names().size());
+  out.reference = RowMatrixXd::Zero(rows, followed);
+  VectorXd tension(c), q(d), qd(d), values(more), deviations(more), reference(followed);
   out.status = loop.status();
   Index row = 0;
   for (Index k = 0; out.status == Status::ok && k <= steps; ++k) {
@@ -151,6 +162,8 @@ LoopRun run(Loop& loop, double duration, Index record_every, const Wrenches& wre
     }
     cable_tensions(model, q, qd, loop.given(), tension);
     out.tension.row(row) = tension;
+    loop.controller().write_reference(reference);
+    out.reference.row(row) = reference;
     out.durations[row] = loop.controller().diagnostics().duration;
     if (estimator != nullptr) {
       estimator->write_values(values, deviations);
@@ -174,7 +187,7 @@ LoopRun run(Loop& loop, double duration, Index record_every, const Wrenches& wre
     column->conservativeResize(row);
   }
   for (RowMatrixXd* table : {&out.q, &out.qd, &out.told_q, &out.told_qd, &out.tension, &out.command,
-                             &out.asked, &out.estimated, &out.deviations}) {
+                             &out.asked, &out.reference, &out.estimated, &out.deviations}) {
     table->conservativeResize(row, Eigen::NoChange);
   }
   for (RowMatrixXd& table : out.told) table.conservativeResize(row, Eigen::NoChange);

@@ -62,6 +62,11 @@ void TrackingController::accept(const ReferencePath& path) {
   }
 }
 
+std::vector<std::string> TrackingController::reference_names() const {
+  if (of_tip_) return {"tip_x", "tip_y", "tip_z"};
+  return model().coordinate_names();
+}
+
 void TrackingController::reset() noexcept {
   drive_.reset();
   diagnostics_ = {};
