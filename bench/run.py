@@ -68,6 +68,7 @@ def main() -> None:
     # After the arguments: --help needs none of these packages.
     import numpy as np
     import scipy
+    from identification_rows import identification_rows
     from python_rows import python_rows
     from scipy_rows import scipy_rows
     from sensitivity_rows import sensitivity_rows

@@ -6,12 +6,14 @@ set -eu
 cd "$(dirname "$0")/.."
 seconds=$1
 mkdir -p build/fuzz/found
-for name in robot run statics; do
+for name in robot run statics robot_file; do
   echo "== fuzz_$name"
   mkdir -p "build/fuzz/corpus/$name"
-  "build/fuzz/tests/fuzz/fuzz_$name" -max_total_time="$seconds" -timeout=60 -max_len=512 \
+  longest=512
+  if [ "$name" = robot_file ]; then longest=4096; fi
+  "build/fuzz/tests/fuzz/fuzz_$name" -max_total_time="$seconds" -timeout=60 -max_len="$longest" \
     -print_final_stats=1 -artifact_prefix=build/fuzz/found/ -verbosity=0 \
-    "build/fuzz/corpus/$name" tests/fuzz/corpus
+    "build/fuzz/corpus/$name" tests/fuzz/corpus tests/data/robot_files
 done
 echo "== files"
 CDCR_RANDOM_TESTS=$((1 + seconds / 10)) pytest -q tests/python/test_file_fuzz.py

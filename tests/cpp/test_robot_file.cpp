@@ -125,6 +125,10 @@ TEST_CASE("a refusal names the line of the key, and of what is no TOML") {
                         "'long' (string)");
   const std::string broken = refusal("payload = 1\n[[sections]\n");
   CHECK(broken.rfind("robot.toml, line 2, column ", 0) == 0);
+  // What toml++ itself believes cannot be.
+  for (const char* odd : {"[.", "payload = 0.\xD0\xA4\n"}) {
+    CHECK(refusal(odd).rfind("robot.toml, line 1, column ", 0) == 0);
+  }
   CHECK_THROWS_SENTENCE(
       load_robot(folder + "none.toml"),
       (folder + "none.toml: there is no such file, or it cannot be read").c_str());

@@ -58,6 +58,16 @@ def test_c(tmp_path: Path) -> None:
     assert "max_bending must be at most" in refused(
         cdcr_("export-c", "amouri2020", *out, "--max-bending", "10")
     )
+    for_others = ["--casadi", "--acados", "0.02", "--steps", "4", "--name", "leg"]
+    assert cdcr_("export-c", "amouri2020", *out, *for_others).exit_code == 0
+    assert {f"leg{end}" for end in ("_casadi.c", "_acados.c")} <= {
+        path.name for path in (tmp_path / "c").iterdir()
+    }
+    assert "INTERVAL_STEPS = 4" in (tmp_path / "c" / "leg_acados.c").read_text()
+    refusals = {"--acados": ("-1", "a number > 0 s"), "--steps": ("0", "a whole number 1 to")}
+    for option, (value, allowed) in refusals.items():
+        told = refused(cdcr_("export-c", "amouri2020", *out, option, value))
+        assert told.startswith(f"{option} must be {allowed}")
 
 
 def test_mjcf(tmp_path: Path) -> None:

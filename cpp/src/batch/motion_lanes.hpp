@@ -41,7 +41,7 @@ class MotionLanes {
 
 /// f(width, closed) of the width of this processor, both std::integral_constant.
 template <class F>
-auto with_motion_lanes(const Model& model, const F& f, int lanes = num_lanes) {
+auto with_motion_lanes(const Model& model, const F& f, [[maybe_unused]] int lanes = num_lanes) {
   const auto of_width = [&](auto width) {
     return model.has_closed_form() ? f(width, std::true_type()) : f(width, std::false_type());
   };

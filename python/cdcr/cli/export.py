@@ -10,7 +10,7 @@ import typer
 from cdcr import _core
 from cdcr.cli.plain import Overwrite, Robot, told_plainly
 from cdcr.cli.run import find_robot, first_as_option, mistakes
-from cdcr.export.c import c_texts, files_of
+from cdcr.export.c import c_texts
 from cdcr.export.fmu import fmu_bytes
 from cdcr.export.mjcf import mjcf_text
 from cdcr.files.new_file import new_file, new_files
@@ -33,20 +33,44 @@ def export_c_command(
             metavar="RAD", help="Largest bending angle of a section; the tables grow with it."
         ),
     ] = _core.max_bending,
+    casadi: Annotated[
+        bool,
+        typer.Option(
+            "--casadi",
+            help="Write NAME_casadi.c too: functions for casadi.external, with Jacobians.",
+        ),
+    ] = False,
+    acados: Annotated[
+        float | None,
+        typer.Option(
+            metavar="SECONDS",
+            help="Write NAME_acados.c too: discrete dynamics over shooting intervals of so long.",
+        ),
+    ] = None,
+    steps: Annotated[
+        int, typer.Option(metavar="NUMBER", help="Of Runge-Kutta 4 in such an interval.")
+    ] = 1,
     overwrite: Overwrite = False,
 ) -> None:
     """Write a robot of arcs as C99 for the loop of a controller: no library, no heap.
 
-    Accelerations and their derivatives, steps of Runge-Kutta 4, cable lengths and the tip, in
-    double or in single precision.
+    Accelerations and their derivatives, steps of Runge-Kutta 4 and theirs, cable lengths and the
+    tip, in double or in single precision; for CasADi and acados in the form in which these call.
     """
     with told_plainly():
         described = find_robot(robot)
         with mistakes(first_as_option):
-            texts = c_texts(described, name=name, max_bending=max_bending)
-        files = files_of(out, name)
+            texts = c_texts(
+                described,
+                name=name,
+                max_bending=max_bending,
+                casadi=casadi,
+                acados=acados,
+                steps=steps,
+            )
+        files = [out / file for file in texts]
         with new_files(files, overwrite=overwrite, replace=_REPLACE) as parts:
-            for part, text in zip(parts, texts, strict=True):
+            for part, text in zip(parts, texts.values(), strict=True):
                 part.write_text(text, encoding="utf-8", newline="\n")
         typer.echo(f"wrote {', '.join(map(str, files))}")
 

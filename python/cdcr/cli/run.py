@@ -34,9 +34,8 @@ NEEDED = {
     ".nc": (("xarray", "data"), ("h5netcdf", "data"), ("h5py", "data")),
 }
 REPLACE = "give --overwrite to replace, or another folder with --out"
-_FIRST = (
-    r"^(speed|fmi|step|links|samples|seed|jobs)\b(?= must| of | are )"  # of what others begin with
-)
+# Of what other messages begin with.
+_FIRST = r"^(speed|fmi|steps?|acados|links|samples|seed|jobs)\b(?= must| of | are )"
 _ARGUMENTS = r"\b(t_end|method|rtol|atol|max_steps)\b"  # options too, with dashes
 LONGEST_FILM = 60.0  # longer runs are played faster [s]
 BAR_DELAY = 1.0  # shorter runs show no progress bar [s]

@@ -7,7 +7,6 @@ import re
 from collections.abc import Iterator, Sequence
 from importlib.resources import files
 from os import PathLike
-from pathlib import Path
 
 import numpy as np
 
@@ -24,8 +23,13 @@ _TAIL = {"powers": 1e-17, "float_powers": 3e-9}
 _PARTS = {
     ".h": ("robot.h",),
     ".c": ("vectors.c", "chain.c", "robot.c"),
-    "_derivatives.c": ("derivatives.c",),
+    "_derivatives.c": ("derivatives_head.c", "derivatives.c"),
 }
+_CASADI = {"_casadi.c": ("casadi.c",)}
+# acados compiles one file alone.
+_ALONE = ("acados_head.c", "robot.h", "vectors.c", "chain.c", "derivatives.c", "acados.c")
+_ACADOS = {"_acados.c": _ALONE}
+MOST_STEPS = 1000  # in an interval of acados
 _IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 
 
@@ -35,6 +39,9 @@ def write_c(
     *,
     name: str = "robot",
     max_bending: float = _core.max_bending,
+    casadi: bool = False,
+    acados: float | None = None,
+    steps: int = 1,
     overwrite: bool = False,
 ) -> None:
     """Write a robot of arcs as C99: a header and sources that need no library and no heap.
@@ -53,6 +60,13 @@ def write_c(
     max_bending : float, optional
         Largest bending angle of a section [rad], up to ``cdcr.max_bending``. The tables grow with
         its square: up to pi they take a ninth.
+    casadi : bool, default False
+        Whether to write NAME_casadi.c too: functions for ``casadi.external``, with Jacobians.
+    acados : float, optional
+        Length of a shooting interval [s], to write NAME_acados.c too: discrete dynamics for acados
+        as its ``external_function_param_generic``.
+    steps : int, default 1
+        Of Runge-Kutta 4 in such an interval.
     overwrite : bool, default False
         Whether files of these names may be replaced.
 
@@ -73,26 +87,35 @@ def write_c(
     ...     sorted(file.name for file in Path(folder).iterdir())
     ['arm.c', 'arm.h', 'arm_derivatives.c']
     """
-    texts = c_texts(robot, name=name, max_bending=max_bending)
-    with new_files(files_of(file_path(folder), name), overwrite=overwrite) as parts:
-        for part, text in zip(parts, texts, strict=True):
+    texts = c_texts(
+        robot, name=name, max_bending=max_bending, casadi=casadi, acados=acados, steps=steps
+    )
+    files = [file_path(folder) / file for file in texts]
+    with new_files(files, overwrite=overwrite) as parts:
+        for part, text in zip(parts, texts.values(), strict=True):
             part.write_text(text, encoding="utf-8", newline="\n")
 
 
-def files_of(folder: Path, name: str) -> list[Path]:
-    """Return the header and the sources that `write_c` writes."""
-    return [folder / f"{name}{end}" for end in _PARTS]
-
-
 def c_texts(
-    robot: Robot, *, name: str = "robot", max_bending: float = _core.max_bending
-) -> list[str]:
-    """Return the header and the sources that `write_c` writes."""
+    robot: Robot,
+    *,
+    name: str = "robot",
+    max_bending: float = _core.max_bending,
+    casadi: bool = False,
+    acados: float | None = None,
+    steps: int = 1,
+) -> dict[str, str]:
+    """Return the header and the sources that `write_c` writes, by the names of their files."""
     require_kind("robot", robot, Robot)
     if not _IDENTIFIER.fullmatch(str(name)):
         raise ValueError(f"name must be an identifier of C, got {format_value(name)}")
     check = Check()
     limit = check.number("max_bending", max_bending, "a number > 0 rad and finite", above=0.0)
+    interval = 0.0
+    if acados is not None:
+        interval = check.number("acados", acados, "a number > 0 s and finite", above=0.0)
+    many = f"a whole number 1 to {MOST_STEPS}"
+    stages = check.whole("steps", steps, many, low=1, high=MOST_STEPS)
     check.done()
     if limit > _core.max_bending:
         raise ValueError(f"max_bending must be at most 3 pi rad, got {max_bending:g}")
@@ -114,15 +137,20 @@ def c_texts(
         "cables": model.num_cables,
         "max_bending": repr(limit),
         "pieces": pieces,
+        "interval": repr(interval),
+        "step_count": stages,
+        "steps": count(stages, "step"),
         **{key: _powers_needed([arcs, *shapes], tail) for key, tail in _TAIL.items()},
     }
     values["tables"] = "\n".join(_constants(robot, model, arcs, shapes, limit))
     template = files("cdcr.export") / "c_template"
-    sources = [
-        "\n".join((template / part).read_text(encoding="utf-8") for part in names)
-        for names in _PARTS.values()
-    ]
-    return [_filled(source, values) for source in sources]
+    wanted = _PARTS | (_CASADI if casadi else {}) | ({} if acados is None else _ACADOS)
+    found = {}
+    for end, names in wanted.items():
+        source = "\n".join((template / part).read_text(encoding="utf-8") for part in names)
+        text = _filled(source, values)
+        found[name + end] = text.replace(f'#include "{name}.h"\n', "") if end in _ACADOS else text
+    return found
 
 
 def _refuse_others(robot: Robot) -> None:

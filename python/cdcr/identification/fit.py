@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -135,13 +136,15 @@ def fit(
     if best is None:
         raise ValueError(_no_start(problem))
     best = _with_noise(problem, best, options, optimise, loss)
-
-    def refit(other: list[Data]) -> Identified:
-        return fit(
-            other, robot, parameters, loss=loss, max_evaluations=most, first=first,
-            near=problem.values(best.x),
-        )  # fmt: skip
-
+    refit = partial(
+        fit,
+        robot=robot,
+        parameters=parameters,
+        loss=loss,
+        max_evaluations=most,
+        first=first,
+        near=problem.values(best.x),
+    )
     return Identified._of(problem, best, loss=loss, costs=costs, refit=refit)
 
 

@@ -60,6 +60,15 @@ class Model(StateSpaceModel):
         self._robot = robot
         self._formulation = formulation
 
+    def __setattr__(self, name: str, value: object) -> None:
+        """Keep what is private; refuse the rest, which would change nothing."""
+        if type(self) is Model and not name.startswith("_"):
+            raise AttributeError(
+                f"a Model stays what it was made of, so its {name} cannot be set: make another of "
+                "another Robot, or of another gravity by with_gravity"
+            )
+        super().__setattr__(name, value)
+
     def with_gravity(self, gravity: ArrayLike) -> Model:
         """Return the same model under another gravity, which shares its tables.
 

@@ -63,6 +63,8 @@ class ComputedTorque(_core.ComputedTorque):
     array([0.4, 0.2])
     """
 
+    __slots__ = ()  # a misspelt attribute is an error
+
     def __init__(
         self,
         model: Model,
@@ -130,6 +132,8 @@ class StateFeedback(_core.StateFeedback):
     >>> run.q[-1].round(4)
     array([0.4, 0.2])
     """
+
+    __slots__ = ()  # a misspelt attribute is an error
 
     def __init__(
         self,
@@ -204,6 +208,8 @@ class TaskSpace(_core.TaskSpace):
     >>> bool(abs(run.tip[-1] - goal).max() < 1e-4)
     True
     """
+
+    __slots__ = ()  # a misspelt attribute is an error
 
     def __init__(
         self,

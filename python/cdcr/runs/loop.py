@@ -124,6 +124,8 @@ class Loop(_core.Loop):
     True
     """
 
+    __slots__ = ()  # a misspelt attribute is an error
+
     def __init__(
         self,
         model: Model,

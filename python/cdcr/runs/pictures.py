@@ -62,7 +62,7 @@ class Pictures:
         times : (M,) array_like, optional
             Times within the run [s]; by default `num` of them, evenly spaced.
         num : int
-            How many shapes when `times` is not given.
+            How many shapes when `times` is not given, at most 100.
         ax : Axes3D, optional
             Axes to draw into; by default those of a new figure.
         size : optional

@@ -299,3 +299,31 @@ static int accelerate(const real q[], const real qd[], const real force[], real 
   total -= total;
   return (number)total == 0 ? 0 : @NAME@_BEYOND; /* not of NaN and infinity */
 }
+
+/* What a step of Runge-Kutta 4 adds to a state. */
+static int runge_kutta(const real q[], const real qd[], const real command[], real step,
+                       real q_sum[], real qd_sum[]) {
+  /* Where each stage is looked at, and its share of the step. */
+  static const number at[4] = {0, N(0.5), N(0.5), 1}, share[4] = {1, 2, 2, 1};
+  real q_k[COORDINATES], qd_k[COORDINATES], qdd[COORDINATES], force[COORDINATES];
+  int stage, k;
+  for (k = 0; k < COORDINATES; ++k) q_sum[k] = qd_sum[k] = qd_k[k] = qdd[k] = 0;
+  for (stage = 0; stage < 4; ++stage) {
+    const real h = at[stage] * step, weight = share[stage] * step / 6;
+    for (k = 0; k < COORDINATES; ++k) {
+      q_k[k] = q[k] + h * qd_k[k];
+      qd_k[k] = qd[k] + h * qdd[k];
+    }
+    cable_force(q_k, qd_k, command, force);
+    if (accelerate(q_k, qd_k, force, qdd) != 0) return @NAME@_BEYOND;
+    for (k = 0; k < COORDINATES; ++k) {
+      q_sum[k] += weight * qd_k[k];
+      qd_sum[k] += weight * qdd[k];
+    }
+  }
+  for (k = 0; k < SECTIONS; ++k) { /* the state after the step is one of the model too */
+    const real x = q[2 * k] + q_sum[2 * k], y = q[2 * k + 1] + q_sum[2 * k + 1];
+    if (!((number)(x * x + y * y) <= LARGEST_SIGMA)) return @NAME@_BEYOND;
+  }
+  return 0;
+}

@@ -10,29 +10,9 @@ int @name@_forward_dynamics(const real q[], const real qd[], const real command[
 }
 
 int @name@_step(real q[], real qd[], const real command[], real step) {
-  /* Where each stage is looked at, and its share of the step. */
-  static const real at[4] = {0, (real)0.5, (real)0.5, 1}, share[4] = {1, 2, 2, 1};
-  real q_k[COORDINATES], qd_k[COORDINATES], qdd[COORDINATES], force[COORDINATES];
   real q_sum[COORDINATES], qd_sum[COORDINATES];
-  int stage, k;
-  for (k = 0; k < COORDINATES; ++k) q_sum[k] = qd_sum[k] = qd_k[k] = qdd[k] = 0;
-  for (stage = 0; stage < 4; ++stage) {
-    const real h = at[stage] * step, weight = share[stage] * step / 6;
-    for (k = 0; k < COORDINATES; ++k) {
-      q_k[k] = q[k] + h * qd_k[k];
-      qd_k[k] = qd[k] + h * qdd[k];
-    }
-    cable_force(q_k, qd_k, command, force);
-    if (accelerate(q_k, qd_k, force, qdd) != 0) return @NAME@_BEYOND;
-    for (k = 0; k < COORDINATES; ++k) {
-      q_sum[k] += weight * qd_k[k];
-      qd_sum[k] += weight * qdd[k];
-    }
-  }
-  for (k = 0; k < SECTIONS; ++k) { /* the state after the step is one of the model too */
-    const real x = q[2 * k] + q_sum[2 * k], y = q[2 * k + 1] + q_sum[2 * k + 1];
-    if (!(x * x + y * y <= LARGEST_SIGMA)) return @NAME@_BEYOND;
-  }
+  int k;
+  if (runge_kutta(q, qd, command, step, q_sum, qd_sum) != 0) return @NAME@_BEYOND;
   for (k = 0; k < COORDINATES; ++k) {
     q[k] += q_sum[k];
     qd[k] += qd_sum[k];

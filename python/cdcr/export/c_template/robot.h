@@ -40,6 +40,12 @@ int @name@_derivatives(const @name@_real q[], const @name@_real qd[], const @nam
 /* One step of Runge-Kutta 4, commands held: (q, qd) becomes what it is `step` seconds later. */
 int @name@_step(@name@_real q[], @name@_real qd[], const @name@_real command[], @name@_real step);
 
+/* As many such steps, commands held, with their derivatives by the same file: the state (q, qd) after
+ * them, and its derivatives (2 d, 2 d + cables + 1) by q, qd, command and step, each column after the
+ * other. */
+int @name@_step_derivatives(const @name@_real q[], const @name@_real qd[], const @name@_real command[],
+                            @name@_real step, int steps, @name@_real next[], @name@_real on[]);
+
 /* Lengths of the cables inside the robot [m]. */
 void @name@_cable_lengths(const @name@_real q[], @name@_real lengths[]);
 
