@@ -207,10 +207,14 @@ def _search(problem: Problem, start: FloatArray, options: dict[str, Any], optimi
     scaled = options
     if options["loss"] != "linear":
         scaled = options | {"f_scale": LOSS_SCALE * _spread(first, problem)}
-    return optimise(
-        problem.residuals, inside, jac=problem.jacobian, bounds=(problem.low, problem.high),
+    # Counted from one: the first step of SciPy's is as long as the start is large.
+    found = optimise(
+        lambda y: problem.residuals(y - 1.0), inside + 1.0,
+        jac=lambda y: problem.jacobian(y - 1.0), bounds=(problem.low + 1.0, problem.high + 1.0),
         x_scale="jac", method="trf", xtol=1e-9, ftol=1e-10, gtol=1e-10, **scaled,
     )  # fmt: skip
+    found.x = found.x - 1.0
+    return found
 
 
 def _spread(residuals: FloatArray, problem: Problem) -> float:
