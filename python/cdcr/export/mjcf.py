@@ -272,8 +272,8 @@ def _sites(chain: Chain, bends: Sequence[float]) -> list[list[Site]]:
     Across a joint that bends by theta towards a cable at radius r, with sites at a distance a, the
     cable shortens by 2 r sin(theta/2) + 2 a (1 - cos(theta/2)); the nearer the sites, the nearer
     to r theta. Where the joint is bent as far as it goes they must not have met. A cable under
-    tension that is wound by alpha across a joint turns it back by F r^2 alpha/(2 a), as a rod if the
-    sites are a part of the section apart.
+    tension that is wound by alpha across a joint turns it back by F r^2 alpha/(2 a), as a rod if
+    the sites are a part of the section apart.
     """
     parts = len(chain.joints) // len(chain.robot.sections)
     found: list[list[Site]] = [[] for _ in chain.links]
