@@ -343,15 +343,8 @@ class Model(StateSpaceModel):
         -------
         InverseKinematics
         """
-        return InverseKinematics(
-            *self._inverse_kinematics(
-                p,
-                R,
-                q0,
-                max_theta=max_theta,
-                orientation_weight=orientation_weight,
-                tolerance=tolerance,
-                seeds=seeds,
-                iterations=iterations,
-            )
-        )
+        found = self._inverse_kinematics(
+            p, R, q0, max_theta=max_theta, orientation_weight=orientation_weight,
+            tolerance=tolerance, seeds=seeds, iterations=iterations,
+        )  # fmt: skip
+        return InverseKinematics(*found)
