@@ -63,8 +63,9 @@ void TrackingController::accept(const ReferencePath& path) {
 }
 
 std::vector<std::string> TrackingController::reference_names() const {
-  if (of_tip_) return {"tip_x", "tip_y", "tip_z"};
-  return model().coordinate_names();
+  if (follows_ == Follows::coordinates) return model().coordinate_names();
+  if (follows_ == Follows::position) return {"tip_x", "tip_y", "tip_z"};
+  return {"tip_x", "tip_y", "tip_z", "rotation_x", "rotation_y", "rotation_z"};
 }
 
 void TrackingController::reset() noexcept {
