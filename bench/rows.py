@@ -35,6 +35,8 @@ TARGETS = {
     "free oscillation, bdf rtol 1e-8": 3.0,
     "forward_dynamics from Python": 3.0,
     "simulate: Python over C++": 0.3,
+    "identify 10 parameters, 443 poses": 2.0,
+    "identify 10 parameters, 6000 samples of a motion at 100 Hz": 20.0,
     "import cdcr after numpy": 100.0,
     "resident memory, import cdcr and one run": 60.0,
 }

@@ -65,9 +65,10 @@ def main() -> None:
     if not (build / "bench_runs").exists():
         parser.error(f"{build} has no bench_runs; build with -DCDCR_BUILD_BENCH=ON")
 
-    # After the arguments: --help needs neither package.
+    # After the arguments: --help needs none of these packages.
     import numpy as np
     import scipy
+    from identification_rows import identification_rows
     from python_rows import python_rows
     from scipy_rows import scipy_rows
     from sensitivity_rows import sensitivity_rows
@@ -88,6 +89,7 @@ def main() -> None:
     say("Python")
     rows += [{**row, **about} for row in python_rows(quick, build / "bench_runs")]
     rows += [{**row, **about} for row in sensitivity_rows(quick)]
+    rows += [{**row, **about} for row in identification_rows(quick)]
     say("SciPy")
     rows += [{**row, **about} for row in scipy_rows(quick)]
     started = datetime.now(timezone.utc).isoformat(timespec="seconds")

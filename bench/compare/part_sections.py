@@ -1,4 +1,4 @@
-"""One section and three, by cdcr and by SoRoMoX: accelerations, and runs at equal error."""
+"""One arc, three and a rod, by cdcr and by SoRoMoX: accelerations, and runs at equal error."""
 
 from __future__ import annotations
 
@@ -18,7 +18,8 @@ import cdcr
 
 Array = NDArray[np.float64]
 STATES = 1_000
-SECONDS = {1: 10.0, 3: 1.0}  # of a run
+# Sections, bending order, seconds of a run.
+CASES = {"n = 1": (1, 0, 10.0), "n = 3": (3, 0, 1.0), "rod of order 2": (1, 2, 0.05)}
 ERRORS = (1e-4, 1e-6)
 OURS = ("dop853", "dopri5")
 EXPONENTS = {"dop853": range(4, 10), "dopri5": range(4, 10), "SoRoMoX Tsit5": (4, 6, 8)}
@@ -32,13 +33,13 @@ def report(turns: int, figure: Path | None) -> None:
         print("soromox is not installed")
         return
     heads = [text for error in ERRORS for text in (f"ms at {error:.0e}", "over our best")]
-    for count in (1, 3):
-        arm = soromox_arms.robot(count)
-        pair = Pair(cdcr.Model(arm), soromox_arms.soromox(arm))
+    for name, (count, order, seconds) in CASES.items():
+        arm = soromox_arms.robot(count, order)
+        pair = Pair(name, cdcr.Model(arm), soromox_arms.soromox(arm))
         rows = list(pair.accelerations(turns))
         print(layout(["accelerations", "us a state", "over cdcr", "first [s]", "differ by"], rows))
         print(
-            layout(["runs", "first [s]", *heads], list(pair.runs(turns, SECONDS[count]))),
+            layout(["runs", "first [s]", *heads], list(pair.runs(turns, seconds))),
             flush=True,
         )
 
@@ -46,9 +47,10 @@ def report(turns: int, figure: Path | None) -> None:
 class Pair:
     """A robot as both know it."""
 
-    def __init__(self, model: cdcr.Model, system: Any) -> None:
-        self.model, self.system = model, system
-        self.count = model.num_sections
+    def __init__(self, name: str, model: cdcr.Model, system: Any) -> None:
+        self.name, self.model, self.system = name, model, system
+        self.theirs = partial(soromox_arms.theirs, arm=model.robot)
+        self.back = partial(soromox_arms.back, arm=model.robot)
 
     def derivative(self, y: Any) -> Any:
         """Return y' by SoRoMoX, without actuation."""
@@ -62,7 +64,7 @@ class Pair:
         d = self.model.num_coordinates
         q, qd = random.uniform(-0.6, 0.6, (STATES, d)), random.uniform(-3.0, 3.0, (STATES, d))
         still = np.zeros(self.model.num_cables)
-        y = jax.device_put(np.hstack((soromox_arms.theirs(q), soromox_arms.theirs(qd))))
+        y = jax.device_put(np.hstack((self.theirs(q), self.theirs(qd))))
         ours = Entry("cdcr", 0.0, 0.0, lambda: self.model.forward_dynamics(q, qd, still))
         kinds: dict[str, Callable[[Any], Any]] = {
             "loop": jax.jit(lambda many: jax.lax.map(self.derivative, many)),
@@ -75,7 +77,7 @@ class Pair:
             firsts[name] = time.process_time() - before
             entries.append(Entry(name, 0.0, 0.0, partial(_wait, function, y)))
         measure(entries, turns)
-        differ = soromox_arms.back(found[:, d:]) - self.model.forward_dynamics(q, qd, still)
+        differ = self.back(found[:, d:]) - self.model.forward_dynamics(q, qd, still)
         scale = np.abs(found[:, d:]).max(axis=1)
         for entry in entries:
             each = Spread([1e6 * t / STATES for t in entry.times])
@@ -83,7 +85,7 @@ class Pair:
             name = "cdcr, an array" if entry is ours else f"SoRoMoX, {entry.method}"
             first = f"{firsts[entry.method]:.1f}" if entry is not ours else ""
             off = "" if entry is ours else f"{np.max(np.abs(differ).max(axis=1) / scale):.0e}"
-            yield [f"{name}, n = {self.count}", f"{each.median:.3g}", str(ratio), first, off]
+            yield [f"{name}, {self.name}", f"{each.median:.3g}", str(ratio), first, off]
 
     def runs(self, turns: int, seconds: float) -> Iterator[list[str]]:
         """Time free motions; each model's error is that against a tight run of its own."""
@@ -106,7 +108,7 @@ class Pair:
                 entries.append(Entry(name, rtol, error, partial(run, rtol)))
         measure(entries, turns)
         for name in by:
-            row = [f"{name}, n = {self.count}, {seconds:g} s", f"{first.get(name, 0.0):.1f}"]
+            row = [f"{name}, {self.name}, {seconds:g} s", f"{first.get(name, 0.0):.1f}"]
             for error in ERRORS:
                 mine = [entry for entry in entries if entry.method == name]
                 known = [t for k in range(turns) if (t := time_at(mine, error, k)) is not None]
@@ -124,7 +126,7 @@ class Pair:
         import diffrax
         import jax
 
-        y0 = np.concatenate((soromox_arms.theirs(q0), soromox_arms.theirs(qd0)))
+        y0 = np.concatenate((self.theirs(q0), self.theirs(qd0)))
         term = diffrax.ODETerm(lambda t, y, args: self.derivative(y))
 
         @jax.jit
@@ -136,7 +138,7 @@ class Pair:
                 stepsize_controller=control, saveat=saveat, max_steps=1_000_000,
             ).ys  # fmt: skip
 
-        return lambda rtol: soromox_arms.back(np.asarray(solve(rtol))[:, : q0.size])
+        return lambda rtol: self.back(np.asarray(solve(rtol))[:, : q0.size])
 
 
 def _wait(function: Callable[[Any], Any], y: Any) -> None:

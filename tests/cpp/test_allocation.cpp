@@ -148,6 +148,21 @@ TEST_CASE("ties and cables in line are no obstacle") {
   }
 }
 
+TEST_CASE("cables almost against each other: what little they give across is not left out") {
+  for (const double off : {1e-2, 1e-3, 1e-4, 1e-5}) {
+    CAPTURE(off);
+    const Model model = model_of({0.3, 0.3 + pi - off});
+    for (const Eigen::Vector2d& tension :
+         {Eigen::Vector2d(30.0, 0.3), Eigen::Vector2d(0.3, 30.0), Eigen::Vector2d(5.0, 5.0)}) {
+      const VectorXd force = model.actuation_matrix() * tension;
+      const Allocation answer = allocate(model, force);
+      CHECK(answer.feasible);
+      // The angle between the two multiplies the rounding of a force.
+      CHECK(residual(answer.tension, tension, 30.0 / off) <= tolerance::search);
+    }
+  }
+}
+
 TEST_CASE("three cables: slack where least needed, the others share the force") {
   const Model model(amouri2020());
   const MatrixXd& B = model.actuation_matrix();

@@ -112,6 +112,40 @@ def test_json(tmp_path: Path) -> None:
     assert set(table["held_out"]) == {"pulls.csv: tip", "swing.csv: tip", "frequencies: frequency"}
 
 
+WAY = """\
+robot = "arm.toml"
+parameters = {"sections[*].cable_entry_friction" = {start = 0.1}}
+
+[[poses]]
+file = "way.csv"
+noise = 1e-3
+history = true
+"""
+
+
+def test_poses_with_a_history_tell_friction(tmp_path: Path) -> None:
+    """Cables pulled and let go again, on a robot that does not come back the same way."""
+    ROBOT.save(tmp_path / "arm.toml")
+    rubs = [replace(one, cable_entry_friction=0.3) for one in ROBOT.sections]
+    pull = np.concatenate([np.linspace(0.0, 3.0, 8), np.linspace(3.0, 0.0, 8)])
+    commands = np.zeros((32, 6))
+    commands[:16, 0], commands[16:, 4] = pull, pull
+    run = cdcr.quasi_static(cdcr.Model(replace(ROBOT, sections=rubs)), commands)
+    tip = run.tip + np.random.default_rng(5).normal(0.0, 1e-3, run.tip.shape)
+    names = [*(f"cable {j} [N]" for j in range(1, 7)), *(f"tip {axis} [m]" for axis in "xyz")]
+    table = np.hstack([commands, tip])
+    np.savetxt(tmp_path / "way.csv", table, delimiter=",", header=",".join(names), comments="")
+    file = tmp_path / "way.toml"
+    file.write_text(WAY)
+    found = json.loads(cdcr_("identify", file, "--json").stdout)
+    (friction,) = found["estimates"]
+    assert abs(friction["value"] - 0.3) < 4.5 * friction["standard_error"] < 0.1
+    assert found["misfit"] < 2.0
+    file.write_text(WAY.replace("history = true", "history = 1"))
+    wanted = "line 7: poses[0].history must be true or false, got 1 (integer)"
+    assert wanted in refused(cdcr_("identify", file))
+
+
 @pytest.mark.parametrize(
     ("old", "new", "sentence"),
     [

@@ -156,3 +156,30 @@ def test_what_does_not_fit_is_refused(case: str) -> None:
     with pytest.raises((ValueError, TypeError)) as caught:
         run()
     assert str(caught.value) == sentence
+
+
+@pytest.mark.parametrize(
+    "made",
+    [
+        lambda: cdcr.Pid(MODEL, kp=1.0),
+        lambda: cdcr.ComputedTorque(MODEL, kp=1.0),
+        lambda: cdcr.StateFeedback(MODEL, gain=np.zeros((3, 4))),
+        lambda: cdcr.TaskSpace(MODEL),
+        lambda: cdcr.Loop(MODEL, cdcr.Pid(MODEL, kp=1.0), step=1e-3),
+        lambda: cdcr.MomentumObserver(MODEL, force_at=(0, 1.0)),
+        lambda: cdcr.ExtendedKalman(MODEL, sensors=cdcr.Sensor(kind="tip", noise=1e-3)),
+        lambda: MODEL,
+    ],
+)
+def test_an_attribute_that_there_is_not_is_an_error(made: Any) -> None:
+    with pytest.raises(AttributeError, match="goal"):
+        made().goal = [0.3, 0.0]
+
+
+def test_a_class_of_ones_own_may_keep_what_it_likes() -> None:
+    class Mine(cdcr.Pid):
+        pass
+
+    mine: Any = Mine(MODEL, kp=1.0)
+    mine.note = "first"
+    assert copy.copy(mine).note == "first"

@@ -111,6 +111,7 @@ def test_fewer_data_than_parameters() -> None:
             "noise: there is no channel 'top'; measured are tip",
         ),
         ({"tip": TIPS, "gaps": "fill"}, "gaps must be 'refuse' or 'skip', got 'fill'"),
+        ({"tip": TIPS + 1j}, "tip must be an array of numbers, got "),
         ({"markers": TIPS}, "markers must be a table from (section, fraction) to positions"),
     ],
 )
@@ -129,6 +130,12 @@ def test_arrays_that_are_no_measurements(given: Any, sentence: str) -> None:
         (Poses(COMMANDS, tip=TIPS), BY_LENGTH, "poses, row 1, cable 1 is told 0 m"),
         (Poses(np.full((4, 6), 5.0), tip=TIPS, pulled=True), BY_LENGTH,
          "poses, row 1, cable 1 is pulled by 5 m, where the straight robot takes 0.1 m: is"),
+        (Poses(COMMANDS[:1], tip=1e3 * TIPS[:1]), ROBOT, "poses, row 1, tip "),
+        (Poses(COMMANDS, length=np.full((4, 6), 200.0)), ROBOT,
+         "poses, row 1, length 1 = 200 m, where the straight robot takes 0.1 m: is it in mm?"),
+        (Poses(COMMANDS, tension=1e3 * COMMANDS), ROBOT, "poses, row 1, tension "),
+        (Poses(COMMANDS, q=np.full((4, 4), 40.0)), ROBOT,
+         "poses, row 1, q 1 = 40 rad, and no section bends beyond 3 pi rad: is it in deg?"),
         (Poses(COMMANDS, markers={(2, 0.5): TIPS}), ROBOT, "a marker's place must be a sect"),
         (Poses(COMMANDS, q=TIPS), ROBOT, "q must have shape (4, 4), got (4, 3)"),
     ],
@@ -143,6 +150,8 @@ def test_measurements_of_another_robot_or_in_another_unit(
 def test_times_of_a_motion() -> None:
     with refused("motion, row 3, t must be later than the time before, got 0.1 s after 0.1 s"):
         Motion([0.0, 0.1, 0.1, 0.2], np.zeros(6), tip=TIPS)
+    with refused("motion, row 4, t = 3e+06 s: the motion lasts 3e+06 s, where at most 10000 s"):
+        Motion([0.0, 1e6, 2e6, 3e6], np.zeros(6), tip=TIPS)
     with refused("motion: a motion must have at least two times, got 1"):
         Motion([0.0], np.zeros(6), tip=TIPS[:1])
     with refused("motion: start must be None, 6 commands, or a pair (q0, qd0) of 4 numbers each"):
@@ -152,6 +161,10 @@ def test_times_of_a_motion() -> None:
 def test_frequencies() -> None:
     with refused("nothing was measured: give frequency or damping_ratio"):
         Frequencies()
+    with refused("frequencies, row 2, frequency must be > 0, got 0"):
+        Frequencies([1.0, 0.0], command=np.zeros(6))
+    with refused("frequencies, row 1, damping_ratio must be >= 0, got -0.1"):
+        Frequencies(damping_ratio=[-0.1], command=np.zeros(6))
     with refused("mode must have 1 number, one each, got 2"):
         Frequencies([1.0], mode=[0, 1], command=np.zeros(6))
     with refused("frequencies: mode[0] must be 0 to 3, got 9"):
@@ -221,6 +234,8 @@ def test_files_of_measurements(tmp_path: Path) -> None:
         ("tip x [mm]", "tip x", "column 'tip x' must have its unit, as in 'tip x [m]'"),
         ("tip x [mm]", "tip x [inch]", "the unit of column 'tip x [inch]' must be one of m, mm, c"),
         ("tip x [mm]", "tip x [N]", "column 'tip x [N]' must be in m, got N"),
+        ("tip x [mm]", "tip y [mm]", "column 'tip y [mm]' is there twice"),
+        (",", ";", "columns must be separated by commas, not semicolons"),
         ("cable 2 [N]", "rope 2 [N]", "there must be a column 'cable 2 [N]', and the columns are"),
     ):
         written(file, header=HEADER.replace(old, new))
@@ -232,6 +247,9 @@ def test_files_of_measurements(tmp_path: Path) -> None:
     lines = good.read_text().splitlines()
     file.write_text("\n".join([f"{lines[0]},tipp x [m]", *(f"{row},0" for row in lines[1:])]))
     with refused(f"{file}, line 1: there is no channel 'tipp x [m]'. Did you mean 'tip x'?"):
+        Poses.load(file, ROBOT)
+    file.write_text(file.read_text().replace("tipp x", "marker 1 x"))
+    with refused(f"{file}, line 1: column 'marker 1 x [m]' is of a marker whose place 'markers'"):
         Poses.load(file, ROBOT)
     with refused(f"{good}, line 1: there is no column 'x' for 'tip x [m]'."):
         Poses.load(good, ROBOT, columns={"tip x [m]": "x"})

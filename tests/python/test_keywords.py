@@ -37,6 +37,10 @@ CASES: dict[str, tuple[Callable[[], object], str]] = {
         lambda: ANY.Section(lenght=0.5),
         "Section has no keyword 'lenght'. Did you mean 'length'? Known: length, backbone_mass, ",
     ),
+    "unknown here": (
+        lambda: ANY.Robot(sections=[], cable_friction=0.3),
+        "Robot has no keyword 'cable_friction'. Section can have it. Known: sections, ",
+    ),
     "missing": (
         lambda: ANY.Section(length=0.5, youngs_modulus=1e9),
         "Section lacks backbone_mass, backbone_diameter",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 from collections import defaultdict
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +22,28 @@ pytest.importorskip("mcap", reason="the extra mcap is not installed")
 from mcap.reader import make_reader
 
 ROUNDING = 1e-14
+# What the JSON schemas of Foxglove ask of a message, in the version of August 2026:
+# https://github.com/foxglove/foxglove-sdk/tree/main/schemas/jsonschema
+REQUIRED = {
+    "foxglove.PoseInFrame": {"timestamp", "frame_id", "pose"},
+    "foxglove.FrameTransforms": {"transforms"},
+    "foxglove.FrameTransform": {
+        *("timestamp", "parent_frame_id", "child_frame_id", "translation", "rotation"),
+    },
+    "foxglove.SceneUpdate": {"deletions", "entities"},
+    "foxglove.SceneEntity": {
+        *("timestamp", "frame_id", "id", "lifetime", "frame_locked", "metadata"),
+        *("arrows", "cubes", "spheres", "cylinders", "lines", "triangles", "texts", "models"),
+    },
+    "foxglove.LinePrimitive": {
+        *("type", "pose", "thickness", "scale_invariant", "points", "color", "colors", "indices"),
+    },
+    "foxglove.Pose": {"position", "orientation"},
+    "foxglove.Vector3": {"x", "y", "z"},
+    "foxglove.Point3": {"x", "y", "z"},
+    "foxglove.Quaternion": {"x", "y", "z", "w"},
+    "foxglove.Color": {"r", "g", "b", "a"},
+}
 TYPES = {"number": float, "integer": int, "string": str, "boolean": bool}
 
 Log = tuple[dict[str, list[Any]], dict[str, Any], dict[str, str]]
@@ -80,6 +103,28 @@ def test_every_message_is_what_its_schema_says(run: cdcr.Trajectory, log: Log) -
     assert names["/tip_pose"] == "foxglove.PoseInFrame"
     assert names["/tf"] == "foxglove.FrameTransforms"
     assert names["/backbone"] == "foxglove.SceneUpdate"
+
+
+def records(schema: dict[str, Any], value: Any) -> Iterator[tuple[str, set[str]]]:
+    """Yield the title and the names of each record that a message holds."""
+    if schema["type"] == "array":
+        for one in value:
+            yield from records(schema["items"], one)
+    elif schema["type"] == "object":
+        yield schema["title"], set(value)
+        for name, one in schema["properties"].items():
+            yield from records(one, value[name])
+
+
+def test_messages_hold_all_that_foxglove_asks_for(log: Log) -> None:
+    messages, schemas, _ = log
+    found = {
+        title: names
+        for topic in ("/tip_pose", "/tf", "/backbone")
+        for title, names in records(schemas[topic], messages[topic][0][1])
+        if title.startswith("foxglove.")
+    }
+    assert found == REQUIRED
 
 
 def test_what_is_wrong_is_found() -> None:

@@ -137,6 +137,16 @@ def test_readme_names_the_extras_there_are() -> None:
     assert named <= set(extras)
 
 
+def test_the_page_of_installation_names_extras_and_options() -> None:
+    page = (ROOT / "docs" / "install.md").read_text()
+    project = read_toml(ROOT / "pyproject.toml", "project file")["project"]
+    rows = re.findall(r"^\| `(\w+)` \|", page, re.MULTILINE)
+    assert set(project["optional-dependencies"]) <= set(rows)
+    cmake = (ROOT / "CMakeLists.txt").read_text()
+    options = set(re.findall(r"(CDCR_(?:WITH_|INSTALL|BUILD_TESTS)\w*)", cmake))
+    assert options == {row for row in rows if row.startswith("CDCR_")}
+
+
 def test_readme_names_the_libraries_that_the_build_asks_for() -> None:
     text = (ROOT / "cmake" / "dependencies.cmake").read_text()
     libraries = set(re.findall(r"apt-get install (lib[\w-]+)", text))

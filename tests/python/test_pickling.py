@@ -4,7 +4,7 @@ import copy
 import multiprocessing
 import pickle
 from collections.abc import Callable
-from functools import partial
+from functools import cache, partial
 from typing import Any
 
 import numpy as np
@@ -89,6 +89,29 @@ def loop_run() -> cdcr.LoopRun:
     return loop.run(0.05)
 
 
+@cache
+def identified() -> cdcr.identification.Identified:
+    pulls = np.array([[1.0, 0.0, 0.0], [0.0, 2.0, 0.0]])
+    tips = ARM.tip([ARM.equilibrium(pull) for pull in pulls])[1]
+    poses = cdcr.identification.Poses(pulls, tip=1.001 * tips, noise=1e-3)
+    return cdcr.identify(poses, ARM.robot, STIFFNESS)
+
+
+@cache
+def design() -> cdcr.identification.Design:
+    candidates = np.eye(3) + 1.0
+    return cdcr.identification.informative_commands(ARM.robot, STIFFNESS, candidates, noise=1e-3)
+
+
+def mpc() -> cdcr.control.Mpc:
+    pytest.importorskip("piqp", reason="the extra mpc is not installed")
+    made = cdcr.control.Mpc(ARM, max_tension=20.0, horizon=3)
+    made.update(0.0, np.zeros(2), np.zeros(2))
+    return made
+
+
+ARM = cdcr.Model(cdcr.robots.amouri2020(damping=0.01))
+STIFFNESS = {"sections[*].youngs_modulus": None}
 WINCH = cdcr.Winch(drum_radius=0.01, inertia=1e-6, bandwidth=50.0)
 TIP = cdcr.Sensor(kind="tip", noise=1e-3)
 PATH = cdcr.ReferencePath.spline([0.0, 1.0], [np.zeros(6), np.full(6, 0.1)])
@@ -127,6 +150,15 @@ PUBLIC: dict[str, Callable[[], Any]] = {
     "Reference of samples": lambda: cdcr.Reference.from_samples(T, REFERENCE.q),
     "Reference of derivatives": lambda: cdcr.Reference(T, REFERENCE.q, REFERENCE.qd, REFERENCE.qdd),
     "Robot": lambda: MODEL.robot,
+    "Gradient": lambda: cdcr.gradient(
+        MODEL,
+        np.zeros(6),
+        np.zeros(6),
+        np.ones(9),
+        lambda motion: (1.0, {"q": motion.q}),
+        step=1e-3,
+        steps=2,
+    ),
     "Rollout": lambda: cdcr.rollout(MODEL, np.zeros(6), np.zeros(6), step=0.001, steps=2),
     "RolloutFailure": lambda: cdcr.RolloutFailure(3, cdcr.Status.bending_limit, "It bent."),
     "Section": lambda: MODEL.robot.sections[0],
@@ -138,7 +170,25 @@ PUBLIC: dict[str, Callable[[], Any]] = {
     "TensionTable": lambda: cdcr.TensionTable(T, np.ones((21, 9))),
     "Trajectory": lambda: RUN,
     "Wrench": lambda: cdcr.Wrench(section=1, force=(0.0, 0.1, 0.0), profile=swing),
-    "scenario": lambda: cdcr.scenarios.get("three-sections"),
+    "Scenario": lambda: cdcr.scenarios.get("three-sections"),
+    "Identified": identified,
+    "CrossValidation": cache(lambda: identified().cross_validate(folds=2)),
+    "Design": design,
+    "Parameter": lambda: cdcr.identification.Parameter(start=2.0, low=1.0),
+    "Poses": lambda: cdcr.identification.Poses(np.ones((2, 3)), tip=np.ones((2, 3)), noise=0.1),
+    "Motion": lambda: cdcr.identification.Motion(
+        T, np.ones(3), q=np.ones((21, 2)), start=[1.0] * 3
+    ),
+    "Frequencies": lambda: cdcr.identification.Frequencies([2.0], command=np.ones(3), noise=0.1),
+    "Mpc": mpc,
+    "Claim": lambda: cdcr.paper.Claim(
+        name="sum", where="p. 1", claim="1", computed="2", verdict="holds", values={"sum": 2.0}
+    ),
+    "Factors": lambda: cdcr.paper.factors(0.3),
+    "PolarModel": lambda: cdcr.paper.PolarModel(ARM.robot),
+    "RunMetric of the end": lambda: cdcr.sweeps.METRICS["final_tip_x"],
+    "RunMetric of the whole": lambda: cdcr.sweeps.METRICS["peak_theta"],
+    "RunMetric of speeds": lambda: cdcr.sweeps.METRICS["peak_tip_speed"],
 }
 
 
@@ -164,8 +214,17 @@ def content(thing: Any, depth: int = 3) -> Any:
 
 
 def test_every_public_class_is_here() -> None:
-    classes = [name for name in cdcr.__all__ if isinstance(getattr(cdcr, name), type)]
-    assert set(classes) - {"Loop", "LoopLog"} <= {name.split()[0] for name in PUBLIC}
+    parts = (cdcr, cdcr.control, cdcr.identification, cdcr.paper, cdcr.scenarios, cdcr.sweeps)
+    public = {name: getattr(part, name) for part in parts for name in part.__all__}
+    classes = {name for name, thing in public.items() if isinstance(thing, type)}
+    assert classes - {"Loop", "LoopLog"} <= {name.split()[0] for name in PUBLIC}
+
+
+@pytest.mark.parametrize("name", cdcr.sweeps.METRICS)
+def test_a_copied_metric_computes_the_same(name: str) -> None:
+    metric = cdcr.sweeps.METRICS[name]
+    for way in WAYS.values():
+        np.testing.assert_equal(way(metric).function(RUN), metric.function(RUN))
 
 
 @pytest.mark.parametrize("way", WAYS)

@@ -1,7 +1,6 @@
 """Pictures of runs and robots: what they show is the data, with names and units."""
 
 import dataclasses
-import re
 import subprocess
 import sys
 from pathlib import Path
@@ -289,26 +288,6 @@ def test_missing_extra_is_named(run: cdcr.Trajectory, monkeypatch: pytest.Monkey
     for draw in (run.plot, run.plot_robot, lambda: run.animate("run.gif")):
         with pytest.raises(ImportError, match=r'matplotlib .*pip install "cdcr\[plot\]"'):
             draw()
-
-
-@pytest.mark.parametrize(
-    ("arguments", "sentence"),
-    [
-        ({"num": 0}, "num must be a whole number >= 1, got 0 (int)"),
-        ({"num": 2.5}, "num must be a whole number >= 1, got 2.5 (float)"),
-        ({"times": []}, "times must have shape (M,) with M at least 1, got (0,)"),
-        ({"times": [[0.0]]}, "times must have shape (M,) with M at least 1, got (1, 1)"),
-        (
-            {"ax": Figure().add_subplot()},
-            "ax must be an Axes3D, as projection='3d' makes one, got Axes",
-        ),
-    ],
-)
-def test_wrong_arguments_of_pictures(arguments: dict[str, Any], sentence: str) -> None:
-    model = cdcr.Model(cdcr.robots.amouri2020())
-    run = cdcr.simulate(model, [0.1, 0.0], [0.0, 0.0], t=[0.0, 0.1])
-    with pytest.raises(ValueError, match=f"^{re.escape(sentence)}$"):
-        run.plot_robot(**arguments)
 
 
 def test_a_robot_of_micrometres_is_drawn_as_one_of_metres() -> None:

@@ -175,7 +175,7 @@ def test_what_may_be_left_out_has_the_defaults(tmp_path: Path) -> None:
     )
 
 
-@pytest.mark.filterwarnings("ignore:.*(full turn|softer)")
+@pytest.mark.filterwarnings("ignore:.*(full turn|softer|millimetres|material)")
 @given(robot=robots())
 def test_round_trip_is_exact(robot: cdcr.Robot, tmp_path_factory: Any) -> None:
     path = tmp_path_factory.mktemp("robot") / "robot.toml"

@@ -43,6 +43,7 @@ def test_gains_that_overflow_end_the_run(model: cdcr.Model) -> None:
         pid.update(0.0, [0.2, 0.0], [0.0, 0.0])
 
 
+@pytest.mark.filterwarnings("ignore:.*millimetres")
 def test_a_robot_beyond_all_sizes_has_no_equilibrium() -> None:
     section = cdcr.Section(
         length=1.7e308, backbone_mass=1.0, backbone_diameter=1e-3, youngs_modulus=1e10

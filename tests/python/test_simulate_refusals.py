@@ -203,3 +203,17 @@ def test_a_table_is_refused_where_it_is_made() -> None:
         cdcr.TensionTable([0.0, 1.0], [[1.0, 2.0, 3.0]])
     with pytest.raises(ValueError, match=r"tension\[0, 1\] \(cable 2\) must be finite and >= 0 N"):
         cdcr.TensionTable([0.0], [[0.0, -1.0, 0.0]])
+
+
+def test_a_step_that_is_too_large_is_named(model: cdcr.Model) -> None:
+    """Far beyond the limit of `stable_step` the first step throws the robot out of its range."""
+    pull, t = [5.0, 0.0, 0.0], [0.0, 5.0]
+    thrown = run(model, t=t, tension=pull, method="rk4", step=5.0)
+    limit = cdcr.stable_step(model, ZEROS)
+    assert not thrown.success
+    assert thrown.message.endswith(
+        f" Or the step of 5 s is too large: here rk4 is stable up to {limit:.3g} s."
+    )
+    too_much = run(model, t=t, tension=[900.0, 0.0, 0.0], method="rk4", step=1e-3)
+    assert too_much.status is cdcr.Status.bending_limit
+    assert "too large" not in too_much.message

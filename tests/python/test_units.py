@@ -37,6 +37,50 @@ def test_a_modulus_in_gigapascals(modulus: float) -> None:
         robot(youngs_modulus=modulus)
 
 
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"length": 800.0}, "section 2: length = 800 m looks like millimetres: lengths are in m"),
+        (
+            {"length": 800.0, "backbone_diameter": 5.0, "cable_radius": 19.0},
+            "section 2: length = 800 m looks like millimetres: lengths are in m",
+        ),
+        (
+            {"cable_radius": 19.0},
+            "section 2: cable_radius = 19 m, of a robot 1.604 m long, looks like millimetres: "
+            "lengths are in m",
+        ),
+        (
+            {"disk_diameter": 40.0},
+            "section 2: disk_diameter = 40 m, of a robot 1.604 m long, looks like millimetres: "
+            "lengths are in m",
+        ),
+        (
+            {"backbone_mass": 32.4},
+            "section 2: backbone_mass = 32.4 kg makes the backbone denser than any material: is it "
+            "in g? Masses are in kg",
+        ),
+        (
+            {"cable_friction": 30.0},
+            "section 2: cable_friction = 30 is more than any materials have: is it in per cent?",
+        ),
+    ],
+)
+def test_lengths_masses_and_friction(changes: dict[str, float], sentence: str) -> None:
+    with pytest.warns(UserWarning, match="section 2") as caught:
+        robot(**changes)
+    assert [str(one.message) for one in caught] == [sentence]
+
+
+def test_a_small_robot_in_many_parts_and_a_long_one_are_not_asked() -> None:
+    long = replace(SECTION, length=50.0, backbone_diameter=0.05, backbone_mass=200.0)
+    short = replace(SECTION, length=0.03)  # its disks are wider than it is long
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        cdcr.Robot(sections=[long])
+        cdcr.Robot(sections=[short])
+
+
 def test_a_file_asks_too(tmp_path: Path) -> None:
     path = tmp_path / "robot.toml"
     cdcr.robots.amouri2020().save(path)

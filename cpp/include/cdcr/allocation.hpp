@@ -77,6 +77,8 @@ class Allocator {
   void initialise_active_set() noexcept;
   bool solve_in_closed_form() noexcept;
   void search() noexcept;
+  void find_active_set() noexcept;
+  bool is_met() noexcept;
   void solve_free() noexcept;
   bool step_to_first_bound() noexcept;
   bool release_by_multiplier() noexcept;
@@ -87,13 +89,16 @@ class Allocator {
   VectorXd lower_, upper_;      // limits of the tensions [N]
   VectorXd low_, high_;         // the same in the unit of the force at hand
   double scale_ = 1.0;          // largest column of B, so that lengths are near one
+  double unit_ = 1.0;           // of the force at hand [N m]
+  double epsilon_ = 0.0;        // of the search
   double softest_ = 0.0;        // least bending stiffness [N m/rad]
   double negligible_ = 0.0;     // force/scale that bends the robot no more than rounding
   MatrixXd B_, normal_;         // B/scale; sum of b b^T over the free cables
   VectorXd Q_, rest_, lambda_;  // Q/scale; what the free cables must give; multipliers
   VectorXd F_, tension_, force_;
+  VectorXd coarse_F_;            // before the finer search
   std::vector<Triple> triples_;  // one for each section, or none
-  std::vector<Place> place_;
+  std::vector<Place> place_, coarse_place_;
   Eigen::LDLT<MatrixXd> ldlt_;
 };
 

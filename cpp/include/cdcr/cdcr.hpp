@@ -3,6 +3,8 @@
 // Everything of target cdcr::cdcr. cdcr/cvode.hpp belongs to cdcr::cvode.
 #include "cdcr/actuator.hpp"
 #include "cdcr/allocation.hpp"
+#include "cdcr/base_wrench.hpp"
+#include "cdcr/batch.hpp"
 #include "cdcr/cable_drive.hpp"
 #include "cdcr/cable_friction.hpp"
 #include "cdcr/cables.hpp"
@@ -17,6 +19,7 @@
 #include "cdcr/integrator.hpp"
 #include "cdcr/inverse_kinematics.hpp"
 #include "cdcr/kalman_filter.hpp"
+#include "cdcr/kinematic_hessian.hpp"
 #include "cdcr/kinematics.hpp"
 #include "cdcr/linearization.hpp"
 #include "cdcr/log.hpp"

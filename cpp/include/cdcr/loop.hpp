@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "cdcr/actuator.hpp"
@@ -12,6 +13,9 @@
 
 namespace CDCR_EXPORT cdcr {
 
+namespace detail {
+class PlantBase;
+}
 class LoopLog;
 
 struct LoopOptions {
@@ -34,6 +38,9 @@ class Loop {
  public:
   Loop(const Model& plant, Controller& controller, LoopOptions options = {},
        Estimator* estimator = nullptr);
+  ~Loop();
+  Loop(Loop&&) noexcept;
+  Loop& operator=(Loop&&) noexcept;
 
   /// State (d each) and time [s] at the start. Actuators give `command` (num_cables) there; by
   /// default what leaves the straight robot alone.
@@ -69,7 +76,7 @@ class Loop {
 
  private:
   [[nodiscard]] Status close(const Wrenches& wrenches, const Interrupt& stop) noexcept;
-  [[nodiscard]] Status look() noexcept;
+  [[nodiscard]] Status look(const Wrenches& wrenches) noexcept;
 
   LoopOptions options_;
   Simulator plant_;
@@ -77,6 +84,8 @@ class Loop {
   Estimator* estimator_;
   Actuators actuators_;
   std::vector<SensorChannel> sensors_;
+  std::unique_ptr<detail::PlantBase> base_;  // where a sensor feels it
+  VectorXd on_base_;                         // and what it feels (6)
   std::vector<Measurement> told_;
   Index every_, estimator_every_ = 1;  // steps in a period of controller and estimator
   VectorXd asked_, trial_, tension_, told_q_, told_qd_;

@@ -28,7 +28,7 @@ class StateFeedback : public TrackingController {
   void accept(const ReferencePath& path) override;
 
  private:
-  void hold(const VectorXd& reference) noexcept;
+  void hold_reference(const VectorXd& reference) noexcept;
 
   Data data_;
   StateFeedbackOptions options_;

@@ -7,24 +7,25 @@
 
 #include "allocation/check_limits.hpp"
 #include "base/arguments.hpp"
-#include "base/sizes.hpp"
 #include "cdcr/cables.hpp"
-#include "cdcr/kinematics.hpp"
 
 namespace cdcr {
 namespace {
 
 // The search minimises |F|^2/2 + |B F - Q|^2/(2 epsilon): least-norm where Q can be met, nearest
-// elsewhere. Strictly convex, so an active set that lowers it at each change comes to an end.
-constexpr double epsilon = 1e-9;
+// elsewhere. Strictly convex, so an active set that lowers it at each change comes to an end. Where
+// cables pull almost against each other, the least norm outweighs a little of Q: then the finer one
+// is tried, which rounding makes too coarse where Q cannot be met.
+constexpr double coarse = 1e-9, fine = 1e-13;
 // Distance from Q, relative to the sizes at hand, that still counts as met.
 constexpr double met = 1e-10;
 // Bend that a force missed would make, which counts as none [rad]: what rounding leaves of zero.
 constexpr double no_bend = 1e-12;
 // Forces beyond this would overflow when squared, and so would tensions.
 constexpr double huge = 1e100;
-// Share of the missing force along a cable that is zero but for rounding: it would not help.
-constexpr double indifferent = 1e-6;
+// Passes that refine the tensions, and the share of an error that one leaves while they go on.
+constexpr int least_passes = 3, max_passes = 100;
+constexpr double shrinks = 0.9;
 
 }  // namespace
 
@@ -43,7 +44,8 @@ Allocator::Allocator(const Model& model, const TensionLimits& limits)
   normal_ = MatrixXd::Identity(m, m);
   ldlt_.compute(normal_);
   Q_ = rest_ = lambda_ = force_ = VectorXd::Zero(m);
-  F_ = tension_ = VectorXd::Zero(c);
+  F_ = tension_ = coarse_F_ = VectorXd::Zero(c);
+  coarse_place_ = place_;
   if (limits.pretension.size() == c) lower_ = lower_.cwiseMax(limits.pretension);
   low_ = lower_;
   high_ = upper_;
@@ -164,7 +166,7 @@ void Allocator::solve_free() noexcept {
   for (Index j = 0; j < F_.size(); ++j) {
     if (place_[j] == Place::free) normal_.noalias() += B_.col(j) * B_.col(j).transpose();
   }
-  normal_.diagonal().array() += epsilon;
+  normal_.diagonal().array() += epsilon_;
   ldlt_.compute(normal_);
   left_for_free();
   lambda_ = rest_;
@@ -217,14 +219,19 @@ bool Allocator::release_by_multiplier() noexcept {
 }
 
 /// With the set known, refines the free tensions until Q is met to rounding: each pass leaves
-/// about epsilon of the error, and what cannot be met does not move the cables.
+/// epsilon / (s^2 + epsilon) of the error along a singular value s of the free cables, and what
+/// cannot be met does not move them.
 void Allocator::polish() noexcept {
   solve_free();
-  for (int pass = 0; pass < 3; ++pass) {
+  double last = HUGE_VAL;
+  for (int pass = 0; pass < max_passes; ++pass) {
     for (Index j = 0; j < F_.size(); ++j) {
       if (place_[j] == Place::free) rest_ -= B_.col(j) * B_.col(j).dot(lambda_);
     }
     // rest_ is now the error of the force with F = B^T lambda on the free cables.
+    const double error = rest_.norm();
+    if (pass >= least_passes && !(error < shrinks * last)) break;
+    last = error;
     ldlt_.solveInPlace(rest_);
     lambda_ += rest_;
     left_for_free();
@@ -236,8 +243,7 @@ void Allocator::polish() noexcept {
   }
 }
 
-void Allocator::search() noexcept {
-  initialise_active_set();
+void Allocator::find_active_set() noexcept {
   // Each cable is released and caught a few times at most; the limit only guards rounding.
   const Index max_changes = 50 * (F_.size() + 1);
   for (Index change = 0; change < max_changes; ++change) {
@@ -247,89 +253,48 @@ void Allocator::search() noexcept {
   polish();
 }
 
-bool Allocator::solve(const ConstVectorRef& force) noexcept {
-  if (force.size() != Q_.size() || !force.allFinite()) return false;
-  // All of it grows with the force: in a unit of its size, nothing that is squared overflows.
-  const double largest = force.lpNorm<Eigen::Infinity>();
-  const double unit = largest > huge ? largest : 1.0;
-  low_ = lower_ / unit;
-  high_ = upper_ / unit;
-  Q_ = force / unit / scale_;
-  if (!solve_in_closed_form()) search();
+void Allocator::search() noexcept {
+  initialise_active_set();
+  epsilon_ = coarse;
+  find_active_set();
+  if (is_met()) return;
+  coarse_F_ = F_;
+  coarse_place_ = place_;
+  epsilon_ = fine;
+  find_active_set();
+  if (is_met()) return;
+  F_ = coarse_F_;
+  place_ = coarse_place_;
+}
+
+/// Whether F gives Q; rest_ is what it does not.
+bool Allocator::is_met() noexcept {
   rest_ = Q_;
   double size = Q_.norm();
   for (Index j = 0; j < F_.size(); ++j) {
     rest_ -= B_.col(j) * F_[j];
     size += std::abs(F_[j]) * B_.col(j).norm();
+  }
+  return rest_.norm() <= met * size + negligible_ / unit_;
+}
+
+bool Allocator::solve(const ConstVectorRef& force) noexcept {
+  if (force.size() != Q_.size() || !force.allFinite()) return false;
+  // All of it grows with the force: in a unit of its size, nothing that is squared overflows.
+  const double largest = force.lpNorm<Eigen::Infinity>();
+  unit_ = largest > huge ? largest : 1.0;
+  low_ = lower_ / unit_;
+  high_ = upper_ / unit_;
+  Q_ = force / unit_ / scale_;
+  if (!solve_in_closed_form()) search();
+  const bool feasible = is_met();
+  for (Index j = 0; j < F_.size(); ++j) {
     tension_[j] = place_[j] == Place::lower   ? lower_[j]
                   : place_[j] == Place::upper ? upper_[j]
-                                              : F_[j] * unit;
+                                              : F_[j] * unit_;
   }
-  force_ = unit * (scale_ * (Q_ - rest_));
-  return rest_.norm() <= met * size + negligible_ / unit && tension_.allFinite();
-}
-
-void require_constant_actuation(const Model& model) {
-  detail::require(
-      model.has_constant_actuation(),
-      "q must be given: the actuation matrix of this robot depends on it, since a cable "
-      "winds or converges, or runs through a section that twists");
-}
-
-Allocation allocate(const Model& model, const VectorXd& force, const TensionLimits& limits) {
-  require_constant_actuation(model);
-  return allocate_at(model, model.rest(), force, limits);
-}
-
-Allocation allocate_at(const Model& model, const VectorXd& q, const VectorXd& force,
-                       const TensionLimits& limits) {
-  detail::require_finite("force", force, model.num_coordinates());
-  detail::require_finite("q", q, model.num_coordinates());
-  Allocator allocator(model, limits);
-  allocator.set_shape(q);
-  MatrixXd B(model.num_coordinates(), model.num_cables());
-  actuation_matrix(model, q, B);
-  Allocation result;
-  result.feasible = allocator.solve(force);
-  result.tension = allocator.tension();
-  result.force = allocator.force();
-  const VectorXd missing = force - result.force;
-  result.distance = missing.stableNorm();  // whose squares do not overflow
-  for (Index j = 0; j < model.num_cables() && !result.feasible; ++j) {
-    if (!allocator.at_limit(j)) continue;
-    const double wanted = B.col(j).dot(missing);
-    const double tension = result.tension[j];
-    const bool lower = tension == allocator.lower()[j], upper = tension == allocator.upper()[j];
-    const double least = indifferent * B.col(j).norm() * result.distance;
-    if (!(lower && wanted < -least) && !(upper && wanted > least)) continue;
-    result.limiting.push_back(j);
-    result.limits.push_back(detail::sentence(cable_name(model, j), " at ", tension, " N (",
-                                             wanted < 0.0 ? "min" : "max", ")"));
-  }
-  return result;
-}
-
-std::string cable_name(const Model& model, Index cable) {
-  detail::require(detail::is_cable(model, cable), "cable must be an index from 0 to ",
-                  model.num_cables() - 1, ", got ", cable);
-  const int section = model.cables()[static_cast<std::size_t>(cable)].end_section;
-  int number = 0;
-  for (Index j = 0; j <= cable; ++j) {
-    if (model.cables()[static_cast<std::size_t>(j)].end_section == section) ++number;
-  }
-  return "cable " + std::to_string(number) + " of section " + std::to_string(section + 1);
-}
-
-void cable_commands(const Model& model, const ConstVectorRef& q, const ConstVectorRef& tension,
-                    VectorRef command) noexcept {
-  assert(detail::of_coordinates(model, q) && detail::of_cables(model, tension, command));
-  cable_lengths(model, q, command);
-  for (Index j = 0; j < model.num_cables(); ++j) {
-    const Cable& cable = model.cables()[static_cast<std::size_t>(j)];
-    command[j] = cable.length_driven()
-                     ? command[j] - tension[j] / cable.stiffness - model.slack_offset()[j]
-                     : tension[j];
-  }
+  force_ = unit_ * (scale_ * (Q_ - rest_));
+  return feasible && tension_.allFinite();
 }
 
 }  // namespace cdcr

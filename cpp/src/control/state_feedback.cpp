@@ -30,7 +30,7 @@ void StateFeedback::accept(const ReferencePath& path) {
 }
 
 /// hold_: the commands given, or those that hold the reference still.
-void StateFeedback::hold(const VectorXd& reference) noexcept {
+void StateFeedback::hold_reference(const VectorXd& reference) noexcept {
   if (holds_) return;
   holds_ = path().is_constant();
   if (options_.command.size() != 0) {
@@ -46,7 +46,7 @@ void StateFeedback::hold(const VectorXd& reference) noexcept {
 
 Status StateFeedback::control(double /*t*/, const ConstVectorRef& q, const ConstVectorRef& qd,
                               const Setpoint& wanted) noexcept {
-  hold(wanted.value);
+  hold_reference(wanted.value);
   const Index d = q.size();
   error_.head(d) = q - wanted.value;
   error_.tail(d) = qd - wanted.rate;

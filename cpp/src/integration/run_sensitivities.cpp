@@ -18,6 +18,9 @@ Index Sensitivities::columns(const Model& model) const noexcept {
 namespace detail {
 namespace {
 
+// Of h^2 dqdd/dq + h dqdd/dqd: a step over which the equations do not change anything.
+constexpr double still = 1e-4;
+
 int stages_for(Method method) {
   const bool high =
       method == Method::dop853 || method == Method::adams || method == Method::automatic;
@@ -102,11 +105,13 @@ void RunSensitivities::differentiate(Integrator& integrator, double t, Index seg
 
 /// One step of collocation from there_ at t over h, in terms of the accelerations G of the stages:
 /// S_qd = S_qd0 + h sum a G, S_q = S_q0 + h c S_qd0 + h^2 sum a2 G. Writes moved_, and returns an
-/// estimate of the error, the root of which grows as the error itself.
+/// estimate of the error, the root of which grows as the error itself. Of a step in which next to
+/// nothing moves it would be rounding, where a column has just begun to grow from zero.
 double RunSensitivities::step(Integrator& integrator, double t, double h) {
   const Index s = method_.stages();
   const Index segment = command_slopes_ ? command_slopes_->segment(t + 0.5 * h) : 0;
   const auto before = there_.topRows(d_), rate = there_.bottomRows(d_);
+  double fastest = 0.0;
   for (Index i = 0; i < s; ++i) {
     const double c = method_.nodes[i];
     differentiate(integrator, i == s - 1 && inside_ == 0.0 ? t + h : t + (c - inside_) * h,
@@ -116,6 +121,8 @@ double RunSensitivities::step(Integrator& integrator, double t, double h) {
           -(h * method_.once(i, j)) * on_qd_ - (h * h * method_.twice(i, j)) * on_q_;
     }
     equations_.block(i * d_, i * d_, d_, d_).diagonal().array() += 1.0;
+    fastest = std::fmax(
+        fastest, h * h * on_q_.lpNorm<Eigen::Infinity>() + h * on_qd_.lpNorm<Eigen::Infinity>());
     auto right = slopes_.middleRows(i * d_, d_);
     right.noalias() = on_q_ * (before + (c * h) * rate) + on_qd_ * rate;
     if (asked_.command) right.middleCols(first_command_, on_command_.cols()) += on_command_;
@@ -135,6 +142,7 @@ double RunSensitivities::step(Integrator& integrator, double t, double h) {
     errors_.bottomRows(d_) += (h * method_.error(1, j)) * slope;
     size = size.cwiseMax(h * slope.cwiseAbs().colwise().maxCoeff());
   }
+  if (fastest < still) return 0.0;
   size.array() += std::numeric_limits<double>::min();
   return (errors_.cwiseAbs().colwise().maxCoeff().array() / size.array()).maxCoeff();
 }
@@ -157,7 +165,7 @@ void RunSensitivities::solve(Integrator& integrator, double t) {
     }
     there_.swap(moved_);
     at = last ? t : at + h;
-    h *= std::clamp(change, 0.5, 5.0);
+    h = std::fmax(h * std::clamp(change, 0.5, 5.0), smallest * (t - time_));
   }
   there_time_ = t;
 }

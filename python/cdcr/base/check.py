@@ -43,6 +43,12 @@ def require_kind(item: str, value: object, kind: type) -> None:
         raise TypeError(f"{item} must be a cdcr.{kind.__name__}, got {type(value).__name__}")
 
 
+def require_like(item: str, value: object, name: str, *members: str) -> None:
+    """Refuse what lacks members of a public class that cannot be seen from here."""
+    if not all(hasattr(value, member) for member in members):
+        raise TypeError(f"{item} must be a cdcr.{name}, got {type(value).__name__}")
+
+
 def known_name(noun: str, name: object, known: Collection[str]) -> str:
     """Return the known name that is meant, dashes for underscores or not, or say which these are.
 

@@ -11,19 +11,22 @@ from typing import Any, TypeVar
 from cdcr.base.check import format_value, nearest
 
 Class = TypeVar("Class", bound=type)
+_KNOWN: dict[str, dict[str, list[str]]] = {}  # by room, keywords of each class
 
 
 def by_keyword(cls: Class) -> Class:
     """Let a class, whose `__init__` takes keywords, say which where a call does not fit them."""
     init: Any = cls.__init__  # type: ignore[misc]
-    signature = inspect.signature(init)
+    parameters = list(inspect.signature(init).parameters.values())[1:]
+    room = _KNOWN.setdefault(cls.__module__.rpartition(".")[0], {})
+    room[cls.__name__] = [one.name for one in parameters]
 
     @functools.wraps(init)
     def wrapped(self: Any, *args: Any, **kwargs: Any) -> None:
         try:
             init(self, *args, **kwargs)
         except TypeError:
-            told = _misfit(cls.__name__, list(signature.parameters.values())[1:], args, kwargs)
+            told = _misfit(cls.__name__, room, parameters, args, kwargs)
             if told is None:
                 raise
             raise TypeError(told) from None
@@ -33,7 +36,11 @@ def by_keyword(cls: Class) -> Class:
 
 
 def _misfit(
-    name: str, parameters: Sequence[Parameter], args: Sequence[Any], kwargs: Mapping[str, Any]
+    name: str,
+    room: Mapping[str, Sequence[str]],
+    parameters: Sequence[Parameter],
+    args: Sequence[Any],
+    kwargs: Mapping[str, Any],
 ) -> str | None:
     """Return what in a call does not fit the parameters, or None where all does."""
     known = [one.name for one in parameters]
@@ -50,6 +57,8 @@ def _misfit(
         )
     for one in kwargs:
         if one not in known:
-            return f"{name} has no keyword {one!r}.{nearest(one, known)} {told}"
+            others = [other for other, theirs in room.items() if one in theirs]
+            hint = f" {' and '.join(others)} can have it." if others else nearest(one, known)
+            return f"{name} has no keyword {one!r}.{hint} {told}"
     missing = [one for one in needed[len(args) :] if one not in kwargs]
     return f"{name} lacks {', '.join(missing)}" if missing else None

@@ -71,6 +71,9 @@ def read_rows(path: Path, what: str) -> tuple[list[str], list[tuple[str, list[st
         rows = [(f"{path}, line {reader.line_num}", row) for row in reader if row]
     except csv.Error as error:
         raise ValueError(f"{path} is not a CSV file: {error}") from None
+    for mark, name in ((";", "semicolons"), ("\t", "tabs")):
+        if len(header) == 1 and mark in header[0]:
+            raise ValueError(f"{path}, line 1: columns must be separated by commas, not {name}")
     for where, row in rows:
         if len(row) != len(header):
             raise ValueError(f"{where}: must have {len(header)} columns, got {len(row)}")

@@ -14,7 +14,10 @@ from cdcr.model.model import Model
 from cdcr.robot.robot import Robot
 
 MANY = 2**31 - 1
-FARTHEST = 3.0  # distance between two tips, in lengths of the robot, beyond which units are asked
+# Beyond which units are asked: distance between two tips, and of one from the base, in lengths of
+# the robot (that of a motion capture may lie elsewhere in the room); time that a motion lasts [s];
+# a measured tension over the largest told.
+FARTHEST, FARTHEST_FROM_BASE, LONGEST, STRONGEST = 3.0, 50.0, 1e4, 100.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,6 +65,8 @@ def measured(
 ) -> FloatArray:
     """Return an array of that shape, None for any length, or refuse it by row and column."""
     try:
+        if np.asarray(value).dtype.kind in "bc":  # NumPy would take them for numbers
+            raise TypeError
         array = np.array(value, dtype=np.float64)
     except (TypeError, ValueError):
         raise ValueError(f"{item} must be an array of numbers, got {format_value(value)}") from None
@@ -112,19 +117,37 @@ def noise_levels(noise: Mapping[str, float] | float | None, names: Sequence[str]
     return {name: float(level) for name, level in levels.items()}
 
 
-def ask_about_places(values: FloatArray, length: float, where: Where, name: str) -> None:
-    """Refuse places that no robot of that length reaches, whatever the frame: they ask for a unit.
+def ask_about_times(t: FloatArray, where: Where) -> None:
+    """Refuse a motion of many hours: it asks for a unit."""
+    lasts = t[-1] - t[0]
+    if lasts > LONGEST:
+        raise ValueError(
+            f"{where(len(t) - 1, 't')} = {t[-1]:g} s: the motion lasts {lasts:g} s, where at most "
+            f"{LONGEST:g} s are computed: is it in ms?"
+        )
+
+
+def ask_about_places(values: FloatArray, robot: Robot, where: Where, name: str) -> None:
+    """Refuse places that a robot never reaches, whatever the frame: they ask for a unit.
 
     Raises
     ------
     ValueError
         As a question.
     """
+    length = robot.length
     there = np.flatnonzero(np.isfinite(values).all(axis=1))
-    if there.size < 2:
+    if not there.size:
         return
     middle = np.median(values[there], axis=0)
     away = np.linalg.norm(values[there] - middle, axis=1)
+    base = np.linalg.norm(middle - np.array(robot.base_position))
+    if base > FARTHEST_FROM_BASE * length:
+        row, far = int(there[0]), int(np.argmax(np.abs(middle)))
+        raise ValueError(
+            f"{where(row, column_name(name, far))} = {values[row, far]:g} m, the places are "
+            f"{base:g} m from the base, and the robot is {length:g} m long: is it in mm?"
+        )
     if away.max() > FARTHEST * length:
         row = int(there[np.argmax(away)])
         far = int(np.argmax(np.abs(values[row] - middle)))
@@ -133,6 +156,38 @@ def ask_about_places(values: FloatArray, length: float, where: Where, name: str)
             f"{where(row, column)} = {values[row, far]:g} m is {away.max():g} m from the others, "
             f"and the robot is {length:g} m long: is it in mm?"
         )
+
+
+def ask_about_cables(channel: Channel, command: FloatArray, robot: Robot, where: Where) -> None:
+    """Refuse measured lengths and tensions [mm], [mN] that are taken for [m], [N]: they ask."""
+    driven, straight = _straight(robot)
+    values = channel.values
+    if channel.name == "length":
+        odd = np.abs(values) > 3.0 * straight
+        beside = [f"where the straight robot takes {one:.4g} m: is it in mm?" for one in straight]
+    else:
+        told = 0.0 if driven.any() else float(np.max(command, initial=0.0))
+        odd = np.abs(values) > STRONGEST * (told or np.inf)
+        beside = [f"where at most {told:g} N was told: is it in mN?"] * len(straight)
+    for row, j in np.argwhere(odd)[:1]:
+        column = column_name(channel.name, j)
+        raise ValueError(f"{where(row, column)} = {values[row, j]:g} {channel.unit}, {beside[j]}")
+
+
+def ask_about_shapes(values: FloatArray, where: Where) -> None:
+    """Refuse bending vectors beyond what the model allows: they ask for a unit."""
+    for row, k in np.argwhere(np.abs(values) > 3.0 * np.pi)[:1]:
+        raise ValueError(
+            f"{where(row, column_name('q', k))} = {values[row, k]:g} rad, and no section bends "
+            "beyond 3 pi rad: is it in deg?"
+        )
+
+
+def _straight(robot: Robot) -> tuple[FloatArray, FloatArray]:
+    """Return which cables are driven by length, and the lengths of all in the straight robot."""
+    model = Model(robot)
+    driven = np.array([cable.length_driven for cable in robot.all_cables], dtype=bool)
+    return driven, model.cable_lengths(np.zeros(model.num_coordinates))
 
 
 def check_commands(
@@ -147,9 +202,8 @@ def check_commands(
             f"{name}: command must have shape ({len(command)}, {robot.num_cables}), got "
             f"{command.shape}"
         )
-    model = Model(robot)
-    driven = np.array([cable.length_driven for cable in robot.all_cables], dtype=bool)
-    straight = np.where(driven, model.cable_lengths(np.zeros(model.num_coordinates)), np.inf)
+    driven, lengths = _straight(robot)
+    straight = np.where(driven, lengths, np.inf)
     odd = np.abs(command) > (1.0 if pulled else 3.0) * straight
     if not pulled:
         odd |= driven & (command >= 0.0) & (command < straight / 10.0)

@@ -15,7 +15,9 @@ from cdcr.base.check import format_value
 from cdcr.identification.channels import (
     Channel,
     Where,
+    ask_about_cables,
     ask_about_places,
+    ask_about_shapes,
     measured,
     noise_levels,
 )
@@ -123,8 +125,8 @@ def channels_of(
     return tuple(Channel(name, unit, values, levels.get(name)) for name, unit, values in found)
 
 
-def check_channels(data: Data, robot: Robot, where: Where) -> None:
-    """Refuse columns and places that the robot has not, and positions that it never reaches."""
+def check_channels(data: Data, command: FloatArray, robot: Robot, where: Where) -> None:
+    """Refuse columns and places that the robot has not, and numbers that ask for a unit."""
     for section, fraction in data.places:
         if not (0 <= section < len(robot.sections) and 0.0 <= fraction <= 1.0):
             raise ValueError(
@@ -141,7 +143,11 @@ def check_channels(data: Data, robot: Robot, where: Where) -> None:
                 f"{channel.values.shape}"
             )
         if channel.unit == "m" and size == 3:
-            ask_about_places(channel.values, robot.length, where, channel.name)
+            ask_about_places(channel.values, robot, where, channel.name)
+        elif channel.name == "q":
+            ask_about_shapes(channel.values, where)
+        else:
+            ask_about_cables(channel, command, robot, where)
 
 
 def answers_of(

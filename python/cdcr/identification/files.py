@@ -66,6 +66,8 @@ class Table:
         self.columns: dict[str, FloatArray] = {}
         for label, column in self._chosen(header, columns).items():
             name, unit, factor = self._named(label)
+            if header.count(column) > 1 or name in self.columns:
+                raise ValueError(f"{self.file}, line 1: column {label!r} is there twice")
             k = header.index(column)
             cells = [row[k] for _, row in rows[::every]]
             self._header[name], self._units[name] = column, unit
@@ -145,6 +147,11 @@ class Table:
     def done(self) -> None:
         """Refuse columns that nobody took, except those that the file of a run has beside."""
         for name in self.columns:
+            if re.fullmatch(r"marker \d+ [xyz]", name):
+                raise ValueError(
+                    f"{self.file}, line 1: column {self._header[name]!r} is of a marker whose "
+                    "place 'markers' does not tell"
+                )
             if not _OF_A_RUN.fullmatch(name):
                 known = ["t", "cable 1", "pull 1", "tip x", "marker 1 x", "tension 1", "length 1"]
                 raise ValueError(

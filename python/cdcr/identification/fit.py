@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -109,8 +110,12 @@ def fit(
     seed: int = 0,
     max_evaluations: int = 200,
     first: int = 0,
+    near: FloatArray | None = None,
 ) -> Identified:
-    """Do what `identify` does, where sections and cables count from `first` in paths."""
+    """Do what `identify` does, where sections and cables count from `first` in paths.
+
+    The first search begins at `near`, values of the unknowns, where they are given.
+    """
     require_kind("robot", robot, Robot)
     if not one_of(loss, LOSSES):
         raise ValueError(f"loss must be one of {', '.join(LOSSES)}, got {loss!r}")
@@ -120,7 +125,8 @@ def fit(
     options = {"loss": loss, "max_nfev": most}
     best: Any = None
     costs = []
-    for start in _starts(problem, starts, seed):
+    begin = np.zeros(len(problem.unknowns)) if near is None else problem.counted(near)
+    for start in [begin, *_drawn(problem, starts - 1, seed)]:
         solution = _search(problem, start, options, optimise)
         if solution is None:
             continue
@@ -130,10 +136,15 @@ def fit(
     if best is None:
         raise ValueError(_no_start(problem))
     best = _with_noise(problem, best, options, optimise, loss)
-
-    def refit(other: list[Data]) -> Identified:
-        return fit(other, robot, parameters, loss=loss, max_evaluations=most, first=first)
-
+    refit = partial(
+        fit,
+        robot=robot,
+        parameters=parameters,
+        loss=loss,
+        max_evaluations=most,
+        first=first,
+        near=problem.values(best.x),
+    )
     return Identified._of(problem, best, loss=loss, costs=costs, refit=refit)
 
 
@@ -169,16 +180,16 @@ def prepared(
     return problem
 
 
-def _starts(problem: Problem, number: int, seed: int) -> list[FloatArray]:
-    """Return where searches begin: at the start, then at places drawn."""
+def _drawn(problem: Problem, number: int, seed: int) -> list[FloatArray]:
+    """Return places drawn, where more searches begin."""
     drawn = np.random.default_rng(seed)
     size = len(problem.unknowns)
     low = np.maximum(problem.low, -SPREAD)
     high = np.minimum(problem.high, SPREAD)
     # Of what is positive and begins at its own size, as many are halved as doubled.
     factors = np.array([unknown.low == 0.0 and unknown.start > 0.0 for unknown in problem.unknowns])
-    found = [np.zeros(size)]
-    for _ in range(number - 1):
+    found = []
+    for _ in range(number):
         share = drawn.uniform(size=size)
         flat = low + share * (high - low)
         scaled = (SPREAD ** (2.0 * share - 1.0) - 1.0) * problem.origin / problem.size
@@ -196,10 +207,14 @@ def _search(problem: Problem, start: FloatArray, options: dict[str, Any], optimi
     scaled = options
     if options["loss"] != "linear":
         scaled = options | {"f_scale": LOSS_SCALE * _spread(first, problem)}
-    return optimise(
-        problem.residuals, inside, jac=problem.jacobian, bounds=(problem.low, problem.high),
+    # Counted from one: the first step of SciPy's is as long as the start is large.
+    found = optimise(
+        lambda y: problem.residuals(y - 1.0), inside + 1.0,
+        jac=lambda y: problem.jacobian(y - 1.0), bounds=(problem.low + 1.0, problem.high + 1.0),
         x_scale="jac", method="trf", xtol=1e-9, ftol=1e-10, gtol=1e-10, **scaled,
     )  # fmt: skip
+    found.x = found.x - 1.0
+    return found
 
 
 def _spread(residuals: FloatArray, problem: Problem) -> float:

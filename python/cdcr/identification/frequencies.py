@@ -77,6 +77,10 @@ class Frequencies(AtRest):
             raise ValueError("nothing was measured: give frequency or damping_ratio")
         where = row_of(self.name)
         arrays = {name: measured(name, one, (None,), where) for name, one in given.items()}
+        for name, array in arrays.items():
+            least = "> 0" if name == "frequency" else ">= 0"
+            for row in np.flatnonzero((array < 0.0) | ((array == 0.0) & (name == "frequency")))[:1]:
+                raise ValueError(f"{where(int(row), name)} must be {least}, got {array[row]:g}")
         if len({array.size for array in arrays.values()}) > 1:
             raise ValueError("frequency and damping_ratio must have the same shape")
         size = next(iter(arrays.values())).size

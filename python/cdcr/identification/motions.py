@@ -15,6 +15,7 @@ from cdcr.base.check import format_value, one_of
 from cdcr.identification.channels import (
     Channel,
     Where,
+    ask_about_times,
     check_commands,
     increasing,
     measured,
@@ -130,6 +131,7 @@ class Motion(Data):
         if t.size < 2:
             raise ValueError(f"{self.name}: a motion must have at least two times, got {t.size}")
         increasing(t, where)
+        ask_about_times(t, where)
         given_command = np.asarray(self.command)
         if given_command.ndim == 1:
             given_command = np.tile(given_command, (len(t), 1))
@@ -202,7 +204,7 @@ class Motion(Data):
         """Refuse what does not fit a robot."""
         command = np.asarray(self.command)
         check_commands(command, robot, self._named, self.name, pulled=self.pulled)
-        check_channels(self, robot, self._named)
+        check_channels(self, command, robot, self._named)
         self._start(robot, Model(robot).num_coordinates)
 
     def _named(self, row: int, column: str) -> str:

@@ -151,8 +151,9 @@ class Poses(AtRest):
 
     def _check(self, robot: Robot) -> None:
         """Refuse what does not fit a robot."""
-        check_commands(np.asarray(self.command), robot, self._named, self.name, pulled=self.pulled)
-        check_channels(self, robot, self._named)
+        command = np.asarray(self.command)
+        check_commands(command, robot, self._named, self.name, pulled=self.pulled)
+        check_channels(self, command, robot, self._named)
 
     def _named(self, row: int, column: str) -> str:
         """Name a row and a column, those of the file where they come from one."""

@@ -38,6 +38,11 @@ class Problem:
         found: FloatArray = self.origin + x * self.size
         return found
 
+    def counted(self, values: FloatArray) -> FloatArray:
+        """Return values of the unknowns, counted in their sizes from their starts."""
+        found: FloatArray = (values - self.origin) / self.size
+        return found
+
     def setup(self, x: FloatArray, like: Setup | None = None) -> Setup:
         """Return the laboratory at values of the unknowns."""
         return setup_of(put_all(self._plain, self.unknowns, self.values(x)), like)

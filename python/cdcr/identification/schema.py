@@ -47,8 +47,8 @@ class TaskTable(BaseModel):
     folds: int = _optional("a whole number > 1", "parts of the data for cross-validation", gt=1)
 
 
-class PosesTable(BaseModel):
-    """A table [[poses]]."""
+class MeasuredTable(BaseModel):
+    """What tables [[poses]] and [[motions]] have in common."""
 
     model_config = _STRICT
 
@@ -76,7 +76,16 @@ class PosesTable(BaseModel):
     )
 
 
-class MotionTable(PosesTable):
+class PosesTable(MeasuredTable):
+    """A table [[poses]]."""
+
+    history: bool = _optional(
+        "true or false",
+        "whether the poses follow one another, so that friction remembers the way",
+    )
+
+
+class MotionTable(MeasuredTable):
     """A table [[motions]]."""
 
     start: list[_Finite] = _optional(

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray, finite
-from cdcr.base.check import one_of, require_kind
+from cdcr.base.check import count, one_of, require_kind
 from cdcr.model.inverse_kinematics import InverseKinematics
 from cdcr.model.modes import Modes
 from cdcr.model.statespace import StateSpaceModel
@@ -59,6 +59,15 @@ class Model(StateSpaceModel):
         super().__init__(robot._to_core(), _core.Formulation[formulation.replace("-", "_")])
         self._robot = robot
         self._formulation = formulation
+
+    def __setattr__(self, name: str, value: object) -> None:
+        """Keep what is private; refuse the rest, which would change nothing."""
+        if type(self) is Model and not name.startswith("_"):
+            raise AttributeError(
+                f"a Model stays what it was made of, so its {name} cannot be set: make another of "
+                "another Robot, or of another gravity by with_gravity"
+            )
+        super().__setattr__(name, value)
 
     def with_gravity(self, gravity: ArrayLike) -> Model:
         """Return the same model under another gravity, which shares its tables.
@@ -111,10 +120,8 @@ class Model(StateSpaceModel):
         return (Model, (self._robot, self._formulation))
 
     def __repr__(self) -> str:
-        return (
-            f"<Model of {self.num_sections} section(s), {self.num_cables} cables, "
-            f"formulation {self._formulation!r}>"
-        )
+        sections, cables = count(self.num_sections, "section"), count(self.num_cables, "cable")
+        return f"<Model of {sections}, {cables}, formulation {self._formulation!r}>"
 
     @overload
     def equilibrium(
@@ -336,15 +343,8 @@ class Model(StateSpaceModel):
         -------
         InverseKinematics
         """
-        return InverseKinematics(
-            *self._inverse_kinematics(
-                p,
-                R,
-                q0,
-                max_theta=max_theta,
-                orientation_weight=orientation_weight,
-                tolerance=tolerance,
-                seeds=seeds,
-                iterations=iterations,
-            )
-        )
+        found = self._inverse_kinematics(
+            p, R, q0, max_theta=max_theta, orientation_weight=orientation_weight,
+            tolerance=tolerance, seeds=seeds, iterations=iterations,
+        )  # fmt: skip
+        return InverseKinematics(*found)

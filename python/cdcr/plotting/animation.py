@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cdcr.base.arrays import FloatArray
-from cdcr.base.check import Check
+from cdcr.base.check import Check, require_like
 from cdcr.files.new_file import file_path, new_file
 from cdcr.plotting import panels, space
 from cdcr.plotting.geometry import states_at
@@ -67,6 +67,7 @@ def animate(
     ...     print(cdcr.plotting.animate(run, Path(folder) / "pull.gif", fps=2).name)
     pull.gif
     """
+    require_like("run", run, "Trajectory", "model", "tension", "tip")
     path = film_path(file_path(path))
     check = Check()
     for name, value in {"fps": fps, "speed": speed}.items():

@@ -41,6 +41,10 @@ def plot_identified(fit: Mapping[str, Any]) -> StyledFigure:
     >>> cdcr.plotting.plot_identified(fit).axes[1].get_ylabel()
     'left over [mm]'
     """
+    told: Any = fit
+    if not isinstance(told, Mapping) or not told.keys() >= {"channels", "names", "correlation"}:
+        needed = "fit must be a mapping with channels, names and correlation (see Identified.plot)"
+        raise TypeError(f"{needed}, got {type(fit).__name__}")
     channels = fit["channels"][:MAX_CHANNELS]
     place = next((one for one in channels if one["unit"] == "m" and _is_place(one)), None)
     rows = len(channels) + (place is not None)

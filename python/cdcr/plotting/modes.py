@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from cdcr.base.arrays import FloatArray
+from cdcr.base.check import Check, require_like
 from cdcr.plotting import space
 from cdcr.plotting.geometry import PIECES
 from cdcr.plotting.letters import shrink_letters
@@ -56,10 +57,13 @@ def plot_modes(
     >>> len(cdcr.plotting.plot_modes(modes, count=2).axes)
     2
     """
-    if count != int(count) or count < 1:
-        raise ValueError(f"count must be a whole number >= 1, got {count!r}")
-    if not 0.0 < deflection <= 1.0:
-        raise ValueError(f"deflection must be > 0 and <= 1, got {deflection!r}")
+    require_like("modes", modes, "Modes", "frequency", "model")
+    check = Check()
+    count = check.whole("count", count, "a whole number >= 1", low=1)
+    share = check.number("deflection", deflection, "> 0 and <= 1", above=0.0)
+    if share > 1.0:
+        check.refuse("deflection", "> 0 and <= 1", deflection)
+    check.done()
     if modes.frequency.ndim > 1:
         raise ValueError(
             "modes must be those of one shape to be drawn, got those of an array of shape "
@@ -67,7 +71,7 @@ def plot_modes(
         )
     shown = min(count, len(modes.frequency))
     rest = _backbone(modes.model, modes.q)
-    swings = [_swings(modes, k, deflection * modes.model.robot.length) for k in range(shown)]
+    swings = [_swings(modes, k, share * modes.model.robot.length) for k in range(shown)]
     points = np.concatenate([rest, *(line for pair in swings for line in pair)])
     sides = checked_size(size)
     with style():

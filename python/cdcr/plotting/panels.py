@@ -10,6 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from cdcr.base.arrays import FloatArray
+from cdcr.base.check import require_like
 from cdcr.plotting.style import ALARM, BLACK, COLORS, GREY, StyledFigure, line_colors, style
 
 if TYPE_CHECKING:
@@ -65,6 +66,7 @@ def plot_run(run: Trajectory) -> StyledFigure:
     >>> cdcr.plotting.plot_run(run).axes[0].get_ylabel()[:13]
     'bending angle'
     """
+    require_like("run", run, "Trajectory", "model", "tension", "tip")
     left: list[Panel] = [plot_theta, plot_phi, *strain_panels(run.model), plot_tension]
     right: list[Panel] = [_plot_tip, _plot_energy, *[_plot_energy_error] * _is_free(run)]
     with style():

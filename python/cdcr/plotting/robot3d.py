@@ -11,7 +11,7 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # type: ignore[import-u
 from numpy.typing import ArrayLike
 
 from cdcr.base.arrays import FloatArray, finite
-from cdcr.base.check import Check
+from cdcr.base.check import Check, require_like
 from cdcr.plotting import panels, space
 from cdcr.plotting.geometry import base_plate, robot_shape, states_at
 from cdcr.plotting.legend import ShapeSample, legend_of
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 SLACK_WIDTH, TAUT_WIDTH = 0.8, 2.2  # of the line of a cable [pt]
 FINER = 0.6  # share of these, of the cables of several sections
+MOST = 100  # shapes in a picture, beyond which nobody tells them apart
 FAINTEST = 0.25  # opacity of the earliest of several shapes
 PICTURE = np.array([7.0, 6.5])  # largest picture of a robot, legend apart [in]
 
@@ -148,6 +149,7 @@ def plot_robot(
     >>> cdcr.plotting.plot_robot(model, [0.5, 0.0]).get_zlabel()
     'z [m]'
     """
+    require_like("model", model, "Model", "robot", "num_coordinates")
     state = _checked("q", q, model.num_coordinates)
     with style():
         axes = _axes(ax, size)
@@ -194,14 +196,15 @@ def plot_run_robot(
     >>> cdcr.plotting.plot_run_robot(run, [0.0, 1.0]).get_zlabel()
     'z [m]'
     """
+    require_like("run", run, "Trajectory", "model", "tension", "tip")
     if times is None:
         check = Check()
-        count = check.whole("num", num, "a whole number >= 1", low=1)
+        count = check.whole("num", num, f"a whole number 1 to {MOST}", low=1, high=MOST)
         check.done()
         times = np.linspace(run.t[0], run.t[-1], count)
     chosen = np.atleast_1d(finite(times, "times"))
-    if chosen.ndim != 1 or not chosen.size:
-        raise ValueError(f"times must have shape (M,) with M at least 1, got {chosen.shape}")
+    if chosen.ndim != 1 or not 1 <= chosen.size <= MOST:
+        raise ValueError(f"times must have shape (M,) with M 1 to {MOST}, got {chosen.shape}")
     states = states_at(run, chosen)
     fading = np.linspace(FAINTEST, 1.0, len(chosen)) if len(chosen) > 1 else [1.0]
     with style():

@@ -13,14 +13,22 @@ from cdcr.base.check import entry
 if TYPE_CHECKING:
     from cdcr.base.arrays import FloatArray
     from cdcr.robot.robot import Robot
+    from cdcr.robot.section import Section
 
 FULL_TURN = 2.0 * math.pi * (1.0 + 1e-9)  # [rad]
 SOFTEST = (1e-3, 1e3)  # Young's moduli that nothing has, but in GPa or MPa much [Pa]
+# Lengths in mm, masses in g: a thousand times what they are, so that few are asked in vain.
+LONG, SLENDEREST = 5.0, 2e4  # a section longer than that [m] and than so many diameters
+WIDE, WIDEST = 0.3, 5.0  # whatever is wider than that [m] and than so many lengths of the robot
+HEAVY, DENSEST = 0.1, 1e6  # a backbone heavier than that [kg] and denser than that [kg/m^3]
+THINNEST = 0.1  # density of a long backbone, a tenth of that of air [kg/m^3]
+ROUGHEST = 5.0  # coefficient of friction
 FARTHEST = 10.0  # commanded length over that of the straight robot, or the other way round
+_MILLIMETRES = "looks like millimetres: lengths are in m"
 
 
 def ask_about_robot(robot: Robot) -> None:
-    """Warn of angles that may be degrees and of moduli that may be in GPa."""
+    """Warn of what may be in degrees, GPa, mm, g or per cent."""
     for question in _questions(robot):
         warnings.warn(question, UserWarning, stacklevel=5)  # where the robot is described
 
@@ -36,9 +44,37 @@ def _questions(robot: Robot) -> Iterator[str]:
                 f"{at}: youngs_modulus = {modulus:g} Pa is softer than any backbone: is it in GPa? "
                 f"{modulus:g} GPa are {1e9 * modulus:g} Pa"
             )
+        yield from _about_sizes(at, section, robot.length)
     for j, cable in enumerate(robot.cables):
         if isinstance(cable.angle, float):  # one that winds may wind more than once
             yield from _about_angle(f"{entry('cables', j)}: angle", cable.angle, "angle_deg")
+
+
+def _about_sizes(at: str, section: Section, length: float) -> Iterator[str]:
+    widest = max(section.diameters)
+    volume = math.pi / 4.0 * widest * widest * section.length
+    if section.length > LONG:
+        slender = section.length > SLENDEREST * widest
+        if slender or 0.0 < section.backbone_mass < THINNEST * volume:
+            yield f"{at}: length = {section.length:g} m {_MILLIMETRES}"
+    for name, width in (
+        ("backbone_diameter", widest),
+        ("disk_diameter", section.disk_diameter),
+        ("cable_radius", section.cable_radius),
+    ):
+        if width > max(WIDE, WIDEST * length):
+            yield f"{at}: {name} = {width:g} m, of a robot {length:g} m long, {_MILLIMETRES}"
+    mass = section.backbone_mass
+    if mass > max(HEAVY, DENSEST * volume):
+        yield (
+            f"{at}: backbone_mass = {mass:g} kg makes the backbone denser than any material: is it "
+            "in g? Masses are in kg"
+        )
+    if section.cable_friction > ROUGHEST:
+        yield (
+            f"{at}: cable_friction = {section.cable_friction:g} is more than any materials have: "
+            "is it in per cent?"
+        )
 
 
 def _about_angle(name: str, angle: float, in_degrees: str) -> Iterator[str]:

@@ -119,6 +119,8 @@ class ExtendedKalman(_core.ExtendedKalman):
     True
     """
 
+    __slots__ = ()  # a misspelt attribute is an error
+
     def __init__(
         self,
         model: Model,
@@ -198,6 +200,8 @@ class UnscentedKalman(_core.UnscentedKalman):
     >>> bool(abs(run.told_q[-1] - run.trajectory.q[-1]).max() < 0.01)
     True
     """
+
+    __slots__ = ()  # a misspelt attribute is an error
 
     def __init__(
         self,
@@ -295,6 +299,8 @@ class MomentumObserver(_core.MomentumObserver):
     >>> observer.force[:2].round(3)
     array([0.196, 0.098])
     """
+
+    __slots__ = ()  # a misspelt attribute is an error
 
     def __init__(
         self,

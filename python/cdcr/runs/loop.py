@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray
@@ -18,6 +18,14 @@ from cdcr.robot.units import ask_about_commands
 from cdcr.runs.loop_channels import loop_channels
 from cdcr.runs.parts import Actuator, Sensor, as_dicts
 from cdcr.runs.trajectory import Trajectory
+
+
+class ToldMotion(NamedTuple):
+    """States over time, as `Trajectory.view` shows them beside a run."""
+
+    t: FloatArray  # (N,) [s]
+    q: FloatArray  # (N, d) [rad]
+    qd: FloatArray  # (N, d) [rad/s]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -65,6 +73,11 @@ class LoopRun:
     deviations: dict[str, FloatArray]
     innovation: FloatArray
     measured: FloatArray
+
+    @property
+    def told(self) -> ToldMotion:
+        """What the controller was told: for ``run.trajectory.view(estimate=run.told)``."""
+        return ToldMotion(self.trajectory.t, self.told_q, self.told_qd)
 
     def save(self, path: str | PathLike[str], *, overwrite: bool = False) -> Path:
         """Write it to netCDF, CSV or an MCAP log; see `Trajectory.save`.
@@ -160,6 +173,8 @@ class Loop(_core.Loop):
     >>> bool(abs(run.trajectory.q[-1] - [0.3, 0.1]).max() < 1e-3)
     True
     """
+
+    __slots__ = ()  # a misspelt attribute is an error
 
     def __init__(
         self,

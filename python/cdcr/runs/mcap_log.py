@@ -76,7 +76,20 @@ _LINE = _record(
     scale_invariant=_BOOL,
     points=_array(_POINT),
     color=_COLOR,
+    colors=_array(_COLOR),
+    indices=_array(_INTEGER),
 )
+_PAIR = _record("foxglove.KeyValuePair", key=_TEXT, value=_TEXT)
+# What else an entity may be drawn as: asked for by the schema, empty in our scenes.
+_OTHERS = {
+    "arrows": "ArrowPrimitive",
+    "cubes": "CubePrimitive",
+    "spheres": "SpherePrimitive",
+    "cylinders": "CylinderPrimitive",
+    "triangles": "TriangleListPrimitive",
+    "texts": "TextPrimitive",
+    "models": "ModelPrimitive",
+}
 _ENTITY = _record(
     "foxglove.SceneEntity",
     timestamp=_TIME,
@@ -84,9 +97,12 @@ _ENTITY = _record(
     id=_TEXT,
     lifetime=_DURATION,
     frame_locked=_BOOL,
+    metadata=_array(_PAIR),
     lines=_array(_LINE),
+    **{name: _array(_record(f"foxglove.{title}")) for name, title in _OTHERS.items()},
 )
-_SCENE = _record("foxglove.SceneUpdate", entities=_array(_ENTITY))
+_DELETION = _record("foxglove.SceneEntityDeletion", timestamp=_TIME, type=_INTEGER, id=_TEXT)
+_SCENE = _record("foxglove.SceneUpdate", deletions=_array(_DELETION), entities=_array(_ENTITY))
 _NO_TURN = {"x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0}
 
 
@@ -182,7 +198,10 @@ def _scenes(run: Trajectory, stamps: list[Json]) -> Iterator[Json]:
         "thickness": max(max(section.diameters) for section in robot.sections),
         "scale_invariant": False,
         "color": {"r": 0.13, "g": 0.13, "b": 0.13, "a": 1.0},
+        "colors": [],
+        "indices": [],
     }
+    nothing: Json = {name: [] for name in ("metadata", *_OTHERS)}
     for stamp, points in zip(stamps, np.stack(line, axis=1).tolist(), strict=True):
         entity = {
             "timestamp": stamp,
@@ -192,7 +211,7 @@ def _scenes(run: Trajectory, stamps: list[Json]) -> Iterator[Json]:
             "frame_locked": True,
             "lines": [look | {"points": [_named(point) for point in points]}],
         }
-        yield {"entities": [entity]}
+        yield {"deletions": [], "entities": [entity | nothing]}
 
 
 def _transform(stamp: Json, frame: str, pose: Json) -> Json:

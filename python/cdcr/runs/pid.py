@@ -75,6 +75,8 @@ class Pid(_core.Pid):
     array([0.4, 0.2])
     """
 
+    __slots__ = ()  # a misspelt attribute is an error
+
     def __init__(
         self,
         model: Model,

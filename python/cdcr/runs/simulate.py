@@ -13,6 +13,7 @@ from cdcr import _core
 from cdcr.base.arrays import FloatArray
 from cdcr.base.check import Check, require_kind
 from cdcr.model.model import Model
+from cdcr.model.stability import stable_step
 from cdcr.model.wrench import Wrench, loads
 from cdcr.robot.units import ask_about_commands
 from cdcr.runs.command import Command, command_input
@@ -23,6 +24,9 @@ from cdcr.runs.trajectory import Trajectory
 MethodName = Literal["auto", "bdf", "adams", "dopri5", "dop853", "rk4", "rosenbrock"]
 MAX_STEPS = 2**63 - 1  # that the core can count
 METHODS = dict(_core.Method.__members__)
+THROWN = (  # how a run may end whose steps are too large to be stable
+    *(_core.Status.bending_limit, _core.Status.compression_limit, _core.Status.non_finite_state),
+)
 FIXED_STEP = ("rk4", "rosenbrock")
 DEFAULT_METHOD: MethodName = "auto"
 
@@ -77,6 +81,18 @@ def integrator_options(
         )
     check.done()
     return chosen, _core.Options(**told)
+
+
+def _about_step(
+    model: Model, q0: ArrayLike, method: _core.Method, step: float, status: _core.Status
+) -> str:
+    """Return what a failed run of fixed steps may be due to, beside what its message says."""
+    if method != _core.Method.rk4 or status not in THROWN:
+        return ""
+    limit = stable_step(model, q0)
+    if step <= limit:
+        return ""
+    return f" Or the step of {step:g} s is too large: here rk4 is stable up to {limit:.3g} s."
 
 
 def simulate(
@@ -209,14 +225,14 @@ def simulate(
         raw.sensitivities.reshape(len(raw.t), 2 * model.num_coordinates, -1) if by.names else None
     )
     on_q, on_qd = ({}, {}) if rows is None else by.split(model, rows)
-    run = Trajectory(
+    run = Trajectory._of_core(
         model=model,
         t=raw.t,
         q=raw.q,
         qd=raw.qd,
         tension=raw.tension,
         status=raw.status,
-        message=raw.message,
+        message=raw.message + _about_step(model, q0, chosen, options.step, raw.status),
         stats=raw.stats,
         method=method,
         command=raw.command,

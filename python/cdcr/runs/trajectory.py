@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -61,7 +61,7 @@ class Trajectory(Pictures, ReadOnlyArrays):
     sensitivities, rate_sensitivities : mapping of str to (N, d, k) array
         Derivatives of q [rad] and of qd [rad/s] by what `simulate` was asked for: by the name
         given, with k = d columns for "q0" and "qd0", num_cables for "tension", one for a number of
-        the robot, in SI units.
+        the robot, in SI units. netCDF files keep them, CSV files do not.
     """
 
     model: Model
@@ -98,6 +98,20 @@ class Trajectory(Pictures, ReadOnlyArrays):
             object.__setattr__(self, "deflection", read_only(np.array(self.deflection)))
         if rows == 0:
             raise ValueError(f"a run must have at least one sample, got none. {self.message}")
+
+    @classmethod
+    def _of_core(cls, **given: Any) -> Trajectory:
+        """Return a run of arrays that the core made, which fit together and are nobody else's."""
+        if len(given["t"]) == 0:
+            return cls(**given)  # refuses it
+        run = cls.__new__(cls)
+        made = {
+            "channels": {},
+            "sensitivities": {},
+            "rate_sensitivities": {},
+        }  # as fields make them
+        run.__setstate__(made | given)
+        return run
 
     def __len__(self) -> int:
         """Return the number of samples."""

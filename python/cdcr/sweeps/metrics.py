@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from types import MappingProxyType
 from typing import NamedTuple, TypeAlias
 
@@ -77,6 +78,35 @@ def _mean_tension(run: Trajectory) -> float:
     return time_mean(run.t, run.tension.mean(axis=1))
 
 
+def _least_tension(run: Trajectory) -> float:
+    return float(run.tension.min(initial=math.inf))
+
+
+def _steps(run: Trajectory) -> float:
+    return run.stats.steps
+
+
+def _peak_tip_speed(run: Trajectory) -> float:
+    return float(_tip_speed(run).max())
+
+
+def _final_tip_speed(run: Trajectory) -> float:
+    return float(_tip_speed(run)[-1])
+
+
+def _final_theta(run: Trajectory) -> float:
+    return float(np.abs(run.theta[-1]).max())
+
+
+def _peak(run: Trajectory, of: str) -> float:
+    return float(np.abs(getattr(run, of)).max(initial=0.0))
+
+
+def _final(run: Trajectory, of: str, axis: int | None = None) -> float:
+    last = getattr(run, of)[-1]
+    return float(last if axis is None else last[axis])
+
+
 #: The metrics that a sweep knows by name.
 METRICS: Mapping[str, RunMetric] = MappingProxyType(
     {
@@ -93,40 +123,34 @@ METRICS: Mapping[str, RunMetric] = MappingProxyType(
             "settled",
         ),
         "tip_path_length": RunMetric(_path_length, "m", "length of the way of the tip"),
-        "final_tip_x": RunMetric(lambda run: run.tip[-1, 0], "m", "tip at the end, along X"),
-        "final_tip_y": RunMetric(lambda run: run.tip[-1, 1], "m", "tip at the end, along Y"),
-        "final_tip_z": RunMetric(lambda run: run.tip[-1, 2], "m", "tip at the end, along Z"),
-        "peak_tip_speed": RunMetric(
-            lambda run: _tip_speed(run).max(), "m/s", "largest speed of the tip"
-        ),
-        "final_tip_speed": RunMetric(
-            lambda run: _tip_speed(run)[-1], "m/s", "speed of the tip at the end"
-        ),
+        "final_tip_x": RunMetric(partial(_final, of="tip", axis=0), "m", "tip at the end, along X"),
+        "final_tip_y": RunMetric(partial(_final, of="tip", axis=1), "m", "tip at the end, along Y"),
+        "final_tip_z": RunMetric(partial(_final, of="tip", axis=2), "m", "tip at the end, along Z"),
+        "peak_tip_speed": RunMetric(_peak_tip_speed, "m/s", "largest speed of the tip"),
+        "final_tip_speed": RunMetric(_final_tip_speed, "m/s", "speed of the tip at the end"),
         "peak_theta": RunMetric(
-            lambda run: np.abs(run.theta).max(), "rad", "largest bending angle of any section"
+            partial(_peak, of="theta"), "rad", "largest bending angle of any section"
         ),
         "final_theta": RunMetric(
-            lambda run: np.abs(run.theta[-1]).max(),
+            _final_theta,
             "rad",
             "largest bending angle of any section at the end",
         ),
         "peak_tension": RunMetric(
-            lambda run: run.tension.max(initial=0.0), "N", "largest tension of any cable"
+            partial(_peak, of="tension"), "N", "largest tension of any cable"
         ),
-        "least_tension": RunMetric(
-            lambda run: run.tension.min(initial=math.inf), "N", "smallest tension of any cable"
-        ),
+        "least_tension": RunMetric(_least_tension, "N", "smallest tension of any cable"),
         "mean_tension": RunMetric(_mean_tension, "N", "tension, mean over cables and time"),
         "peak_kinetic_energy": RunMetric(
-            lambda run: run.kinetic_energy.max(), "J", "largest kinetic energy"
+            partial(_peak, of="kinetic_energy"), "J", "largest kinetic energy"
         ),
         "final_kinetic_energy": RunMetric(
-            lambda run: run.kinetic_energy[-1], "J", "kinetic energy at the end"
+            partial(_final, of="kinetic_energy"), "J", "kinetic energy at the end"
         ),
         "final_potential_energy": RunMetric(
-            lambda run: run.potential_energy[-1], "J", "elastic energy plus weight at the end"
+            partial(_final, of="potential_energy"), "J", "elastic energy plus weight at the end"
         ),
-        "steps": RunMetric(lambda run: run.stats.steps, "1", "steps of the integrator"),
+        "steps": RunMetric(_steps, "1", "steps of the integrator"),
     }
 )
 
