@@ -63,7 +63,14 @@ void TrackingController::accept(const ReferencePath& path) {
 }
 
 std::vector<std::string> TrackingController::reference_names() const {
-  if (of_tip_) return {"tip_x", "tip_y", "tip_z"};
+  switch (follows_) {
+    case Follows::position:
+      return {"tip_x", "tip_y", "tip_z"};
+    case Follows::pose:
+      return {"tip_x", "tip_y", "tip_z", "turn_x", "turn_y", "turn_z"};
+    case Follows::coordinates:
+      break;
+  }
   return model().coordinate_names();
 }
 
