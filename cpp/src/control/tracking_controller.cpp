@@ -63,15 +63,9 @@ void TrackingController::accept(const ReferencePath& path) {
 }
 
 std::vector<std::string> TrackingController::reference_names() const {
-  switch (follows_) {
-    case Follows::position:
-      return {"tip_x", "tip_y", "tip_z"};
-    case Follows::pose:
-      return {"tip_x", "tip_y", "tip_z", "turn_x", "turn_y", "turn_z"};
-    case Follows::coordinates:
-      break;
-  }
-  return model().coordinate_names();
+  if (follows_ == Follows::coordinates) return model().coordinate_names();
+  if (follows_ == Follows::position) return {"tip_x", "tip_y", "tip_z"};
+  return {"tip_x", "tip_y", "tip_z", "rotation_x", "rotation_y", "rotation_z"};
 }
 
 void TrackingController::reset() noexcept {
