@@ -105,11 +105,8 @@ class Trajectory(Pictures, ReadOnlyArrays):
         if len(given["t"]) == 0:
             return cls(**given)  # refuses it
         run = cls.__new__(cls)
-        made = {
-            "channels": {},
-            "sensitivities": {},
-            "rate_sensitivities": {},
-        }  # as fields make them
+        mappings = ("channels", "sensitivities", "rate_sensitivities")
+        made: dict[str, Any] = {name: {} for name in mappings}  # as fields make them
         run.__setstate__(made | given)
         return run
 
