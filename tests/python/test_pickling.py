@@ -135,7 +135,7 @@ PUBLIC: dict[str, Callable[[], Any]] = {
         lambda motion: (1.0, {"q": motion.q}),
         step=1e-3,
         steps=2,
-    ),  # fmt: skip
+    ),
     "Rollout": lambda: cdcr.rollout(MODEL, np.zeros(6), np.zeros(6), step=0.001, steps=2),
     "RolloutFailure": lambda: cdcr.RolloutFailure(3, cdcr.Status.bending_limit, "It bent."),
     "Section": lambda: MODEL.robot.sections[0],
