@@ -2,6 +2,7 @@
 // over a loop of runs.
 #include <random>
 
+#include "cdcr/batch.hpp"
 #include "harness.hpp"
 #include "scenario.hpp"
 
@@ -34,6 +35,22 @@ void measure_states(const Harness& harness, const Model& model) {
         forward_dynamics(model, data, num_states, {q.data(), d}, {qd.data(), d},
                          {tension.data(), 0}, qdd.data());
         keep(qdd);
+      });
+  harness.run(
+      {"inverse_dynamics of many, " + of(model.num_sections()), "ns", num_states, 200}, [] {},
+      [&](long i) {
+        if (i != 0) return;
+        inverse_dynamics(model, data, num_states, {q.data(), d}, {qd.data(), d}, {qd.data(), d},
+                         qdd.data());
+        keep(qdd);
+      });
+  RowMatrixXd J(num_states, 6 * d);
+  harness.run(
+      {"tip_jacobian of many, " + of(model.num_sections()), "ns", num_states, 200}, [] {},
+      [&](long i) {
+        if (i != 0) return;
+        tip_jacobian(model, num_states, {q.data(), d}, J.data());
+        keep(J);
       });
 }
 

@@ -28,6 +28,16 @@ def sensitivity_rows(quick: bool) -> Iterator[Row]:
     model.parameter_derivatives(q0, still, np.ones(9), PATHS)  # makes the set
     states = np.random.default_rng(1).uniform(-0.5, 0.5, (1000, 6))
     count = 5 if quick else 30
+    pulls = np.ones((400, 9))
+
+    def adjoint() -> None:
+        cdcr.gradient(
+            model, q0, still, pulls, lambda motion: (0.0, {"q": motion.q}), step=5e-3, steps=400
+        )
+
+    yield Timed(adjoint, count, 1e-3).row(
+        "gradient by 3600 tensions, 400 steps of 3 sections", "ms"
+    )
     yield Timed(
         lambda: model.parameter_derivatives(states, still, np.ones(9), PATHS), count, 1e-3
     ).row("parameter_derivatives, 3 sections, 10 parameters", "us")

@@ -2,7 +2,7 @@
 #include "cdcr/cable_friction.hpp"
 #include "cdcr/kinematics.hpp"
 #include "docs.hpp"
-#include "states.hpp"
+#include "many_states.hpp"
 
 namespace cdcr::python {
 namespace {
@@ -22,8 +22,10 @@ void bind_cables(PyModel& model) {
       .def(
           "cable_lengths",
           [](const Model& self, const py::object& q) {
-            return States{read_bendings(self, q)}.vectors(
-                self.num_cables(), [&](auto& x, auto& out) { cable_lengths(self, x, out); });
+            return arrays(States{read_bendings(self, q)}, {self.num_cables()},
+                          [&](Index count, const StateRows& x, double* out) {
+                            cable_lengths(self, count, x, out);
+                          });
           },
           "q"_a,
           Doc("Lengths of the cables inside the robot, cpp/README.md eq. (6).", {docs::q},

@@ -85,6 +85,7 @@ TaskSpaceOptions read_task(const Model& model, const py::dict& given) {
   options.posture_kd = read_option<double>(given, "posture_kd");
   options.posture = read_vector(given, "posture", model.num_coordinates(), of_coordinates(model));
   options.damping = read_option<double>(given, "damping");
+  options.orientation_weight = read_vector(given, "orientation_weight", any_size, {});
   options.period = read_option<double>(given, "period");
   if (!given["lead"].is_none()) options.lead = read_option<double>(given, "lead");
   options.delay = read_option<double>(given, "delay");
@@ -142,13 +143,14 @@ void bind_tracking_controller(py::module_& m) {
           [](TrackingController& self, const py::object& value) {
             Driving::refuse_during_run(self);
             const Index size = self.path().size();
-            const bool of_tip = size != self.num_coordinates();
+            const bool of_tip = self.follows() != TrackingController::Follows::coordinates;
             self.set_reference(
                 *VectorArgument(value, "reference", size,
                                 of_tip ? Entries{} : of_coordinates(*self.reckons_with())));
           },
-          "What to reach and hold: coordinates (d,) [rad], or the position of the tip (3,) [m]; at "
-          "rest\nuntil set.")
+          "What to reach and hold: coordinates (d,) [rad], the position of the tip (3,) [m], or "
+          "its "
+          "pose\n(6,) [m], [rad]; at rest until set.")
       .def_property(
           "path", [](const TrackingController& self) { return self.path(); },
           [](TrackingController& self, const py::object& path) {

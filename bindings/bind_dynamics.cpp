@@ -1,16 +1,25 @@
 #include <array>
 
 #include "bind.hpp"
+#include "cdcr/base_wrench.hpp"
 #include "cdcr/dynamics.hpp"
 #include "cdcr/linearization.hpp"
 #include "docs.hpp"
-#include "states.hpp"
+#include "many_states.hpp"
 
 namespace cdcr::python {
 namespace {
 
 namespace py = pybind11;
 using namespace py::literals;
+
+/// A matrix that this thread keeps: where large ones came and went with each call, the C library
+/// would hand their pages back to the system each time.
+MatrixXd& room(std::size_t number, Index num_rows, Index num_columns) {
+  thread_local std::array<MatrixXd, 4> matrices;
+  matrices[number].resize(num_rows, num_columns);
+  return matrices[number];
+}
 
 py::tuple linearize_states(const Model& self, const py::object& q, const py::object& qd,
                            const py::object& tension, const py::object& wrenches) {
@@ -22,7 +31,7 @@ py::tuple linearize_states(const Model& self, const py::object& q, const py::obj
   py::array_t<double> all_A = states.output({num_states, num_states});
   py::array_t<double> all_B = states.output({num_states, num_cables});
   double *a = all_A.mutable_data(), *b = all_B.mutable_data();
-  MatrixXd A(num_states, num_states), B(num_states, num_cables);
+  MatrixXd &A = room(0, num_states, num_states), &B = room(1, num_states, num_cables);
   states.each([&](Index i, const auto& x, const auto& xd, const auto& command) {
     linearize(self, scratch(self), x, xd, command, loads, A, B);
     Eigen::Map<RowMatrixXd>(a + i * A.size(), num_states, num_states) = A;
@@ -36,17 +45,29 @@ py::array_t<double> accelerations(const Model& self, const py::object& q, const 
   const Index d = self.num_coordinates();
   const States states{read_bendings(self, q), read_rates(self, qd, "qd"),
                       read_tensions(self, tension)};
-  if (!loads.empty() || !states.is_one_row()) {
+  if (!loads.empty()) {
     return states.vectors(d, [&](auto& x, auto& xd, auto& command, auto& out) {
       forward_dynamics(self, scratch(self), x, xd, command, loads, out);
     });
   }
-  py::array_t<double> all = states.output({d});
-  double* qdd = all.mutable_data();
-  states.blocks([&](Index first, Index count, const auto&... rows) {
-    forward_dynamics(self, scratch(self), count, rows..., qdd + first * d);
+  return arrays(states, {d}, [&](Index count, const auto&... rows) {
+    forward_dynamics(self, scratch(self), count, rows...);
   });
-  return all;
+}
+
+py::array_t<double> generalised_forces(const Model& self, const py::object& q, const py::object& qd,
+                                       const py::object& qdd, const Wrenches& loads) {
+  const Index d = self.num_coordinates();
+  const States states{read_bendings(self, q), read_rates(self, qd, "qd"),
+                      read_rates(self, qdd, "qdd")};
+  if (!loads.empty()) {
+    return states.vectors(d, [&](auto& x, auto& xd, auto& xdd, auto& out) {
+      inverse_dynamics(self, scratch(self), x, xd, xdd, loads, out);
+    });
+  }
+  return arrays(states, {d}, [&](Index count, const auto&... rows) {
+    inverse_dynamics(self, scratch(self), count, rows...);
+  });
 }
 
 py::tuple differentiate_states(const Model& self, const py::object& q, const py::object& qd,
@@ -60,15 +81,15 @@ py::tuple differentiate_states(const Model& self, const py::object& q, const py:
   std::array<py::array_t<double>, 4> outputs{states.output({d, d}), states.output({d, d}),
                                              states.output({d, num_cables}),
                                              states.output({d, num_wrenches, 6})};
-  std::array<MatrixXd, 4> slopes{MatrixXd(d, d), MatrixXd(d, d), MatrixXd(d, num_cables),
-                                 MatrixXd(d, 6 * num_wrenches)};
+  const std::array<MatrixXd*, 4> slopes{&room(0, d, d), &room(1, d, d), &room(2, d, num_cables),
+                                        &room(3, d, 6 * num_wrenches)};
   std::array<double*, 4> data{};
   for (std::size_t k = 0; k < data.size(); ++k) data[k] = outputs[k].mutable_data();
   states.each([&](Index i, const auto& x, const auto& xd, const auto& command) {
-    acceleration_derivatives(self, scratch(self), x, xd, command, loads, slopes[0], slopes[1],
-                             slopes[2], slopes[3]);
+    acceleration_derivatives(self, scratch(self), x, xd, command, loads, *slopes[0], *slopes[1],
+                             *slopes[2], *slopes[3]);
     for (std::size_t k = 0; k < data.size(); ++k) {
-      Eigen::Map<RowMatrixXd>(data[k] + i * slopes[k].size(), d, slopes[k].cols()) = slopes[k];
+      Eigen::Map<RowMatrixXd>(data[k] + i * slopes[k]->size(), d, slopes[k]->cols()) = *slopes[k];
     }
   });
   return py::make_tuple(outputs[0], outputs[1], outputs[2], outputs[3]);
@@ -82,8 +103,10 @@ void bind_dynamics(PyModel& model) {
           "mass_matrix",
           [](const Model& self, const py::object& q) {
             const Index d = self.num_coordinates();
-            return States{read_bendings(self, q)}.matrices(
-                d, d, [&](auto& x, auto& M) { mass_matrix(self, scratch(self), x, M); });
+            return arrays(States{read_bendings(self, q)}, {d, d},
+                          [&](Index count, const auto&... rows) {
+                            mass_matrix(self, scratch(self), count, rows...);
+                          });
           },
           "q"_a,
           Doc("Mass matrix M(q): cpp/README.md eq. (11), cpp/several-sections.md eq. (34).",
@@ -91,9 +114,10 @@ void bind_dynamics(PyModel& model) {
       .def(
           "bias",
           [](const Model& self, const py::object& q, const py::object& qd) {
-            return States{read_bendings(self, q), read_rates(self, qd, "qd")}.vectors(
-                self.num_coordinates(),
-                [&](auto& x, auto& xd, auto& out) { bias(self, scratch(self), x, xd, out); });
+            return arrays(States{read_bendings(self, q), read_rates(self, qd, "qd")},
+                          {self.num_coordinates()}, [&](Index count, const auto&... rows) {
+                            bias(self, scratch(self), count, rows...);
+                          });
           },
           "q"_a, "qd"_a,
           Doc("Coriolis, damping, elastic and gravity terms h(q, qd): cpp/README.md eq. (16),\n"
@@ -116,12 +140,7 @@ void bind_dynamics(PyModel& model) {
           "inverse_dynamics",
           [](const Model& self, const py::object& q, const py::object& qd, const py::object& qdd,
              const py::object& wrenches) {
-            const Wrenches loads = read_wrenches(self, wrenches);
-            return States{read_bendings(self, q), read_rates(self, qd, "qd"),
-                          read_rates(self, qdd, "qdd")}
-                .vectors(self.num_coordinates(), [&](auto& x, auto& xd, auto& xdd, auto& out) {
-                  inverse_dynamics(self, scratch(self), x, xd, xdd, loads, out);
-                });
+            return generalised_forces(self, q, qd, qdd, read_wrenches(self, wrenches));
           },
           "q"_a, "qd"_a, "qdd"_a, "wrenches"_a = py::tuple(),
           Doc("Generalised force of the cables that produces given accelerations beside wrenches:\n"
@@ -131,6 +150,27 @@ void bind_dynamics(PyModel& model) {
                "    Accelerations [rad/s^2].\n",
                docs::wrenches},
               "(..., d) array\n    Generalised force [N m].", docs::bad_states))
+      .def(
+          "base_wrench",
+          [](const Model& self, const py::object& q, const py::object& qd, const py::object& qdd,
+             const py::object& wrenches) {
+            const Wrenches loads = read_wrenches(self, wrenches);
+            return States{read_bendings(self, q), read_rates(self, qd, "qd"),
+                          read_rates(self, qdd, "qdd")}
+                .vectors(6, [&](auto& x, auto& xd, auto& xdd, auto& out) {
+                  base_wrench(self, x, xd, xdd, loads, out);
+                });
+          },
+          "q"_a, "qd"_a, "qdd"_a, "wrenches"_a = py::tuple(),
+          Doc("Force and moment of the robot on its base, where the drives of its cables stand "
+              "too:\ncpp/base-wrench.md eq. (121). At rest the weight, and the wrenches on it.",
+              {docs::q, docs::qd,
+               "qdd : (..., d) array_like\n"
+               "    Accelerations [rad/s^2].\n",
+               docs::wrenches},
+              "(..., 6) array\n    Force [N], and moment about base_position [N m], in the base "
+              "frame.",
+              docs::bad_states))
       .def(
           "linearize", &linearize_states, "q"_a, "qd"_a, "tension"_a, "wrenches"_a = py::tuple(),
           Doc("Derivatives A, B of d(q, qd)/dt by state and command, cpp/README.md eq. (19).\n\n"

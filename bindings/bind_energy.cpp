@@ -1,7 +1,7 @@
 #include "bind.hpp"
 #include "cdcr/dynamics.hpp"
 #include "docs.hpp"
-#include "states.hpp"
+#include "many_states.hpp"
 
 namespace cdcr::python {
 
@@ -13,8 +13,10 @@ void bind_energy(PyModel& model) {
       .def(
           "kinetic_energy",
           [](const Model& self, const py::object& q, const py::object& qd) {
-            return States{read_bendings(self, q), read_rates(self, qd, "qd")}.values(
-                [&](auto& x, auto& xd) { return kinetic_energy(self, scratch(self), x, xd); });
+            return numbers(States{read_bendings(self, q), read_rates(self, qd, "qd")},
+                           [&](Index count, const auto&... rows) {
+                             kinetic_energy(self, scratch(self), count, rows...);
+                           });
           },
           "q"_a, "qd"_a,
           Doc("Kinetic energy T = qd.M(q) qd/2, cpp/README.md eq. (8).", {docs::q, docs::qd},
@@ -22,8 +24,9 @@ void bind_energy(PyModel& model) {
       .def(
           "potential_energy",
           [](const Model& self, const py::object& q) {
-            return States{read_bendings(self, q)}.values(
-                [&](auto& x) { return potential_energy(self, scratch(self), x); });
+            return numbers(States{read_bendings(self, q)}, [&](Index count, const auto&... rows) {
+              potential_energy(self, scratch(self), count, rows...);
+            });
           },
           "q"_a,
           Doc("Elastic energy plus weight, the latter zero at the base: cpp/README.md eq. (15).",
@@ -31,9 +34,10 @@ void bind_energy(PyModel& model) {
       .def(
           "potential_gradient",
           [](const Model& self, const py::object& q) {
-            return States{read_bendings(self, q)}.vectors(
-                self.num_coordinates(),
-                [&](auto& x, auto& out) { potential_gradient(self, scratch(self), x, out); });
+            return arrays(States{read_bendings(self, q)}, {self.num_coordinates()},
+                          [&](Index count, const auto&... rows) {
+                            potential_gradient(self, scratch(self), count, rows...);
+                          });
           },
           "q"_a,
           Doc("Generalised force dU/dq that holds the robot still, cpp/README.md eq. (18).",

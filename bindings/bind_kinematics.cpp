@@ -5,9 +5,10 @@
 
 #include "bind.hpp"
 #include "cdcr/inverse_kinematics.hpp"
+#include "cdcr/kinematic_hessian.hpp"
 #include "docs.hpp"
 #include "gil.hpp"
-#include "states.hpp"
+#include "many_states.hpp"
 
 namespace cdcr::python {
 namespace {
@@ -15,17 +16,29 @@ namespace {
 namespace py = pybind11;
 using namespace py::literals;
 
-/// R and p that `place` gives for each state.
+/// R and p that `place`(count, q, R, p) writes.
 template <class F>
 py::tuple poses(const States<1>& states, F&& place) {
   py::array_t<double> all_R = states.output({3, 3}), all_p = states.output({3});
   double *R = all_R.mutable_data(), *p = all_p.mutable_data();
-  states.each([&](Index i, const auto& x) {
-    const Pose pose = place(x);
-    Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(R + 9 * i) = pose.R;
-    Eigen::Map<Vector3d>(p + 3 * i) = pose.p;
+  in_blocks(states, [&](Index first, Index count, const StateRows& q) {
+    place(count, q, R + 9 * first, p + 3 * first);
   });
   return py::make_tuple(std::move(all_R), std::move(all_p));
+}
+
+/// dJ/dq (.., 6, d, d) that `write` gives for each state.
+template <class F>
+py::array_t<double> hessians(const Model& model, const States<1>& states, F&& write) {
+  const Index d = model.num_coordinates();
+  py::array_t<double> all = states.output({6, d, d});
+  double* out = all.mutable_data();
+  MatrixXd H(6, d * d);
+  states.each([&](Index i, const auto& x) {
+    write(x, H);
+    Eigen::Map<RowMatrixXd>(out + i * H.size(), 6, d * d) = H;
+  });
+  return all;
 }
 
 void check_place(const Model& model, Index section, double fraction) {
@@ -88,7 +101,9 @@ void bind_kinematics(PyModel& model) {
           [](const Model& self, const py::object& q, Index section, double fraction) {
             const States states{read_bendings(self, q)};
             check_place(self, section, fraction);
-            return poses(states, [&](auto& x) { return pose(self, x, section, fraction); });
+            return poses(states, [&](Index count, const StateRows& x, double* R, double* p) {
+              pose(self, count, x, section, fraction, R, p);
+            });
           },
           "q"_a, "section"_a, "fraction"_a,
           Doc("Frame of the backbone at a fraction of a section, in the base frame:\n"
@@ -97,7 +112,8 @@ void bind_kinematics(PyModel& model) {
       .def(
           "tip",
           [](const Model& self, const py::object& q) {
-            return poses(States{read_bendings(self, q)}, [&](auto& x) { return tip(self, x); });
+            return poses(States{read_bendings(self, q)},
+                         [&](auto... arguments) { tip(self, arguments...); });
           },
           "q"_a,
           Doc("Frame of the robot's tool in the base frame, of the end of the last section where\n"
@@ -106,8 +122,10 @@ void bind_kinematics(PyModel& model) {
       .def(
           "tips",
           [](const Model& self, const py::object& q) {
-            return States{read_bendings(self, q)}.vectors(
-                3, [&](auto& x, auto& p) { p = tip(self, x).p; });
+            return arrays(States{read_bendings(self, q)}, {3},
+                          [&](Index count, const StateRows& x, double* p) {
+                            tip(self, count, x, nullptr, p);
+                          });
           },
           "q"_a,
           Doc("Tip positions alone, the p of `tip`.", {docs::q},
@@ -117,9 +135,10 @@ void bind_kinematics(PyModel& model) {
           [](const Model& self, const py::object& q, Index section, double fraction) {
             const States states{read_bendings(self, q)};
             check_place(self, section, fraction);
-            return states.matrices(6, self.num_coordinates(), [&](auto& x, auto& J) {
-              jacobian(self, x, section, fraction, J);
-            });
+            return arrays(states, {6, self.num_coordinates()},
+                          [&](Index count, const StateRows& x, double* J) {
+                            jacobian(self, count, x, section, fraction, J);
+                          });
           },
           "q"_a, "section"_a, "fraction"_a,
           Doc("Geometric Jacobian of a frame of the backbone, in the base frame: cpp/README.md\n"
@@ -131,8 +150,10 @@ void bind_kinematics(PyModel& model) {
       .def(
           "tip_jacobian",
           [](const Model& self, const py::object& q) {
-            return States{read_bendings(self, q)}.matrices(
-                6, self.num_coordinates(), [&](auto& x, auto& J) { tip_jacobian(self, x, J); });
+            return arrays(States{read_bendings(self, q)}, {6, self.num_coordinates()},
+                          [&](Index count, const StateRows& x, double* J) {
+                            tip_jacobian(self, count, x, J);
+                          });
           },
           "q"_a,
           Doc("Geometric Jacobian of the frame that `tip` gives, in the base frame:\n"
@@ -141,6 +162,34 @@ void bind_kinematics(PyModel& model) {
               "(..., 6, d) array\n"
               "    Rows of the linear velocity [m/rad], then of the angular velocity [rad/rad].",
               docs::bad_states));
+  constexpr const char* hessian =
+      "(..., 6, d, d) array\n"
+      "    Row, column and coordinate: of the linear velocity [m/rad^2], symmetric in the last "
+      "two,\n"
+      "    then of the angular velocity [rad/rad^2].";
+  model
+      .def(
+          "kinematic_hessian",
+          [](const Model& self, const py::object& q, Index section, double fraction) {
+            const States states{read_bendings(self, q)};
+            check_place(self, section, fraction);
+            return hessians(self, states, [&](auto& x, auto& H) {
+              kinematic_hessian(self, x, section, fraction, H);
+            });
+          },
+          "q"_a, "section"_a, "fraction"_a,
+          Doc("Derivatives of `jacobian` by the coordinates, exact: cpp/derivatives.md eq. (84).",
+              {docs::q, docs::section, docs::fraction}, hessian, docs::bad_states))
+      .def(
+          "tip_hessian",
+          [](const Model& self, const py::object& q) {
+            return hessians(self, States{read_bendings(self, q)},
+                            [&](auto& x, auto& H) { tip_hessian(self, x, H); });
+          },
+          "q"_a,
+          Doc("Derivatives of `tip_jacobian` by the coordinates, exact: cpp/derivatives.md eq. "
+              "(84).",
+              {docs::q}, hessian, docs::bad_states));
   model.def("_inverse_kinematics", &find_bending, "p"_a, "R"_a, "q0"_a, py::kw_only(),
             "max_theta"_a, "orientation_weight"_a, "tolerance"_a, "seeds"_a, "iterations"_a,
             Doc("See cdcr.Model.inverse_kinematics."));

@@ -1,11 +1,14 @@
 #include <pybind11/stl.h>
 
+#include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "cdcr/loop.hpp"
+#include "cdcr/loop_log.hpp"
 #include "controllers.hpp"
 #include "docs.hpp"
 #include "driving.hpp"
@@ -66,7 +69,26 @@ class PythonLoop final : public Loop {
     return answer;
   }
 
+  void open_log(const std::string& path, Index capacity) {
+    if (writer_) throw std::invalid_argument("the loop writes a log already: close that first");
+    log_ = std::make_unique<LoopLog>(*this, capacity);
+    writer_ = std::make_unique<LogWriter>(*log_, path);
+    set_log(log_.get());
+  }
+  /// Rows that found no room.
+  [[nodiscard]] long dropped() const { return log_ ? log_->dropped() : 0; }
+  void close_log() {
+    set_log(nullptr);
+    const std::unique_ptr<LogWriter> writer = std::move(writer_);
+    const Unlocked here;
+    if (writer) writer->close();
+  }
+
   py::object model, controlled_by, estimated_by;
+
+ private:
+  std::unique_ptr<LoopLog> log_;
+  std::unique_ptr<LogWriter> writer_;
 };
 
 namespace {
@@ -83,7 +105,8 @@ py::dict sampled(PythonLoop& self, double duration, Index record_every,
   return py::dict(
       "t"_a = to_array(found.t), "q"_a = to_rows(found.q), "qd"_a = to_rows(found.qd),
       "tension"_a = to_rows(found.tension), "command"_a = to_rows(found.command),
-      "asked"_a = to_rows(found.asked), "told_q"_a = to_rows(found.told_q),
+      "asked"_a = to_rows(found.asked), "reference"_a = to_rows(found.reference),
+      "reference_names"_a = self.controller().reference_names(), "told_q"_a = to_rows(found.told_q),
       "told_qd"_a = to_rows(found.told_qd), "told"_a = told,
       "durations"_a = to_array(found.durations), "estimated"_a = to_rows(found.estimated),
       "deviations"_a = to_rows(found.deviations), "innovation"_a = to_array(found.innovation),
@@ -141,6 +164,12 @@ void bind_loop(py::module_& m) {
                {"duration : float\n    A whole number of steps [s].\n",
                 "record_every : int\n    Steps between samples [1].\n", docs::wrenches},
                "dict\n    Arrays of samples by name.", docs::bad_argument))
+      .def("_open_log", &PythonLoop::open_log, "path"_a, "capacity"_a,
+           Doc("Begin a log of further steps; see cdcr.LoopLog.",
+               {"path : str\n    Its file.\n", "capacity : int\n    Rows on their way [1].\n"}, "",
+               docs::bad_argument))
+      .def("_close_log", &PythonLoop::close_log, "End the log, if there is one.")
+      .def("_dropped", &PythonLoop::dropped, "Rows that the last log had no room for [1].")
       .def_readonly("model", &PythonLoop::model, "The robot.")
       .def_readonly("controller", &PythonLoop::controlled_by, "What controls it.")
       .def_readonly("estimator", &PythonLoop::estimated_by, "What estimates its state, or None.")

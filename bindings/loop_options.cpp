@@ -32,10 +32,15 @@ Actuator read_actuator(const py::dict& given) {
 
 Sensor read_sensor(const py::dict& given) {
   using Kind = Sensor::Kind;
-  static const std::map<std::string, Kind> kinds{
-      {"coordinates", Kind::coordinates}, {"rates", Kind::rates}, {"lengths", Kind::lengths},
-      {"tensions", Kind::tensions},       {"tip", Kind::tip},     {"curvature", Kind::curvature},
-      {"orientation", Kind::orientation}};
+  static const std::map<std::string, Kind> kinds{{"coordinates", Kind::coordinates},
+                                                 {"rates", Kind::rates},
+                                                 {"lengths", Kind::lengths},
+                                                 {"tensions", Kind::tensions},
+                                                 {"tip", Kind::tip},
+                                                 {"curvature", Kind::curvature},
+                                                 {"orientation", Kind::orientation},
+                                                 {"base_force", Kind::base_force},
+                                                 {"base_moment", Kind::base_moment}};
   Sensor sensor;
   sensor.kind = kinds.at(field<std::string>(given, "kind"));
   sensor.period = field<double>(given, "period");

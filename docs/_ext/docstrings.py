@@ -22,6 +22,7 @@ PAPERS = {
     "cpp/estimation.md": ":doc:`estimation </explanation/estimation>`",
     "cpp/friction.md": ":doc:`friction </explanation/friction>`",
     "cpp/sensitivities.md": ":doc:`sensitivities </explanation/sensitivities>`",
+    "cpp/base-wrench.md": ":doc:`what the base feels </explanation/base-wrench>`",
 }
 FILE = Path(__file__).parents[1] / "reference" / "examples.txt"
 

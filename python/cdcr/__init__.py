@@ -51,6 +51,7 @@ if TYPE_CHECKING:
     from cdcr import gym as gym
     from cdcr import jax as jax
     from cdcr import plotting as plotting
+    from cdcr.base.rotations import rotation_vector
     from cdcr.identification import identify
     from cdcr.model.subdivision import subdivide_wrench
     from cdcr.motion.feasibility import PathReport, check_path
@@ -58,7 +59,9 @@ if TYPE_CHECKING:
     from cdcr.motion.reference import Reference
     from cdcr.runs.controllers import ComputedTorque, StateFeedback, TaskSpace
     from cdcr.runs.estimators import ExtendedKalman, MomentumObserver, UnscentedKalman
+    from cdcr.runs.gradient import Gradient, gradient
     from cdcr.runs.loop import Loop, LoopRun
+    from cdcr.runs.loop_log import LoopLog
     from cdcr.runs.parts import Actuator, Sensor, Winch
     from cdcr.runs.pid import Pid
     from cdcr.runs.rollout import rollout
@@ -78,10 +81,12 @@ __all__ = [
     "Derivatives",
     "Equilibrium",
     "ExtendedKalman",
+    "Gradient",
     "InfeasibleError",
     "InverseKinematics",
     "InverseRun",
     "Loop",
+    "LoopLog",
     "LoopRun",
     "Model",
     "Modes",
@@ -112,6 +117,7 @@ __all__ = [
     "check_path",
     "control",
     "export",
+    "gradient",
     "identification",
     "identify",
     "inverse_run",
@@ -123,6 +129,7 @@ __all__ = [
     "robots",
     "rollout",
     "rollout_to_zarr",
+    "rotation_vector",
     "scenarios",
     "simulate",
     "stable_step",
@@ -142,8 +149,10 @@ _LATER = {
     "Actuator": "runs.parts",
     "ComputedTorque": "runs.controllers",
     "ExtendedKalman": "runs.estimators",
+    "Gradient": "runs.gradient",
     "InverseRun": "motion.inverse",
     "Loop": "runs.loop",
+    "LoopLog": "runs.loop_log",
     "LoopRun": "runs.loop",
     "MomentumObserver": "runs.estimators",
     "PathReport": "motion.feasibility",
@@ -157,10 +166,12 @@ _LATER = {
     "UnscentedKalman": "runs.estimators",
     "Winch": "runs.parts",
     "check_path": "motion.feasibility",
+    "gradient": "runs.gradient",
     "identify": "identification",
     "inverse_run": "motion.inverse",
     "rollout": "runs.rollout",
     "rollout_to_zarr": "runs.rollout_store",
+    "rotation_vector": "base.rotations",
     "subdivide_wrench": "model.subdivision",
     "sweep": "sweeps",
 }

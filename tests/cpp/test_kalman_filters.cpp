@@ -65,23 +65,24 @@ TEST_CASE("slopes of accelerations with force and shares, and of every sensor, b
     CHECK(residual(slopes, differences(x, d, acceleration)) <= by_differences);
 
     using Kind = Sensor::Kind;
-    for (const Kind kind : {Kind::coordinates, Kind::rates, Kind::lengths, Kind::tensions,
-                            Kind::tip, Kind::orientation, Kind::curvature}) {
+    for (const Kind kind :
+         {Kind::coordinates, Kind::rates, Kind::lengths, Kind::tensions, Kind::tip,
+          Kind::orientation, Kind::curvature, Kind::base_force, Kind::base_moment}) {
       CAPTURE(static_cast<int>(kind));
       Sensor sensor;
       sensor.kind = kind;
       if (kind == Kind::curvature) sensor.places = {{0, 0.3}, {0, 1.0}};
-      detail::MeasurementSlopes one(model, sensor);
-      one.update(x.head(d), x.segment(d, d), command);
+      detail::MeasurementSlopes one(motion, sensor);
+      one.update(x, command);
       const VectorXd expected = one.value();
       const MatrixXd found = one.slopes();
       const auto told = [&](const VectorXd& at) {
-        one.update_value(at.head(d), at.tail(d), command);
+        one.update_value(at, command);
         VectorXd error = VectorXd::Zero(expected.size());
         detail::find_error(kind, one.value(), expected, error);
         return error;
       };
-      const MatrixXd wanted = differences(x.head(2 * d), expected.size(), told);
+      const MatrixXd wanted = differences(x, expected.size(), told);
       CHECK(residual(found, wanted, 1.0 + wanted.cwiseAbs().maxCoeff()) <= by_differences);
     }
   }

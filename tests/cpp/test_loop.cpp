@@ -1,14 +1,12 @@
-// Closed loops: the same as by hand, what is told, failures, no allocation.
+// Closed loops: the same as by hand, what is told, failures.
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <limits>
 
 #include "cdcr/cdcr.hpp"
-#include "support/allocations.hpp"
 #include "support/controlled_robots.hpp"
 #include "support/residual.hpp"
-#include "support/settings.hpp"
 #include "support/throws.hpp"
 
 namespace cdcr::test {
@@ -200,48 +198,6 @@ TEST_CASE("an estimator's word is what the controller is told") {
   CHECK(loop.told_q() == Eigen::Vector2d(0.1, 0.05));
   CHECK(loop.told_qd() == Eigen::Vector2d(0.0, 0.0));
   CHECK_THROWS_SENTENCE(Loop(model, steady, LoopOptions(), &half), "an estimator needs sensors");
-}
-
-TEST_CASE("steps and updates allocate nothing, for hours if need be") {
-  // CDCR_TEST_COUNT=1000 makes all periods of the promise; short in everyday runs.
-  const long many = test_count() >= 1000 ? 100000 : 300;
-  for (const NamedRobot& sample : controlled_robots()) {
-    CAPTURE(sample.name);
-    const Model model(sample.robot);
-    // Rods are stiff: their steps are short, and fewer periods are made.
-    const long periods = model.has_rods() ? many / 50 : many;
-    for (const double strongest : {20.0, 0.2}) {  // enough, and saturated at all times
-      ComputedTorqueOptions torque;
-      torque.limits.tension.max_tension = strongest;
-      torque.limits.max_rate = 500.0;
-      ComputedTorque first(model, torque);
-      PidOptions gains;
-      gains.kp = 0.5;
-      gains.ki = 0.5;
-      gains.kd = 0.02;
-      gains.limits.max_tension = strongest;
-      Pid second(model, gains);
-      TaskSpaceOptions task;
-      task.limits = torque.limits;
-      TaskSpace third(model, task);
-      for (TrackingController* controller :
-           std::initializer_list<TrackingController*>{&first, &second, &third}) {
-        if (controller != &third) controller->set_path(swing(model));
-        LoopOptions how;
-        how.substeps = model.has_rods() ? 40 : 1;
-        how.actuators.assign(1, {0.0, 2e-3, 0.005, 1e3, 0.0, 100.0, {}});
-        how.sensors.resize(1);
-        how.sensors[0].noise = 1e-4;
-        Loop loop(model, *controller, how);
-        loop.reset(model.rest(), VectorXd::Zero(model.num_coordinates()));
-        Status status = Status::ok;
-        CHECK(allocations_of([&] {
-                for (long k = 0; k < periods; ++k) status = loop.step();
-              }) == 0);
-        CHECK(status == Status::ok);
-      }
-    }
-  }
 }
 
 TEST_CASE("what does not fit is refused in a sentence") {

@@ -17,6 +17,7 @@ CONTROL = (CPP / "control.md").read_text()
 ESTIMATION = (CPP / "estimation.md").read_text()
 FRICTION = (CPP / "friction.md").read_text()
 SENSITIVITIES = (CPP / "sensitivities.md").read_text()
+BASE_WRENCH = (CPP / "base-wrench.md").read_text()
 ORIGIN = (ROOT / "docs" / "origin-paper.md").read_text()
 
 
@@ -27,7 +28,7 @@ def blocks(document: str, language: str) -> list[str]:
 
 PAGES = (
     *(README, SECTIONS, RODS, DERIVATIVES, CONTROL),
-    *(ESTIMATION, FRICTION, SENSITIVITIES),
+    *(ESTIMATION, FRICTION, SENSITIVITIES, BASE_WRENCH),
 )
 FORMULAS = "".join(block for page in PAGES for block in blocks(page, "text"))
 EQUATIONS = [int(number) for number in re.findall(r" \((\d+)\)$", FORMULAS, re.MULTILINE)]
@@ -56,7 +57,7 @@ def quoted(text: str) -> list[int]:
 
 
 def test_equations_are_numbered_in_order() -> None:
-    assert list(range(1, 121)) == EQUATIONS
+    assert list(range(1, 123)) == EQUATIONS
 
 
 def test_equations_quoted_by_the_sources_exist() -> None:

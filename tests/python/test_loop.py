@@ -203,7 +203,7 @@ REFUSALS: dict[str, tuple[Any, str]] = {
     "kind": (
         lambda: cdcr.Sensor(kind=cast("Any", "gps")),
         "kind must be one of 'coordinates', 'rates', 'lengths', 'tensions', 'tip', 'orientation', "
-        "'curvature', got 'gps'",
+        "'curvature', 'base_force', 'base_moment', got 'gps'",
     ),
     "noise": (lambda: cdcr.Sensor(kind="tip", noise=NONE), "noise must be a number, got None"),
     "places": (

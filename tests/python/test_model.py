@@ -262,4 +262,4 @@ def test_pickle_and_repr(formulation: str) -> None:
     np.testing.assert_array_equal(
         again.forward_dynamics(Q, QD, TENSION), model.forward_dynamics(Q, QD, TENSION)
     )
-    assert repr(model) == f"<Model of 1 section(s), 3 cables, formulation {formulation!r}>"
+    assert repr(model) == f"<Model of 1 section, 3 cables, formulation {formulation!r}>"

@@ -23,6 +23,7 @@ OF_QD: dict[str, Callable[[cdcr.Model, Any], Any]] = {
     "kinetic_energy": lambda m, qd: m.kinetic_energy(Q, qd),
     "forward_dynamics": lambda m, qd: m.forward_dynamics(Q, qd, TENSION),
     "inverse_dynamics": lambda m, qd: m.inverse_dynamics(Q, qd, QDD),
+    "base_wrench": lambda m, qd: m.base_wrench(Q, qd, QDD),
     "linearize": lambda m, qd: m.linearize(Q, qd, TENSION),
 }
 OF_TENSION: dict[str, Callable[[cdcr.Model, Any], Any]] = {

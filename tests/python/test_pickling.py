@@ -150,6 +150,15 @@ PUBLIC: dict[str, Callable[[], Any]] = {
     "Reference of samples": lambda: cdcr.Reference.from_samples(T, REFERENCE.q),
     "Reference of derivatives": lambda: cdcr.Reference(T, REFERENCE.q, REFERENCE.qd, REFERENCE.qdd),
     "Robot": lambda: MODEL.robot,
+    "Gradient": lambda: cdcr.gradient(
+        MODEL,
+        np.zeros(6),
+        np.zeros(6),
+        np.ones(9),
+        lambda motion: (1.0, {"q": motion.q}),
+        step=1e-3,
+        steps=2,
+    ),
     "Rollout": lambda: cdcr.rollout(MODEL, np.zeros(6), np.zeros(6), step=0.001, steps=2),
     "RolloutFailure": lambda: cdcr.RolloutFailure(3, cdcr.Status.bending_limit, "It bent."),
     "Section": lambda: MODEL.robot.sections[0],
@@ -208,7 +217,7 @@ def test_every_public_class_is_here() -> None:
     parts = (cdcr, cdcr.control, cdcr.identification, cdcr.paper, cdcr.scenarios, cdcr.sweeps)
     public = {name: getattr(part, name) for part in parts for name in part.__all__}
     classes = {name for name, thing in public.items() if isinstance(thing, type)}
-    assert classes - {"Loop"} <= {name.split()[0] for name in PUBLIC}
+    assert classes - {"Loop", "LoopLog"} <= {name.split()[0] for name in PUBLIC}
 
 
 @pytest.mark.parametrize("name", cdcr.sweeps.METRICS)

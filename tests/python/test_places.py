@@ -185,7 +185,7 @@ def test_a_log_has_the_tool_as_its_tip() -> None:
     run = cdcr.simulate(model, Q, np.zeros(6), t=[0.0, 0.01])
     channels = {channel.topic: channel for channel in _channels(run, [{}, {}])}
     (first, _) = channels["/tip_pose"].messages
-    assert list(first["pose"]["position"].values()) == model.tip(Q)[1].tolist()
+    assert list(first["pose"]["position"].values()) == pytest.approx(model.tip(Q)[1], abs=1e-14)
     (first, _) = channels["/backbone"].messages
     start = first["entities"][0]["lines"][0]["points"][0]
     assert list(start.values()) == list(BASE)

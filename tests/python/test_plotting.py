@@ -1,7 +1,6 @@
 """Pictures of runs and robots: what they show is the data, with names and units."""
 
 import dataclasses
-import re
 import subprocess
 import sys
 from pathlib import Path
@@ -289,50 +288,6 @@ def test_missing_extra_is_named(run: cdcr.Trajectory, monkeypatch: pytest.Monkey
     for draw in (run.plot, run.plot_robot, lambda: run.animate("run.gif")):
         with pytest.raises(ImportError, match=r'matplotlib .*pip install "cdcr\[plot\]"'):
             draw()
-
-
-@pytest.mark.parametrize(
-    ("arguments", "sentence"),
-    [
-        ({"num": 0}, "num must be a whole number 1 to 100, got 0 (int)"),
-        ({"num": 10**9}, "num must be a whole number 1 to 100, got 1000000000 (int)"),
-        ({"num": 2.5}, "num must be a whole number 1 to 100, got 2.5 (float)"),
-        ({"times": []}, "times must have shape (M,) with M 1 to 100, got (0,)"),
-        ({"times": [[0.0]]}, "times must have shape (M,) with M 1 to 100, got (1, 1)"),
-        (
-            {"ax": Figure().add_subplot()},
-            "ax must be an Axes3D, as projection='3d' makes one, got Axes",
-        ),
-    ],
-)
-def test_wrong_arguments_of_pictures(arguments: dict[str, Any], sentence: str) -> None:
-    model = cdcr.Model(cdcr.robots.amouri2020())
-    run = cdcr.simulate(model, [0.1, 0.0], [0.0, 0.0], t=[0.0, 0.1])
-    with pytest.raises(ValueError, match=f"^{re.escape(sentence)}$"):
-        run.plot_robot(**arguments)
-
-
-@pytest.mark.parametrize(
-    ("call", "sentence"),
-    [
-        (lambda run: cdcr.plotting.plot_run(run.model), "run must be a cdcr.Trajectory, got Model"),
-        (
-            lambda run: cdcr.plotting.plot_run_robot(run.t),
-            "run must be a cdcr.Trajectory, got ndarray",
-        ),
-        (lambda run: cdcr.plotting.plot_robot(run, [0.0, 0.0]), "model must be a cdcr.Model, got "),
-        (
-            lambda run: cdcr.plotting.animate(run.model, "a.gif"),
-            "run must be a cdcr.Trajectory, got ",
-        ),
-        (lambda run: cdcr.plotting.plot_modes(run.model), "modes must be a cdcr.Modes, got Model"),
-        (lambda run: cdcr.plotting.plot_identified(run), "fit must be a mapping with channels, "),
-        (lambda run: cdcr.plotting.plot_identified({}), "fit must be a mapping with channels, "),
-    ],
-)
-def test_pictures_of_something_else(call: Any, sentence: str, run: cdcr.Trajectory) -> None:
-    with pytest.raises(TypeError, match=f"^{re.escape(sentence)}"):
-        call(run)
 
 
 def test_a_robot_of_micrometres_is_drawn_as_one_of_metres() -> None:

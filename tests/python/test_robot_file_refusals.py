@@ -44,6 +44,16 @@ def test_an_unknown_key_is_named_with_the_nearest_and_all_known_ones(tmp_path: P
     ]
 
 
+def test_a_key_of_another_table_is_told_where_it_belongs(tmp_path: Path) -> None:
+    (told,) = refusal(tmp_path, "cable_friction = 0.3\n" + FILE)
+    assert told.startswith(
+        "cable_friction is not a known key. It belongs into a table [[sections]]. "
+    )
+    (told,) = refusal(tmp_path, FILE + "gravity = [0, 0, -9.81]\n")
+    home = "It belongs above the first [[sections]]. "
+    assert told.startswith(f"section 1: gravity is not a known key. {home}")
+
+
 def test_a_misspelt_required_key_is_unknown_and_missing(tmp_path: Path) -> None:
     missing, unknown = refusal(tmp_path, replaced("length", "lenght"))
     assert missing == "section 1: length is missing; it must be a number > 0 m and finite"

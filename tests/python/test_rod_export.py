@@ -22,6 +22,7 @@ HELIX = cdcr.Cable(radius=0.02, angle=[(0.0, 1.0)], end_section=0)
     ("change", "sentence"),
     [
         ({"sections": [replace(SECTION, stretch_order=0)]}, "section 1 is more than that"),
+        ({"sections": [replace(SECTION, rest_twist=0.1)]}, "section 1 is more than that"),
         ({"cables": [HELIX]}, "cable 1 of cables does not run so"),
     ],
 )
@@ -52,6 +53,60 @@ def test_a_rod_that_bends_alone_is_a_chain_of_links(tmp_path: Path) -> None:
     arc = cdcr.Model(replace(robot, sections=(SECTION,)))
     bent = arc.tip(arc.equilibrium([4.0, 0.0, 1.0]))[1]
     assert np.linalg.norm(bent - p) > 4e-3 * robot.length  # which an arc is not
+
+
+def test_a_rod_that_twists_vibrates_as_its_links_do(tmp_path: Path) -> None:
+    """Bent by its cables, with a payload beside its tip, which twists it."""
+    mujoco: Any = pytest.importorskip("mujoco", reason="needs MuJoCo, group test")
+    tube = replace(SECTION, backbone_inner_diameter=0.003, shear_modulus=2e8, nodes=24)
+    twisting = replace(tube, bending_order=3, twist_order=2, twist_damping=1e-5)
+    robot = replace(
+        ROBOT,
+        sections=(twisting,),
+        gravity=(0.0, 0.0, 9.81),
+        payload=0.02,
+        payload_position=(0.04, 0.0, 0.0),
+        payload_inertia=np.diag([1e-6, 1e-5, 1e-5]),
+    )
+    cdcr.export.write_mjcf(robot, tmp_path / "rod.xml", links=20)
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / "rod.xml"))
+    data = mujoco.MjData(model)
+    assert model.njnt == 60
+    wound = model.joint("twist1_7")
+    assert wound.stiffness[0] == pytest.approx(
+        20 * 2e8 * 2.0 * tube.second_moment_of_area / tube.length
+    )
+    assert wound.damping[0] == pytest.approx(20 * 1e-5)
+    tension = np.array([1.0, 0.0, 4.0])
+    data.ctrl[:] = tension
+
+    def force(angles: np.ndarray) -> np.ndarray:
+        data.qpos[:] = angles
+        mujoco.mj_forward(model, data)
+        return np.array(data.qfrc_passive + data.qfrc_actuator - data.qfrc_bias)
+
+    def stiffness(angles: np.ndarray) -> np.ndarray:
+        steps = 1e-6 * np.eye(model.nv)
+        return np.transpose([(force(angles - e) - force(angles + e)) / 2e-6 for e in steps])
+
+    angles = np.zeros(model.nv)
+    for _ in range(20):
+        angles = angles + np.linalg.solve(stiffness(angles), force(angles))
+    assert np.abs(force(angles)).max() < 1e-8
+    mass = np.zeros((model.nv, model.nv))
+    for row, unit in zip(mass, np.eye(model.nv), strict=True):
+        mujoco.mj_mulM(model, data, row, unit)
+    found = np.sort(np.sqrt(np.linalg.eigvals(np.linalg.solve(mass, stiffness(angles))).real))
+
+    def first(section: cdcr.Section) -> np.ndarray:
+        wanted = cdcr.Model(replace(robot, sections=(section,)))
+        return wanted.modes(wanted.equilibrium(tension), tension).frequency[:3]
+
+    off = found[:3] / first(twisting) - 1.0
+    print(f"first frequencies {found[:3]} rad/s, off by {off}")
+    assert np.abs(off).max() < 5e-3
+    locked = first(replace(twisting, twist_order=None))
+    assert np.abs(locked / first(twisting) - 1.0).max() > 0.03  # which twist does
 
 
 def test_a_tube_is_told_as_the_solid_arc_that_moves_alike() -> None:

@@ -162,12 +162,28 @@ def test_xarray_has_them() -> None:
     assert list(data["of_coordinate"].values) == list(model.coordinate_names)
 
 
+def test_netcdf_keeps_them(tmp_path: Path) -> None:
+    """All names, also of numbers of the robot, bit for bit."""
+    pytest.importorskip("h5netcdf")
+    names = ["q0", "tension", "sections.*.length", "gravity.z"]
+    run = cdcr.simulate(
+        cdcr.Model(ARM), np.full(6, 0.2), np.zeros(6), t=[0.0, 0.1], sensitivities=names
+    )
+    again = cdcr.Trajectory.load(run.save(tmp_path / "run.nc"))
+    for kept in ("sensitivities", "rate_sensitivities"):
+        wanted, found = getattr(run, kept), getattr(again, kept)
+        assert set(found) == set(names)
+        for name in names:
+            assert np.array_equal(found[name], wanted[name])
+
+
 @pytest.mark.parametrize(
     ("asked", "options", "sentence"),
     [
         (["q0", "q0"], {}, "must be named once each, got 'q0' twice"),
         (["tension", "command"], {}, "'tension', which is 'command', twice"),
         (["sections.4.length"], {}, "there is no parameter 'sections.4.length'"),
+        (["q1"], {}, "a number from 1 or all: q0, qd0, tension, command, sections"),
         (["q0"], {"tension": lambda t: np.zeros(9)}, "constant or a table"),
         (["q0"], {"controller": "pid"}, "derivatives of a controller are not known"),
     ],

@@ -12,10 +12,11 @@ from cdcr.base.arrays import FloatArray
 
 pytest.importorskip("matplotlib", reason="the view draws with the colours of pictures")
 
+from cdcr.base.rotations import quaternions
 from cdcr.view import Session
 from cdcr.view.colors import legend, shaded, tension_colors
 from cdcr.view.live import LiveModel
-from cdcr.view.placement import along, cylinder, place, quaternion, sizes
+from cdcr.view.placement import along, cylinder, place, sizes
 
 ROUNDING = 1e-12
 ROBOT = cdcr.robots.three_sections()
@@ -44,7 +45,7 @@ def test_quaternion_of_a_matrix_does_what_the_matrix_does() -> None:
     bent = [model.pose(size * Q, 2, 1.0)[0] for size in (0.0, 1.0, 4.0)]
     for R in (*half_turns, *bent):
         for axis in np.eye(3):
-            np.testing.assert_allclose(turned(quaternion(R), axis), R @ axis, atol=1e-12)
+            np.testing.assert_allclose(turned(quaternions(R), axis), R @ axis, atol=1e-12)
 
 
 def test_everything_stands_where_the_model_has_it() -> None:

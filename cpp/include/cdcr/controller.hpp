@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "cdcr/export.hpp"
 #include "cdcr/model.hpp"
 #include "cdcr/status.hpp"
@@ -44,6 +47,11 @@ class Controller {
   [[nodiscard]] virtual const Model* reckons_with() const noexcept { return nullptr; }
   /// Real-time safe.
   [[nodiscard]] virtual ControlDiagnostics diagnostics() const noexcept { return {}; }
+
+  /// What it followed at the last update, for logs: names, such as those of coordinates or tip_x,
+  /// and values, which are real-time safe; none where that is nobody's business.
+  [[nodiscard]] virtual std::vector<std::string> reference_names() const { return {}; }
+  virtual void write_reference(VectorRef /*values*/) const noexcept {}
 
   static constexpr Index any_size = -1;
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "cdcr/actuator.hpp"
@@ -11,6 +12,11 @@
 #include "cdcr/simulator.hpp"
 
 namespace CDCR_EXPORT cdcr {
+
+namespace detail {
+class PlantBase;
+}
+class LoopLog;
 
 struct LoopOptions {
   double step = 1e-3;               ///< of the plant [s]; all periods are whole numbers of it
@@ -32,6 +38,9 @@ class Loop {
  public:
   Loop(const Model& plant, Controller& controller, LoopOptions options = {},
        Estimator* estimator = nullptr);
+  ~Loop();
+  Loop(Loop&&) noexcept;
+  Loop& operator=(Loop&&) noexcept;
 
   /// State (d each) and time [s] at the start. Actuators give `command` (num_cables) there; by
   /// default what leaves the straight robot alone.
@@ -42,6 +51,10 @@ class Loop {
   [[nodiscard]] Status step(const Wrenches& wrenches) noexcept;
   /// The same, asking now and then whether to stop: Status::interrupted then.
   [[nodiscard]] Status step(const Wrenches& wrenches, const Interrupt& stop) noexcept;
+
+  /// Writes each further step to a log that was made for this loop, which must outlive it; null: to
+  /// none. Throws std::invalid_argument for a log of other columns.
+  void set_log(LoopLog* log);
 
   [[nodiscard]] const Simulator& plant() const noexcept { return plant_; }
   [[nodiscard]] const VectorXd& q() const noexcept { return plant_.q(); }    ///< (d) [rad]
@@ -63,7 +76,7 @@ class Loop {
 
  private:
   [[nodiscard]] Status close(const Wrenches& wrenches, const Interrupt& stop) noexcept;
-  [[nodiscard]] Status look() noexcept;
+  [[nodiscard]] Status look(const Wrenches& wrenches) noexcept;
 
   LoopOptions options_;
   Simulator plant_;
@@ -71,15 +84,19 @@ class Loop {
   Estimator* estimator_;
   Actuators actuators_;
   std::vector<SensorChannel> sensors_;
+  std::unique_ptr<detail::PlantBase> base_;  // where a sensor feels it
+  VectorXd on_base_;                         // and what it feels (6)
   std::vector<Measurement> told_;
   Index every_, estimator_every_ = 1;  // steps in a period of controller and estimator
   VectorXd asked_, trial_, tension_, told_q_, told_qd_;
   Status status_ = Status::not_started;
+  LoopLog* log_ = nullptr;
 };
 
 /// A run of a loop, sampled.
 struct LoopRun : Trajectory {
   RowMatrixXd asked;              ///< by the controller (N, num_cables), [N] or [m]
+  RowMatrixXd reference;          ///< of the controller, Controller::reference_names (N, ...)
   RowMatrixXd told_q, told_qd;    ///< to the controller (N, d)
   std::vector<RowMatrixXd> told;  ///< by each sensor (N, its size)
   VectorXd durations;             ///< of the controller's last update (N) [s]

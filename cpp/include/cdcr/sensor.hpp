@@ -15,8 +15,24 @@ struct Sensor {
   /// coordinates (d) [rad]; rates (d) [rad/s]; lengths of the cables in the robot (num_cables) [m];
   /// tensions at the base (num_cables) [N]; tip: position in the base frame (3) [m]; orientation of
   /// the tip in the base frame, a rotation vector (3) [rad]; curvature of the backbone in the x and
-  /// y of its frame at places (2 each) [1/m].
-  enum class Kind { coordinates, rates, lengths, tensions, tip, curvature, orientation };
+  /// y of its frame at places (2 each) [1/m]; force (3) [N] and moment (3) [N m] of the robot on
+  /// its base, as base_wrench() has them.
+  enum class Kind {
+    coordinates,
+    rates,
+    lengths,
+    tensions,
+    tip,
+    curvature,
+    orientation,
+    base_force,
+    base_moment
+  };
+
+  /// Whether it feels the wrench on the base.
+  [[nodiscard]] bool feels_base() const noexcept {
+    return kind == Kind::base_force || kind == Kind::base_moment;
+  }
 
   Kind kind = Kind::coordinates;
   double period = 0.0;        ///< [s], a whole number of steps; 0: each step
@@ -33,13 +49,14 @@ class SensorChannel {
  public:
   SensorChannel(const Model& model, const Sensor& sensor, double step);
 
-  /// What it tells at the start: the state (q, qd) there, without noise.
-  void reset(const ConstVectorRef& q, const ConstVectorRef& qd,
-             const ConstVectorRef& command) noexcept;
+  /// What it tells at the start: the state (q, qd) there, without noise. One that feels the base
+  /// needs the wrench on it (6).
+  void reset(const ConstVectorRef& q, const ConstVectorRef& qd, const ConstVectorRef& command,
+             const ConstVectorRef& on_base = VectorXd()) noexcept;
   /// At the beginning of a step, counted from reset: measures where its period is over; whether
   /// what it tells is new.
   bool step(long long steps, const ConstVectorRef& q, const ConstVectorRef& qd,
-            const ConstVectorRef& command) noexcept;
+            const ConstVectorRef& command, const ConstVectorRef& on_base = VectorXd()) noexcept;
   /// What it tells.
   [[nodiscard]] const VectorXd& value() const noexcept { return value_; }
   [[nodiscard]] const Sensor& sensor() const noexcept { return sensor_; }

@@ -20,6 +20,11 @@ struct CommandLimits {
 /// up: constructor, set_reference and set_path may allocate and throw std::invalid_argument.
 class TrackingController : public Controller {
  public:
+  /// What a reference is of: the coordinates (d) [rad]; the tip's position (3) [m]; that and the
+  /// tip's orientation, a rotation vector (6) [m], [rad]. Both of the tip are in the base frame.
+  enum class Follows { coordinates, position, pose };
+  [[nodiscard]] Follows follows() const noexcept { return follows_; }
+
   /// What to reach and hold (reference_size), the same at all times.
   void set_reference(const VectorXd& value) { set_path(ReferencePath::constant(value)); }
   /// A motion to follow, over the time of the run.
@@ -39,12 +44,13 @@ class TrackingController : public Controller {
   [[nodiscard]] Index num_cables() const noexcept override { return model().num_cables(); }
   [[nodiscard]] const Model* reckons_with() const noexcept override { return &model(); }
   [[nodiscard]] ControlDiagnostics diagnostics() const noexcept override { return diagnostics_; }
+  [[nodiscard]] std::vector<std::string> reference_names() const override;
+  void write_reference(VectorRef values) const noexcept override { values = setpoint_.value; }
   [[nodiscard]] const CommandLimits& limits() const noexcept { return limits_; }
 
  protected:
-  /// Its reference is of the coordinates, or, where of_tip, of the tip's position in the base
-  /// frame.
-  TrackingController(const Model& model, double period, CommandLimits limits, bool of_tip = false);
+  TrackingController(const Model& model, double period, CommandLimits limits,
+                     Follows follows = Follows::coordinates);
 
   /// The law: finds the drive's commands for a finite state; a force (d) it wants goes to `give`.
   virtual Status control(double t, const ConstVectorRef& q, const ConstVectorRef& qd,
@@ -69,7 +75,7 @@ class TrackingController : public Controller {
   bool note(bool met, const ConstVectorRef& force) noexcept;
 
   CommandLimits limits_;
-  bool of_tip_;
+  Follows follows_;
   CableDrive drive_;
   ReferencePath path_;
   Setpoint setpoint_;

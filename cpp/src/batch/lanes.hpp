@@ -26,4 +26,13 @@ template <class F>
   f(width);
 }
 
+/// f(width) of the width of this processor, or another, as std::integral_constant.
+template <class F>
+auto with_lanes(const F& f, [[maybe_unused]] int lanes = num_lanes) {
+#if defined(__x86_64__)
+  if (lanes == 4) return f(std::integral_constant<int, 4>());
+#endif
+  return f(std::integral_constant<int, 2>());
+}
+
 }  // namespace cdcr::detail

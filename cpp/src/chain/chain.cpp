@@ -93,7 +93,7 @@ Index find_singular_section(const Chain& chain) {
     if (!relative.allFinite()) return i;
     if (!(symmetric_eigenvalues(relative)[0] > singular_share)) return i;
     const MatrixXd coupling = M.block(0, at, at, m_i);
-    M.topLeftCorner(at, at) -= coupling * D.llt().solve(coupling.transpose());
+    if (at > 0) M.topLeftCorner(at, at) -= coupling * D.llt().solve(coupling.transpose());
   }
   return -1;
 }

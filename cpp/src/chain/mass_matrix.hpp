@@ -6,8 +6,8 @@
 namespace cdcr::detail {
 
 /// Mass matrix by composite inertia from tip to base, eq. (34): O(n^2).
-template <class Section>
-void composite_mass(const Chain& chain, const ChainState<Section>& state, MatrixRef M) {
+template <class Section, class Matrix>
+void composite_mass(const Chain& chain, const ChainState<Section>& state, Matrix& M) {
   using S = typename Section::Scalar;
   using Matrix3m = typename Section::Matrix3m;
   using Vectorm = typename Section::Vectorm;

@@ -4,7 +4,9 @@
 
 #include "base/sizes.hpp"
 #include "cdcr/cables.hpp"
+#include "cdcr/loop_log.hpp"
 #include "cdcr/robot_ode.hpp"
+#include "control/plant_base.hpp"
 #include "control/steps.hpp"
 
 namespace cdcr {
@@ -18,7 +20,12 @@ Loop::Loop(const Model& plant, Controller& controller, LoopOptions options, Esti
   require_fit(controller, plant);
   every_ = detail::whole_steps("the controller's period", controller.period(), options_.step, 1);
   for (const Sensor& sensor : options_.sensors) sensors_.emplace_back(plant, sensor, options_.step);
-  for (const SensorChannel& one : sensors_) told_.push_back({one.value(), false});
+  for (const SensorChannel& one : sensors_) {
+    told_.push_back({one.value(), false});
+    if (!one.sensor().feels_base() || base_) continue;
+    base_ = std::make_unique<detail::PlantBase>(plant);
+    on_base_ = VectorXd::Zero(6);
+  }
   if (estimator != nullptr) {
     estimator->require_fit(plant, options_.sensors);
     const double period = estimator->period();
@@ -30,6 +37,10 @@ Loop::Loop(const Model& plant, Controller& controller, LoopOptions options, Esti
   told_q_ = told_qd_ = VectorXd::Zero(plant.num_coordinates());
 }
 
+Loop::~Loop() = default;
+Loop::Loop(Loop&&) noexcept = default;
+Loop& Loop::operator=(Loop&&) noexcept = default;
+
 void Loop::reset(const VectorXd& q, const VectorXd& qd, double start, const VectorXd& command) {
   plant_.reset(q, qd, start);
   if (command.size() == 0) {
@@ -39,7 +50,8 @@ void Loop::reset(const VectorXd& q, const VectorXd& qd, double start, const Vect
     asked_ = command;
   }
   actuators_.reset(asked_);
-  for (SensorChannel& sensor : sensors_) sensor.reset(q, qd, asked_);
+  if (base_) base_->feel(plant_, asked_, no_wrenches(), on_base_);
+  for (SensorChannel& sensor : sensors_) sensor.reset(q, qd, asked_, on_base_);
   told_q_ = q;
   told_qd_ = qd;
   if (estimator_ != nullptr) estimator_->reset(q, qd, asked_);
@@ -49,9 +61,14 @@ void Loop::reset(const VectorXd& q, const VectorXd& qd, double start, const Vect
 }
 
 /// What the controller is told: the estimate, or what sensors of the state say, or the truth.
-Status Loop::look() noexcept {
+Status Loop::look(const Wrenches& wrenches) noexcept {
+  if (base_) {
+    const Status status = check_wrenches(plant_.model(), wrenches);
+    if (status != Status::ok) return status;
+    base_->feel(plant_, given(), wrenches, on_base_);
+  }
   for (std::size_t i = 0; i < sensors_.size(); ++i) {
-    told_[i].fresh = sensors_[i].step(plant_.periods(), q(), qd(), given());
+    told_[i].fresh = sensors_[i].step(plant_.periods(), q(), qd(), given(), on_base_);
     told_[i].value = sensors_[i].value();
   }
   if (plant_.periods() % estimator_every_ != 0) return Status::ok;  // the estimate holds
@@ -66,7 +83,7 @@ Status Loop::look() noexcept {
 }
 
 Status Loop::close(const Wrenches& wrenches, const Interrupt& stop) noexcept {
-  Status status = look();
+  Status status = look(wrenches);
   if (status != Status::ok) return status;
   if (plant_.periods() % every_ == 0) {
     trial_ = asked_;
@@ -80,12 +97,20 @@ Status Loop::close(const Wrenches& wrenches, const Interrupt& stop) noexcept {
   return plant_.step(given(), wrenches, stop);
 }
 
+void Loop::set_log(LoopLog* log) {
+  if (log != nullptr) log->require_fit(*this);
+  log_ = log;
+}
+
 Status Loop::step(const Wrenches& wrenches) noexcept {
   return step(wrenches, Interrupt());
 }
 
 Status Loop::step(const Wrenches& wrenches, const Interrupt& stop) noexcept {
-  if (status_ == Status::ok) status_ = close(wrenches, stop);
+  if (status_ != Status::ok) return status_;
+  if (log_ != nullptr) log_->begin(*this);
+  status_ = close(wrenches, stop);
+  if (log_ != nullptr) log_->end(*this);
   return status_;
 }
 
@@ -112,7 +137,9 @@ LoopRun run(Loop& loop, double duration, Index record_every, const Wrenches& wre
   const Index more = estimator == nullptr ? 0 : static_cast<Index>(estimator->value_names().size());
   out.estimated = out.deviations = RowMatrixXd::Zero(rows, more);
   out.innovation = out.measured = VectorXd::Zero(rows);
-  VectorXd tension(c), q(d), qd(d), values(more), deviations(more);
+  const auto followed = static_cast<Index>(loop.controller().reference_names().size());
+  out.reference = RowMatrixXd::Zero(rows, followed);
+  VectorXd tension(c), q(d), qd(d), values(more), deviations(more), reference(followed);
   out.status = loop.status();
   Index row = 0;
   for (Index k = 0; out.status == Status::ok && k <= steps; ++k) {
@@ -135,6 +162,8 @@ LoopRun run(Loop& loop, double duration, Index record_every, const Wrenches& wre
     }
     cable_tensions(model, q, qd, loop.given(), tension);
     out.tension.row(row) = tension;
+    loop.controller().write_reference(reference);
+    out.reference.row(row) = reference;
     out.durations[row] = loop.controller().diagnostics().duration;
     if (estimator != nullptr) {
       estimator->write_values(values, deviations);
@@ -158,7 +187,7 @@ LoopRun run(Loop& loop, double duration, Index record_every, const Wrenches& wre
     column->conservativeResize(row);
   }
   for (RowMatrixXd* table : {&out.q, &out.qd, &out.told_q, &out.told_qd, &out.tension, &out.command,
-                             &out.asked, &out.estimated, &out.deviations}) {
+                             &out.asked, &out.reference, &out.estimated, &out.deviations}) {
     table->conservativeResize(row, Eigen::NoChange);
   }
   for (RowMatrixXd& table : out.told) table.conservativeResize(row, Eigen::NoChange);

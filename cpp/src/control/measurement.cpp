@@ -30,6 +30,8 @@ Index measurement_size(const Model& model, const Sensor& sensor) {
       return model.num_cables();
     case Sensor::Kind::tip:
     case Sensor::Kind::orientation:
+    case Sensor::Kind::base_force:
+    case Sensor::Kind::base_moment:
       return 3;
     case Sensor::Kind::curvature:
       return 2 * static_cast<Index>(sensor.places.size());
@@ -43,6 +45,7 @@ void require_sensor(const Model& model, const Sensor& sensor) {
   require(std::isfinite(sensor.bias), "bias of a sensor must be finite, got ", sensor.bias);
   require(sensor.kind != Sensor::Kind::curvature || !sensor.places.empty(),
           "a sensor of curvature needs places");
+  if (sensor.feels_base()) require_inertia(model);
   for (const Place& place : sensor.places) {
     require(is_section(model, place.section) && is_fraction(place.fraction),
             "places of a sensor must be sections 0 to ", model.num_sections() - 1,
@@ -51,7 +54,8 @@ void require_sensor(const Model& model, const Sensor& sensor) {
 }
 
 void measure(const Model& model, const Sensor& sensor, const ConstVectorRef& q,
-             const ConstVectorRef& qd, const ConstVectorRef& command, VectorRef out) noexcept {
+             const ConstVectorRef& qd, const ConstVectorRef& command, const ConstVectorRef& on_base,
+             VectorRef out) noexcept {
   switch (sensor.kind) {
     case Sensor::Kind::coordinates:
       out = q;
@@ -70,6 +74,14 @@ void measure(const Model& model, const Sensor& sensor, const ConstVectorRef& q,
       return;
     case Sensor::Kind::orientation:
       out = rotation_vector(tip(model, q).R);
+      return;
+    case Sensor::Kind::base_force:
+      assert(has_size(on_base, 6, 1));
+      out = on_base.head<3>();
+      return;
+    case Sensor::Kind::base_moment:
+      assert(has_size(on_base, 6, 1));
+      out = on_base.tail<3>();
       return;
     case Sensor::Kind::curvature:
       for (Index i = 0; i < out.size(); ++i) {

@@ -11,9 +11,11 @@ namespace cdcr::detail {
 /// Throws std::invalid_argument where a sensor does not fit the robot.
 void require_sensor(const Model& model, const Sensor& sensor);
 
-/// The values at a state under commands. Real-time safe.
+/// The values at a state under commands; the wrench on the base (6) is read where it is felt.
+/// Real-time safe.
 void measure(const Model& model, const Sensor& sensor, const ConstVectorRef& q,
-             const ConstVectorRef& qd, const ConstVectorRef& command, VectorRef out) noexcept;
+             const ConstVectorRef& qd, const ConstVectorRef& command, const ConstVectorRef& on_base,
+             VectorRef out) noexcept;
 /// value with an error: added, or, of an orientation, a turn about the axes of the tip.
 void add_error(Sensor::Kind kind, const ConstVectorRef& error, VectorRef value) noexcept;
 /// The error that makes `told` of `expected`: add_error the other way round.

@@ -22,21 +22,21 @@ SensorChannel::SensorChannel(const Model& model, const Sensor& sensor, double st
 }
 
 void SensorChannel::reset(const ConstVectorRef& q, const ConstVectorRef& qd,
-                          const ConstVectorRef& command) noexcept {
+                          const ConstVectorRef& command, const ConstVectorRef& on_base) noexcept {
   random_state_ = sensor_.seed;
-  detail::measure(model_, sensor_, q, qd, command, value_);
+  detail::measure(model_, sensor_, q, qd, command, on_base, value_);
   error_.setConstant(sensor_.bias);
   detail::add_error(sensor_.kind, error_, value_);
   std::fill(sent_.begin(), sent_.end(), 0);
 }
 
 bool SensorChannel::step(long long steps, const ConstVectorRef& q, const ConstVectorRef& qd,
-                         const ConstVectorRef& command) noexcept {
+                         const ConstVectorRef& command, const ConstVectorRef& on_base) noexcept {
   const Index columns = delay_ + 1;
   const auto now = static_cast<Index>(steps % columns), due = (now + 1) % columns;
   sent_[static_cast<std::size_t>(now)] = steps % every_ == 0 ? 1 : 0;
   if (sent_[static_cast<std::size_t>(now)] != 0) {
-    detail::measure(model_, sensor_, q, qd, command, measured_);
+    detail::measure(model_, sensor_, q, qd, command, on_base, measured_);
     error_.setConstant(sensor_.bias);
     if (sensor_.noise > 0.0) {
       for (Index i = 0; i < error_.size(); ++i) error_[i] += sensor_.noise * normal();

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <utility>
 
+#include "base/rotation.hpp"
 #include "base/sizes.hpp"
 #include "cdcr/kinematics.hpp"
 #include "cdcr/robot_ode.hpp"
@@ -10,18 +11,25 @@
 namespace cdcr {
 namespace {
 
-VectorXd at_rest(const Model& model, bool of_tip) {
-  return of_tip ? VectorXd(tip(model, model.rest()).p) : model.rest();
+/// A reference of the tip in the shape at rest.
+VectorXd tip_at_rest(const Model& model, bool with_orientation) {
+  const Pose at = tip(model, model.rest());
+  if (!with_orientation) return at.p;
+  VectorXd value(6);
+  value << at.p, detail::rotation_vector(at.R);
+  return value;
 }
 
 }  // namespace
 
 TrackingController::TrackingController(const Model& model, double period, CommandLimits limits,
-                                       bool of_tip)
+                                       Follows follows)
     : limits_(std::move(limits)),
-      of_tip_(of_tip),
+      follows_(follows),
       drive_(model, limits_.tension, limits_.max_rate, period),
-      path_(ReferencePath::constant(at_rest(model, of_tip))),
+      path_(ReferencePath::constant(follows == Follows::coordinates
+                                        ? model.rest()
+                                        : tip_at_rest(model, follows == Follows::pose))),
       setpoint_(path_.size()) {
   path_.evaluate(path_.start(), setpoint_);
 }
@@ -38,9 +46,13 @@ void TrackingController::accept(const ReferencePath& path) {
   for (int i = 0; i <= (path.is_constant() ? 0 : looks); ++i) {
     path.evaluate(path.start() + (path.end() - path.start()) * i / looks, at);
     const bool sound = path.size() == path_.size() && at.value.allFinite();
-    if (of_tip_) {
-      detail::require(sound, "reference must be 3 finite values [m], got [", at.value.transpose(),
-                      "]");
+    if (follows_ != Follows::coordinates) {
+      const bool position = follows_ == Follows::position;
+      detail::require(sound, "reference must be ",
+                      position ? "3 finite values [m]"
+                               : "6 finite values, a position [m] and a "
+                                 "rotation vector [rad]",
+                      ", got [", at.value.transpose(), "]");
       continue;
     }
     detail::require(sound && check_shape(model(), at.value) == Status::ok, "reference must be ",
@@ -48,6 +60,11 @@ void TrackingController::accept(const ReferencePath& path) {
                     " finite values that bend each section by at most 3 pi rad, got [",
                     at.value.transpose(), "]");
   }
+}
+
+std::vector<std::string> TrackingController::reference_names() const {
+  if (of_tip_) return {"tip_x", "tip_y", "tip_z"};
+  return model().coordinate_names();
 }
 
 void TrackingController::reset() noexcept {

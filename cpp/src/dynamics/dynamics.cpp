@@ -100,7 +100,7 @@ double kinetic_energy(const Model& model, Data& data, const ConstVectorRef& q,
   return data.kept()->with(
       model,
       [&](auto& chain, auto& state) { return detail::kinetic_energy(chain, state, qd.data()); },
-      q.data(), qd.data());
+      q.data());
 }
 
 double detail::energy_from_base(const Model& model, Data& data, const ConstVectorRef& q) noexcept {

@@ -1,27 +1,23 @@
 #include "cdcr/kinematics.hpp"
 
 #include "base/sizes.hpp"
-#include "chain/reach.hpp"
+#include "derivatives/jacobian.hpp"
 #include "dynamics/parts.hpp"
 
 namespace cdcr {
 
 namespace {
 
-/// Columns of the Jacobian of a point that the last of the parts carries, p from the base, eq. (5).
+/// Of a point that the last of the parts carries, p from the base.
 template <class Reach>
 void jacobian_of(const Model& model, const Reach& reach, const Vector3d& p, MatrixRef& J) noexcept {
   J.setZero();
-  for (Index i = 0; i <= reach.last; ++i) {
-    const auto& part = reach.parts[i];
-    const Vector3d beyond = p - reach.ends[i];  // what the end of this part carries along
-    for (Index k = 0; k < part.J_omega.cols(); ++k) {
-      const Vector3d turning = part.J_omega.col(k);
-      auto column = J.col(model.first_coordinate(i) + k);
-      column.template head<3>() = part.J_v.col(k) + turning.cross(beyond);
-      column.template tail<3>() = turning;
-    }
-  }
+  detail::each_column(reach, p,
+                      [&](Index i, Index k, const Vector3d& moving, const Vector3d& turning) {
+                        auto column = J.col(model.first_coordinate(i) + k);
+                        column.template head<3>() = moving;
+                        column.template tail<3>() = turning;
+                      });
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "estimation/augmented_motion.hpp"
 
 #include "cdcr/dynamics.hpp"
+#include "cdcr/kinematics.hpp"
 #include "cdcr/linearization.hpp"
 #include "cdcr/total_force.hpp"
 
@@ -25,6 +26,14 @@ AugmentedMotion::AugmentedMotion(const Model& model, const std::vector<Model>& v
   qdd_ = bias_ = unbalanced_ = added_ = VectorXd::Zero(d_);
   M_ = own_ = MatrixXd::Zero(d_, d_);
   A_ = MatrixXd::Zero(2 * d_, 2 * d_);
+  on_base_ = VectorXd::Zero(6);
+}
+
+void AugmentedMotion::make_room_for_base_wrench() {
+  if (!base_slopes_.empty()) return;
+  for (const Model& one : models_) base_slopes_.emplace_back(one);
+  base_change_ = MatrixXd::Zero(6, 3 * d_);
+  change_ = MatrixXd::Zero(d_, size());
 }
 
 /// Of a model among all: forces and inertia are sums of theirs with weights that add up to one.
@@ -120,6 +129,45 @@ void AugmentedMotion::slopes(const VectorXd& x, const VectorXd& command, MatrixX
     }
   }
   llt_.solveInPlace(out);
+}
+
+void AugmentedMotion::base_wrench(const VectorXd& x, const VectorXd& command,
+                                  VectorRef out) noexcept {
+  accelerate(x, command, qdd_);
+  out.setZero();
+  for (std::size_t k = 0; k < models_.size(); ++k) {
+    cdcr::base_wrench(models_[k], x.head(d_), x.segment(d_, d_), qdd_, force_, on_base_);
+    out += weight(k, x.tail(num_shares())) * on_base_;
+  }
+}
+
+void AugmentedMotion::base_wrench_slopes(const VectorXd& x, const VectorXd& command,
+                                         MatrixXd& out) noexcept {
+  const auto q = x.head(d_), qd = x.segment(d_, d_);
+  slopes(x, command, change_);
+  accelerate(x, command, qdd_);
+  out.setZero();
+  for (std::size_t k = 0; k < models_.size(); ++k) {
+    base_slopes_[k].update(models_[k], q, qd, qdd_, base_change_);
+    add_wrench_slopes(models_[k], q, force_, base_change_.leftCols(d_));
+    base_change_ *= weight(k, x.tail(num_shares()));
+    out.leftCols(2 * d_) += base_change_.leftCols(2 * d_);
+    out.noalias() += base_change_.rightCols(d_) * change_;
+    if (models_.size() == 1) break;
+    cdcr::base_wrench(models_[k], q, qd, qdd_, force_, on_base_);
+    if (k == 0) {
+      out.rightCols(num_shares()).colwise() -= on_base_;
+    } else {
+      out.col(out.cols() - num_shares() + static_cast<Index>(k) - 1) += on_base_;
+    }
+  }
+  if (force_.empty()) return;
+  const Vector3d arm =
+      pose(model(), q, force_[0].section, force_[0].fraction).p - model().robot().base_position;
+  for (Index axis = 0; axis < 3; ++axis) {
+    out(axis, 2 * d_ + axis) += 1.0;
+    out.col(2 * d_ + axis).tail<3>() += arm.cross(Vector3d::Unit(axis));
+  }
 }
 
 }  // namespace cdcr::detail

@@ -7,6 +7,7 @@
 #include "cdcr/model.hpp"
 #include "cdcr/wrench.hpp"
 #include "integration/rk4.hpp"
+#include "loads/base_wrench.hpp"
 
 namespace cdcr::detail {
 
@@ -30,6 +31,12 @@ class AugmentedMotion {
   /// How the accelerations change with x (d, size).
   void slopes(const VectorXd& x, const VectorXd& command, MatrixXd& out) noexcept;
 
+  /// What the base feels (6): eq. (121) of all models at the acceleration that they have together.
+  void base_wrench(const VectorXd& x, const VectorXd& command, VectorRef out) noexcept;
+  /// How that changes with x (6, size), eq. (122), once there is room for it.
+  void base_wrench_slopes(const VectorXd& x, const VectorXd& command, MatrixXd& out) noexcept;
+  void make_room_for_base_wrench();
+
  private:
   [[nodiscard]] double weight(std::size_t k, const ConstVectorRef& shares) const noexcept;
   void set_mass(const ConstVectorRef& q, const ConstVectorRef& shares) noexcept;
@@ -46,6 +53,9 @@ class AugmentedMotion {
   VectorXd between_, slope_, qdd_, bias_, unbalanced_, added_;
   MatrixXd M_, own_, A_;
   Eigen::LLT<MatrixXd> llt_;
+  VectorXd on_base_;  // of one model (6)
+  std::vector<BaseWrenchSlopes> base_slopes_;
+  MatrixXd base_change_, change_;  // (6, 3d), (d, size)
 };
 
 }  // namespace cdcr::detail

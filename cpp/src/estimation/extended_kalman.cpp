@@ -31,21 +31,21 @@ void ExtendedKalman::predict(const VectorXd& command) noexcept {
 void ExtendedKalman::correct(std::size_t sensor, const ConstVectorRef& told,
                              const VectorXd& command) noexcept {
   detail::MeasurementSlopes& one = parts().sensors[sensor];
-  const Index d = model().num_coordinates(), size = told.size();
-  one.update(x_.head(d), x_.segment(d, d), command);
+  const Index size = told.size();
+  one.update(x_, command);
   detail::find_error(one.sensor().kind, told, one.value(), error_.head(size));
   const double noise = one.sensor().noise * one.sensor().noise;
   from_ = x_;
   double sum = 0.0;
   for (Index i = 0; i < size; ++i) {
     const auto h = one.slopes().row(i).transpose();
-    const double innovation = error_[i] - h.dot((x_ - from_).head(2 * d));
-    Ph_.noalias() = P_.leftCols(2 * d) * h;
-    const double spread = h.dot(Ph_.head(2 * d)) + noise;
+    const double innovation = error_[i] - h.dot(x_ - from_);
+    Ph_.noalias() = P_ * h;
+    const double spread = h.dot(Ph_) + noise;
     gain_ = Ph_ / spread;
     x_ += innovation * gain_;
     P_.noalias() -= gain_ * Ph_.transpose();  // (I - K h^T) P
-    Wh_.noalias() = P_.leftCols(2 * d) * h;
+    Wh_.noalias() = P_ * h;
     P_.noalias() -= Wh_ * gain_.transpose();
     P_.noalias() += noise * gain_ * gain_.transpose();
     P_.triangularView<Eigen::StrictlyLower>() = P_.transpose();

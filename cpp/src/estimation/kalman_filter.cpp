@@ -108,7 +108,7 @@ KalmanFilter::Parts::Parts(const Model& model, const KalmanOptions& options,
       commands(model.num_cables(), latest(options)),
       late(latest(options)) {
   for (const Sensor& sensor : options.sensors) {
-    sensors.emplace_back(model, sensor);
+    sensors.emplace_back(motion, sensor);
     waiting.emplace_back(sensors.back().value().size(),
                          late - periods_late(sensor, options.period));
   }

@@ -1,35 +1,36 @@
 #pragma once
 
 #include "cdcr/sensor.hpp"
+#include "estimation/augmented_motion.hpp"
 
 namespace cdcr::detail {
 
-/// What a sensor is expected to tell and how that changes with the state, cpp/estimation.md eq.
-/// (98). Real-time safe after construction.
+/// What a sensor is expected to tell and how that changes with the state x of a motion,
+/// cpp/estimation.md eq. (98), cpp/base-wrench.md eq. (122). Real-time safe after construction.
+/// It refers to the motion.
 class MeasurementSlopes {
  public:
-  MeasurementSlopes(const Model& model, const Sensor& sensor);
+  MeasurementSlopes(AugmentedMotion& motion, const Sensor& sensor);
 
-  /// At (q, qd) under commands: value() without noise and, of the errors of detail::find_error,
-  /// slopes() on (q, qd) (size, 2d).
-  void update(const ConstVectorRef& q, const ConstVectorRef& qd,
-              const ConstVectorRef& command) noexcept;
+  /// At x under commands: value() without noise and, of the errors of detail::find_error,
+  /// slopes() on x (size, size of x).
+  void update(const VectorXd& x, const VectorXd& command) noexcept;
   /// The value alone.
-  void update_value(const ConstVectorRef& q, const ConstVectorRef& qd,
-                    const ConstVectorRef& command) noexcept;
+  void update_value(const VectorXd& x, const VectorXd& command) noexcept;
   [[nodiscard]] const Sensor& sensor() const noexcept { return sensor_; }
   [[nodiscard]] const VectorXd& value() const noexcept { return value_; }
   [[nodiscard]] const MatrixXd& slopes() const noexcept { return slopes_; }
 
  private:
+  [[nodiscard]] const Model& model() const noexcept { return motion_->model(); }
   void set_cable_slopes(const ConstVectorRef& q, const ConstVectorRef& qd,
                         const ConstVectorRef& command) noexcept;
   void set_curvature_slopes() noexcept;
 
-  Model model_;
+  AugmentedMotion* motion_;
   Sensor sensor_;
-  VectorXd value_, near_, error_;
-  MatrixXd slopes_, J_, B_, change_;
+  VectorXd value_, near_, error_, on_base_;
+  MatrixXd slopes_, J_, B_, change_, base_slopes_;
 };
 
 }  // namespace cdcr::detail

@@ -85,11 +85,12 @@ void UnscentedKalman::correct(std::size_t sensor, const ConstVectorRef& told,
                               const VectorXd& command) noexcept {
   detail::MeasurementSlopes& one = parts().sensors[sensor];
   const Sensor& how = one.sensor();
-  const Index d = model().num_coordinates(), size = told.size();
+  const Index size = told.size();
   set_points();
   auto values = told_.topRows(size);
   for (Index i = 0; i < points_.cols(); ++i) {
-    one.update_value(points_.col(i).head(d), points_.col(i).segment(d, d), command);
+    point_ = points_.col(i);
+    one.update_value(point_, command);
     if (i == 0) expected_.head(size) = one.value();
     error_.head(size).setZero();
     detail::find_error(how.kind, one.value(), expected_.head(size), error_.head(size));

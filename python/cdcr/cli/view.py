@@ -31,6 +31,7 @@ from cdcr.files.toml import read_toml
 from cdcr.robot.robot import Robot
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios import Scenario
+from cdcr.scenarios.file.loop import ClosedLoop
 from cdcr.scenarios.file.tracking import TrackedMotion
 
 if TYPE_CHECKING:
@@ -50,6 +51,7 @@ class Shown:
     formulation: str = "exact"
     run: Trajectory | None = None
     reference: Motion | None = None
+    estimate: Motion | None = None
 
 
 def prepare(
@@ -76,7 +78,12 @@ def prepare(
     beside = shown.reference if reference is None else _load(reference)
     with mistakes(first_as_option):
         session = Session(
-            shown.robot, shown.formulation, run=shown.run, reference=beside, speed=speed
+            shown.robot,
+            shown.formulation,
+            run=shown.run,
+            reference=beside,
+            estimate=shown.estimate,
+            speed=speed,
         )
         if live:
             session.go_live()
@@ -119,16 +126,29 @@ def _scenario(scenario: Scenario, console: Console, robot_alone: bool) -> Shown:
         return Shown(robot=scenario.robot, formulation=scenario.formulation)
     with mistakes():
         scenario.times()
+    source = scenario.input_source
+    reference: Motion | None = None
+    estimate: Motion | None = None
     with DelayedBar(console, scenario.name, scenario.t_end) as bar, mistakes():
-        run = scenario.simulate(progress=_to(bar))
+        if isinstance(source, ClosedLoop):
+            model = scenario.model
+            start = scenario.start(model), scenario.qd0
+            found = source.run_loop(model, *start, scenario.times(), wrenches=scenario.wrenches)
+            run = found.trajectory
+            reference = source.controller.reference(np.asarray(run.t))
+            estimate = None if source.estimator is None else found.told
+        else:
+            run = scenario.simulate(progress=_to(bar))
     if not run.success:
         console.print(f"cdcr: {run.message}", markup=False)
-    source = scenario.input_source
-    reference = None
     if isinstance(source, TrackedMotion) and source.simulate:
         reference = source.reference(np.asarray(run.t))
     return Shown(
-        robot=scenario.robot, formulation=scenario.formulation, run=run, reference=reference
+        robot=scenario.robot,
+        formulation=scenario.formulation,
+        run=run,
+        reference=reference,
+        estimate=estimate,
     )
 
 

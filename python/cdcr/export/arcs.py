@@ -1,10 +1,10 @@
-"""What other software is not told of yet: sections that are more than arcs, cables that wind."""
+"""What other software is not told of yet: sections that stretch or taper, cables that wind."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 
 from cdcr.base.check import entry
 from cdcr.robot.cable import Cable
@@ -12,16 +12,35 @@ from cdcr.robot.robot import Robot
 from cdcr.robot.section import Section
 
 
+class Twist(NamedTuple):
+    """How a section resists twist."""
+
+    stiffness: float  # [N m/rad]
+    damping: float  # [N m s/rad]
+
+
+def twist_of(section: Section) -> Twist | None:
+    """Return how a section resists twist, None where it does not twist."""
+    if section.twist_order is None:
+        return None
+    rigidity = section.twist_stiffness
+    if rigidity is None:
+        assert section.shear_modulus is not None  # a section that twists has one of them
+        rigidity = 2.0 * section.shear_modulus * section.second_moment_of_area
+    stiffness = rigidity / section.length
+    return Twist(stiffness, section.twist_damping + section.material_damping * stiffness)
+
+
 def as_solid_arcs(robot: Robot, what: str) -> Robot:
     """Return an equal robot of round, solid arcs with straight cables, or refuse it.
 
     `what` is what cannot be made of others: "a chain of rigid links", which bends as freely as a
-    rod of any bending order.
+    rod of any bending order. How sections twist, which chains do too, tells `twist_of`.
     """
     robot = replace(robot, sections=tuple(map(_of_one_bend, robot.sections)))
     for i, section in enumerate(robot.sections):
         if section.is_rod:
-            more = "that bend alone, untapered, straight at rest, without twist and stretch"
+            more = "that bend and twist alone, untapered, straight at rest, without stretch"
             raise ValueError(
                 f"{what} can be made of sections {more}; {entry('sections', i)} is more than that"
             )
@@ -39,8 +58,10 @@ def as_solid_arcs(robot: Robot, what: str) -> Robot:
 
 
 def _of_one_bend(section: Section) -> Section:
-    """Return a section without its bends of higher order; one that cannot bend stays."""
-    return replace(section, bending_order=0, nodes=None) if section.bending_order else section
+    """Return a section without twist and bends of higher order; one that cannot bend stays."""
+    if section.bending_order is None:
+        return section
+    return replace(section, bending_order=0, twist_order=None, nodes=None)
 
 
 def _solid(section: Section) -> Section:

@@ -1,7 +1,8 @@
 """A robot as rigid links: joints in the middle of equal parts of each section.
 
 A part of a section that bends by an angle ends, to first order in it, where two straight halves end
-that are joined by a hinge, and so do its disks beyond the hinge. Each link is what lies between two
+that are joined by a hinge, and so do its disks beyond the hinge; it twists there too, where the
+section does. Each link is what lies between two
 hinges: half a part of a section, and half of the next.
 """
 
@@ -14,18 +15,20 @@ from itertools import accumulate, pairwise
 import numpy as np
 
 from cdcr.base.arrays import FloatArray
+from cdcr.export.arcs import Twist
 from cdcr.robot.robot import Robot
 
 
 @dataclass(frozen=True)
 class Joint:
-    """Where a robot of links bends."""
+    """Where a robot of links bends, and twists."""
 
     section: int
     part: int  # of the section, from 0
     height: float  # arc length from the base [m]
     stiffness: float  # of each bending component [N m/rad]
     damping: float  # [N m s/rad]
+    twist: Twist | None  # about the axis
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,7 +76,10 @@ class Chain:
         Between the joints; the first one is fixed to the base, the last one is the tip's.
     """
 
-    def __init__(self, robot: Robot, count: int) -> None:
+    def __init__(
+        self, robot: Robot, count: int, twists: Sequence[Twist | None] | None = None
+    ) -> None:
+        twists = twists or [None] * len(robot.sections)
         self.robot = robot
         self.cables = robot.all_cables
         self.ends = list(accumulate((section.length for section in robot.sections), initial=0.0))
@@ -84,8 +90,9 @@ class Chain:
                 height=self.ends[i] + (part + 0.5) * section.length / count,
                 stiffness=section.stiffness * count,
                 damping=section.damping * count,
+                twist=twist and Twist(twist.stiffness * count, twist.damping * count),
             )
-            for i, section in enumerate(robot.sections)
+            for i, (section, twist) in enumerate(zip(robot.sections, twists, strict=True))
             for part in range(count)
         ]
         length = self.ends[-1]
@@ -95,19 +102,31 @@ class Chain:
         ]
 
     def fastest(self) -> float:
-        """Return the largest frequency of the straight chain, in a plane, cables held [rad/s]."""
+        """Return the largest frequency of the straight chain, cables held [rad/s]."""
         heights = np.array([joint.height for joint in self.joints])
+        twisting = [joint for joint in self.joints if joint.twist]
+        twist_heights = np.array([joint.height for joint in twisting])
         mass = np.zeros((len(heights), len(heights)))
+        spin = np.zeros((len(twisting), len(twisting)))
         for link in self.links[1:]:
-            turns = heights <= link.start
+            turns, winds = heights <= link.start, twist_heights <= link.start
             arms = np.where(turns, link.start + link.center[2] - heights, 0.0)
             mass += link.mass * np.outer(arms, arms) + link.inertia[1, 1] * np.outer(turns, turns)
+            spin += link.inertia[2, 2] * np.outer(winds, winds)
         stiffness = np.diag([joint.stiffness for joint in self.joints])
         for cable in self.cables:
             through = np.array([joint.section <= cable.end_section for joint in self.joints])
             stiffness += cable.stiffness * cable.farthest**2 * np.outer(through, through)
-        inverse = np.linalg.inv(np.linalg.cholesky(mass))
-        return float(np.sqrt(np.linalg.eigvalsh(inverse @ stiffness @ inverse.T)[-1]))
+        winding = np.diag([joint.twist.stiffness for joint in twisting if joint.twist])
+        return max(_fastest(mass, stiffness), _fastest(spin, winding))
+
+
+def _fastest(mass: FloatArray, stiffness: FloatArray) -> float:
+    """Return the largest frequency of a mass and a stiffness matrix, 0 of none [rad/s]."""
+    if not len(mass):
+        return 0.0
+    inverse = np.linalg.inv(np.linalg.cholesky(mass))
+    return float(np.sqrt(np.linalg.eigvalsh(inverse @ stiffness @ inverse.T)[-1]))
 
 
 def _link(robot: Robot, ends: Sequence[float], start: float, end: float, *, last: bool) -> Link:

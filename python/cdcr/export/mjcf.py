@@ -15,7 +15,7 @@ import numpy as np
 
 from cdcr import _core
 from cdcr.base.check import Check, count, require_kind
-from cdcr.export.arcs import as_solid_arcs
+from cdcr.export.arcs import as_solid_arcs, twist_of
 from cdcr.export.links import Chain, Joint, Link
 from cdcr.files.new_file import file_path, new_file
 from cdcr.robot.cable import Cable
@@ -44,8 +44,9 @@ def write_mjcf(
     """Write a robot as a model of MuJoCo.
 
     Each section becomes rigid links, with a joint in the middle of each of `links` equal parts that
-    bends by two hinges; the angles of the hinges add up to the section's part of q. The links bend
-    freely, as a rod of any `bending_order` does, so this is the robot of
+    bends by two hinges; the angles of the hinges add up to the section's part of q. A third turns
+    about the axis where the section twists. The links bend and twist freely, as a rod of any
+    `bending_order` and `twist_order` does, so without twist this is the robot of
     ``robot.subdivide(links)``. One arc a section is stiffer: the first frequency of
     ``cdcr.robots.amouri2020()`` is a quarter higher as one arc.
 
@@ -76,7 +77,7 @@ def write_mjcf(
     ------
     ValueError
         For other `links`, for a name that ends otherwise, for links without mass, and for a robot
-        that does more than bend (twist, stretch, taper, bends at rest), or whose cables wind.
+        that does more than bend and twist (stretch, taper, bends at rest), or whose cables wind.
     OSError
         Where the file exists and is not to be replaced, or there is no such folder.
 
@@ -105,12 +106,13 @@ def mjcf_text(robot: Robot, file: Path, *, links: int = 10) -> str:
     requirement = f"a whole number 1 to {most} for {count(len(robot.sections), 'section')}"
     links = check.whole("links", links, requirement, 1, most)
     check.done()
+    twists = [twist_of(section) for section in robot.sections]
     robot = as_solid_arcs(robot, "a chain of rigid links")
     if any(cable.friction for cable in robot.all_cables) or any(
         section.cable_friction for section in robot.sections
     ):
         warnings.warn("MuJoCo's model leaves the friction of cables out", stacklevel=3)
-    chain = Chain(robot, links)
+    chain = Chain(robot, links, twists)
     _require_mass(chain)
     bends = [_bend(chain, i, links) for i in range(len(robot.sections))]
     sites = _sites(chain, bends)
@@ -203,7 +205,7 @@ def _add_tip(body: ElementTree.Element, chain: Chain) -> None:
 
 
 def _add_hinges(body: ElementTree.Element, joint: Joint, bend: float) -> None:
-    """Add the components of bending, in turn the one and the other first.
+    """Add the components of bending, in turn the one and the other first, and twist.
 
     So the twist of a chain bent askew cancels, from joint to joint.
     """
@@ -218,6 +220,15 @@ def _add_hinges(body: ElementTree.Element, joint: Joint, bend: float) -> None:
             limited="true",
             stiffness=repr(joint.stiffness),
             damping=repr(joint.damping),
+        )
+    if joint.twist:
+        ElementTree.SubElement(
+            body,
+            "joint",
+            name=f"twist{joint.section + 1}_{joint.part + 1}",
+            axis="0 0 1",
+            stiffness=repr(joint.twist.stiffness),
+            damping=repr(joint.twist.damping),
         )
 
 
@@ -260,8 +271,11 @@ def _sites(chain: Chain, bends: Sequence[float]) -> list[list[Site]]:
 
     Across a joint that bends by theta towards a cable at radius r, with sites at a distance a, the
     cable shortens by 2 r sin(theta/2) + 2 a (1 - cos(theta/2)); the nearer the sites, the nearer
-    to r theta. Where the joint is bent as far as it goes they must not have met.
+    to r theta. Where the joint is bent as far as it goes they must not have met. A cable under
+    tension that is wound by alpha across a joint turns it back by F r^2 alpha/(2 a), as a rod if
+    the sites are a part of the section apart.
     """
+    parts = len(chain.joints) // len(chain.robot.sections)
     found: list[list[Site]] = [[] for _ in chain.links]
     for j, cable in enumerate(chain.cables):
         (radius, _), (angle, _) = cable.route(cable.end_section)
@@ -269,7 +283,10 @@ def _sites(chain: Chain, bends: Sequence[float]) -> list[list[Site]]:
         heights = [(0, 0.0)]
         for k, joint in enumerate(chain.joints):
             if joint.section <= cable.end_section:
-                apart = radius * math.tan(bends[joint.section] / math.sqrt(2.0))
+                if joint.twist:
+                    apart = chain.robot.sections[joint.section].length / parts / 2.0
+                else:
+                    apart = radius * math.tan(bends[joint.section] / math.sqrt(2.0))
                 heights += [(k, joint.height - apart), (k + 1, joint.height + apart)]
         heights.append((heights[-1][0], chain.ends[cable.end_section + 1]))
         for number, (i, height) in enumerate(heights):

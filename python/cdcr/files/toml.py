@@ -9,6 +9,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from cdcr.base.check import nearest
@@ -62,11 +63,17 @@ def _place_and_reason(message: str, text: str) -> str:
     return f"line {line}, column {column}: {twice or reason}"
 
 
-def schema_errors(schema: type[BaseModel], table: Mapping[str, Any], at: str = "") -> list[str]:
+def schema_errors(
+    schema: type[BaseModel],
+    table: Mapping[str, Any],
+    at: str = "",
+    elsewhere: Mapping[str, str] = MappingProxyType({}),
+) -> list[str]:
     """Return a sentence for each key of a table that its schema does not allow.
 
     Every field of the schema says in its description what it must be; the schemas are flat, tables
-    inside tables are checked on their own. `at` is the key path of the table inside the file.
+    inside tables are checked on their own. `at` is the key path of the table inside the file;
+    `elsewhere` says where keys belong that other tables have.
     """
     from pydantic import ValidationError
 
@@ -75,18 +82,21 @@ def schema_errors(schema: type[BaseModel], table: Mapping[str, Any], at: str = "
     except ValidationError as error:
         # A key that may be of several types has an error for each; the first one tells enough.
         first = {str(one["loc"][0]): one for one in reversed(error.errors(include_url=False))}
-        return [_sentence(schema, one, at) for one in reversed(first.values())]
+        return [_sentence(schema, one, at, elsewhere) for one in reversed(first.values())]
     return []
 
 
-def _sentence(schema: type[BaseModel], error: ErrorDetails, at: str) -> str:
+def _sentence(
+    schema: type[BaseModel], error: ErrorDetails, at: str, elsewhere: Mapping[str, str]
+) -> str:
     """Say what one error of pydantic means for the writer of the file."""
     key, *index = error["loc"]
     name = str(key) if str(key).isprintable() else repr(key)
     path = f"{at}.{name}" if at else name
     if error["type"] == "extra_forbidden":
         known = list(schema.model_fields)
-        guess = nearest(str(key), known)
+        home = elsewhere.get(str(key))
+        guess = f" It belongs {home}." if home else nearest(str(key), known)
         return f"{path} is not a known key.{guess} Known keys: {', '.join(known)}"
     requirement = schema.model_fields[str(key)].description
     if error["type"] == "missing":

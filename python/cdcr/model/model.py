@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray, finite
-from cdcr.base.check import one_of, require_kind
+from cdcr.base.check import count, one_of, require_kind
 from cdcr.model.inverse_kinematics import InverseKinematics
 from cdcr.model.modes import Modes
 from cdcr.model.statespace import StateSpaceModel
@@ -120,10 +120,8 @@ class Model(StateSpaceModel):
         return (Model, (self._robot, self._formulation))
 
     def __repr__(self) -> str:
-        return (
-            f"<Model of {self.num_sections} section(s), {self.num_cables} cables, "
-            f"formulation {self._formulation!r}>"
-        )
+        sections, cables = count(self.num_sections, "section"), count(self.num_cables, "cable")
+        return f"<Model of {sections}, {cables}, formulation {self._formulation!r}>"
 
     @overload
     def equilibrium(
@@ -345,15 +343,8 @@ class Model(StateSpaceModel):
         -------
         InverseKinematics
         """
-        return InverseKinematics(
-            *self._inverse_kinematics(
-                p,
-                R,
-                q0,
-                max_theta=max_theta,
-                orientation_weight=orientation_weight,
-                tolerance=tolerance,
-                seeds=seeds,
-                iterations=iterations,
-            )
-        )
+        found = self._inverse_kinematics(
+            p, R, q0, max_theta=max_theta, orientation_weight=orientation_weight,
+            tolerance=tolerance, seeds=seeds, iterations=iterations,
+        )  # fmt: skip
+        return InverseKinematics(*found)

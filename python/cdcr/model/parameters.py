@@ -25,8 +25,10 @@ class ParameterSets:
         self._robot = robot
         self._known: dict[tuple[str, ...], _core.ParameterSet] = {}
 
-    def find(self, model: _core.Model, asked: str | Sequence[str]) -> _core.ParameterSet:
-        """Return the set of these paths of the model.
+    def find(
+        self, model: _core.Model, asked: str | Sequence[str], besides: Sequence[str] = ()
+    ) -> _core.ParameterSet:
+        """Return the set of these paths of the model; a refusal knows what there is besides.
 
         Raises
         ------
@@ -43,18 +45,20 @@ class ParameterSets:
                 )
         found = self._known.get(names)
         if found is None:
-            found = _core.ParameterSet(model, [self._described(name) for name in names])
+            found = _core.ParameterSet(model, [self._described(name, besides) for name in names])
             self._known[names] = found
             while len(self._known) > _KEPT:
                 del self._known[next(iter(self._known))]
         return found
 
-    def _described(self, path: str) -> tuple[str, float, float, Callable[[float], _core.Robot]]:
+    def _described(
+        self, path: str, besides: Sequence[str]
+    ) -> tuple[str, float, float, Callable[[float], _core.Robot]]:
         """Return a parameter as the core takes it: how much is added to all numbers of a path."""
         table = plain_robot(self._robot)
         places = find(table, path)
         if not places:
-            refuse_unknown(path, list(paths(table)))
+            refuse_unknown(path, [*besides, *paths(table)])
         values = [thing[key] for thing, key in places]
         if any(isinstance(value, int) for value in values):
             raise ValueError(f"parameter {path!r} is a whole number, which has no derivative")

@@ -26,6 +26,8 @@ class AnyDynamics:
         The robot.
     wrenches : Wrench or sequence of Wrench, optional
         Constant forces and moments on the backbone.
+    parameters : sequence of str, optional
+        Numbers of the robot, by path, by which derivatives are wanted beside the commands.
 
     Raises
     ------
@@ -33,10 +35,17 @@ class AnyDynamics:
         For a robot without inertia, and wrenches that are none of this robot.
     """
 
-    def __init__(self, model: Model, wrenches: Wrench | Sequence[Wrench] = ()) -> None:
+    def __init__(
+        self,
+        model: Model,
+        wrenches: Wrench | Sequence[Wrench] = (),
+        parameters: Sequence[str] = (),
+    ) -> None:
         require_kind("model", model, Model)
         self.model = model
         self.wrenches = wrenches
+        self.parameters = tuple(parameters)
+        self.num_inputs = model.num_cables + len(self.parameters)
         self._by_tension = np.array([not c.length_driven for c in model.robot.all_cables], bool)
         rest = np.zeros(model.num_coordinates)
         model.derivatives(rest, rest, model.rest_command(), wrenches)  # refuses what it cannot take
@@ -50,10 +59,14 @@ class AnyDynamics:
         return self._sum(of, q, qd, u)[0]
 
     def derivatives(self, q: FloatArray, qd: FloatArray, u: FloatArray) -> tuple[FloatArray, ...]:
-        """Return those of qdd by q, qd (k, d, d) and u (k, d, num_cables)."""
+        """Return those of qdd by q, qd (k, d, d), and by u and parameters (k, d, num_inputs)."""
 
         def of(q: FloatArray, qd: FloatArray, u: FloatArray) -> tuple[FloatArray, ...]:
-            return self.model.derivatives(q, qd, u, self.wrenches)[:3]
+            by_q, by_qd, by_u = self.model.derivatives(q, qd, u, self.wrenches)[:3]
+            if not self.parameters:
+                return by_q, by_qd, by_u
+            by_numbers = self.model.parameter_derivatives(q, qd, u, self.parameters, self.wrenches)
+            return by_q, by_qd, np.concatenate([by_u, by_numbers], axis=-1)
 
         return self._sum(of, q, qd, u)
 
@@ -115,13 +128,13 @@ class Steps:
         return x
 
     def derivatives(self, x: FloatArray, u: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return (states after a period, [A | B]), the latter (k, 2d, 2d + num_cables).
+        """Return (states after a period, [A | B]), the latter (k, 2d, 2d + num_inputs).
 
-        A and B are derivatives by the states and by the commands, of the very steps taken: each
-        stage carries its own along.
+        A and B are derivatives by the states and by the commands (and parameters), of the very
+        steps taken: each stage carries its own along.
         """
         h, d = self._h, x.shape[1] // 2
-        S = np.zeros((len(x), 2 * d, 2 * d + u.shape[1]))
+        S = np.zeros((len(x), 2 * d, 2 * d + self.dynamics.num_inputs))
         S[:, range(2 * d), range(2 * d)] = 1.0
 
         def rate(x: FloatArray, S: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -10,6 +10,7 @@ import numpy as np
 from cdcr import _core
 from cdcr.base.arrays import FloatArray
 from cdcr.base.check import Check, require_kind
+from cdcr.base.rotations import rotation_of
 from cdcr.model.model import Model
 
 
@@ -66,6 +67,7 @@ def check_path(
     max_tension: float = math.inf,
     max_rate: float = math.inf,
     num_samples: int = 201,
+    orientation: bool = False,
 ) -> PathReport:
     """Tell before a run whether a robot can follow a path, and what that takes.
 
@@ -83,6 +85,8 @@ def check_path(
         Largest rate of a tension [N/s].
     num_samples : int, optional
         How many times are looked at.
+    orientation : bool, optional
+        Whether it is of the tip's pose: six values, the position and a rotation vector.
 
     Returns
     -------
@@ -109,14 +113,14 @@ def check_path(
     fastest = check.number("max_rate", max_rate, "a number")
     samples = check.whole("num_samples", num_samples, "a whole number 5 to 1000000", 5, 1000000)
     check.done()
-    if path.size not in (model.num_coordinates, 3):
-        raise ValueError(
-            f"path must have {model.num_coordinates} values, or 3 of the tip, got {path.size}"
-        )
+    size = model.num_coordinates
+    if path.size not in ((6,) if orientation else (size, 3)):
+        wanted = "6 values of the tip's pose" if orientation else f"{size} values, or 3 of the tip"
+        raise ValueError(f"path must have {wanted}, got {path.size}")
     t = np.linspace(path.start, max(path.end, path.start + 1.0), samples)
     values = np.array([path.evaluate(time) for time in t])
     told: list[str] = []
-    if path.size == model.num_coordinates:
+    if path.size == size and not orientation:
         q, qd, qdd = values.transpose(1, 0, 2)
     else:
         q, told = _of_tip(model, t, values[:, 0])
@@ -144,10 +148,11 @@ def _first(t: FloatArray, wrong: FloatArray, sentence: str) -> list[str]:
 
 
 def _of_tip(model: Model, t: FloatArray, places: FloatArray) -> tuple[FloatArray, list[str]]:
-    """Return coordinates for places of the tip, and the first that is out of reach."""
+    """Return coordinates for places of the tip, or its poses, and the first out of reach."""
     q = np.zeros((t.size, model.num_coordinates))
     for i, place in enumerate(places):
-        found = model.inverse_kinematics(place, q0=q[i - 1] if i else None)
+        turned = rotation_of(place[3:]) if place.size == 6 else None
+        found = model.inverse_kinematics(place[:3], turned, q0=q[i - 1] if i else None)
         q[i] = found.q
         if not found.reachable:
             q[i:] = found.q

@@ -47,14 +47,17 @@ def robot_from_table(kind: type[Robot], table: Mapping[str, Any], where: str) ->
     from cdcr.robot.schema import table_of
 
     # mypy asks of a class what it asks of its objects: that they can be hashed.
-    refuse(where, schema_errors(table_of(kind), table))  # type: ignore[arg-type]
+    schema = table_of(kind)  # type: ignore[arg-type]
+    of_section = {one.name: "into a table [[sections]]" for one in fields(Section)}
+    of_robot = {one.name: "above the first [[sections]]" for one in fields(kind)}
+    refuse(where, schema_errors(schema, table, elsewhere=of_section))
     found: list[str] = []
     for i, section in enumerate(table["sections"]):
-        found += _table_errors(Section, section, entry("sections", i))
+        found += _table_errors(Section, section, entry("sections", i), of_robot)
     num_sections = len(table["sections"])
     for j, cable in enumerate(table.get("cables", [])):
         at = entry("cables", j)
-        wrong = _table_errors(Cable, cable, at)
+        wrong = _table_errors(Cable, cable, at, of_robot)
         if not wrong and cable["end_section"] > num_sections:
             requirement = f"the number of a section, 1 to {num_sections}"
             end = format_toml(cable["end_section"])
@@ -82,7 +85,9 @@ def robot_from_table(kind: type[Robot], table: Mapping[str, Any], where: str) ->
     return kind(**robot | described)
 
 
-def _table_errors(kind: type[Section | Cable], table: Any, at: str) -> list[str]:
+def _table_errors(
+    kind: type[Section | Cable], table: Any, at: str, elsewhere: Mapping[str, str]
+) -> list[str]:
     """Return a sentence for each thing that is wrong with the table of a section or a cable."""
     from cdcr.robot.schema import table_of
 
@@ -90,7 +95,7 @@ def _table_errors(kind: type[Section | Cable], table: Any, at: str) -> list[str]
         return [f"{at} must be a table, got {format_toml(table)}"]
     # mypy asks of a class what it asks of its objects: that they can be hashed.
     schema = table_of(kind)  # type: ignore[arg-type]
-    wrong = [f"{at}: {sentence}" for sentence in schema_errors(schema, table)]
+    wrong = [f"{at}: {sentence}" for sentence in schema_errors(schema, table, "", elsewhere)]
     for item in fields(kind):
         wrong += doubled(table, at, item.name)
     return wrong

@@ -6,9 +6,11 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from cdcr import _core
+from cdcr.base.arrays import finite
 from cdcr.base.check import require_kind
 from cdcr.base.keywords import by_keyword
 from cdcr.model.model import Model
@@ -162,14 +164,18 @@ class TaskSpace(_core.TaskSpace):
     """Moves the tip along a reference: inverse of its Jacobian, posture, inverse dynamics.
 
     The inverse is damped, so that motions stay bounded where the tip cannot be moved, as along the
-    straight robot. What the tip leaves free goes to a posture.
+    straight robot. What the tip leaves free goes to a posture. With `orientation_weight` the tip is
+    turned too; where coordinates are too few for both, the weight says what counts how much.
 
     Parameters
     ----------
     model : Model
         The robot that it reckons with.
     kp, kd : float, (3,) or (3, 3) array_like, optional
-        Of the tip's error [1/s^2] and its rate [1/s].
+        Of the tip's error [1/s^2] and its rate [1/s]; with orientation (6,) or (6, 6).
+    orientation_weight : float or (3,) array_like, optional
+        What a radian is worth in metres, about all axes of the tip or about each [m/rad]; without
+        it the tip turns as it likes. Zero lets it turn about that axis.
     posture : (d,) array_like, optional
         Coordinates to be near to; by default the shape at rest.
     posture_kp, posture_kd : float, optional
@@ -187,8 +193,9 @@ class TaskSpace(_core.TaskSpace):
 
     Attributes
     ----------
-    reference : (3,) array
-        Position of the tip in the base frame [m]; that of the shape at rest until set.
+    reference : (3,) or (6,) array
+        Position of the tip in the base frame [m], with orientation its rotation vector after that
+        [rad]; those of the shape at rest until set.
     path, diagnostics
         As in `Pid`.
 
@@ -207,6 +214,15 @@ class TaskSpace(_core.TaskSpace):
     >>> run = cdcr.simulate(model, [0.1] * 6, [0] * 6, t=[0.0, 4.0], controller=controller)
     >>> bool(abs(run.tip[-1] - goal).max() < 1e-4)
     True
+
+    A pose, which three sections just reach:
+
+    >>> R, p = model.tip([0.5, 0.0, 0.2, 0.1, 0.1, 0.3])
+    >>> controller = cdcr.TaskSpace(model, orientation_weight=0.3, damping=1e-3, min_tension=0.5)
+    >>> controller.reference = [*p, *cdcr.rotation_vector(R)]
+    >>> run = cdcr.simulate(model, [0.1] * 6, [0] * 6, t=[0.0, 4.0], controller=controller)
+    >>> bool(abs(run.q[-1] - [0.5, 0.0, 0.2, 0.1, 0.1, 0.3]).max() < 1e-3)
+    True
     """
 
     __slots__ = ()  # a misspelt attribute is an error
@@ -217,6 +233,7 @@ class TaskSpace(_core.TaskSpace):
         *,
         kp: ArrayLike = 100.0,
         kd: ArrayLike = 20.0,
+        orientation_weight: ArrayLike | None = None,
         posture: ArrayLike | None = None,
         posture_kp: float = 25.0,
         posture_kd: float = 10.0,
@@ -231,6 +248,9 @@ class TaskSpace(_core.TaskSpace):
         max_rate: float = math.inf,
     ) -> None:
         numbers = {} if lead is None else {"lead": lead}
+        weight = None
+        if orientation_weight is not None:
+            weight = np.atleast_1d(finite(orientation_weight, "orientation_weight"))
         options = checked(
             {
                 **numbers,
@@ -242,7 +262,11 @@ class TaskSpace(_core.TaskSpace):
                 **_limits(min_tension, max_tension, max_rate),
             },
             gains={"kp": kp, "kd": kd},
-            others={"pretension": pretension, "posture": posture},
+            others={
+                "pretension": pretension,
+                "posture": posture,
+                "orientation_weight": weight,
+            },
             cables=cables,
         )
         require_kind("model", model, Model)

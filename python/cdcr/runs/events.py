@@ -60,6 +60,8 @@ def watched(events: EventFunction | Sequence[EventFunction]) -> list[Watched]:
     TypeError, ValueError
         For what is no function, takes other arguments, or has other attributes.
     """
+    if isinstance(events, tuple) and not events:
+        return []
     check = Check()
     functions = [events] if callable(events) else events
     functions = check.items("events", functions, "a function or a sequence of functions")

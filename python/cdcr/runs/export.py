@@ -73,7 +73,7 @@ def quantities(run: Trajectory) -> list[Quantity]:
             Quantity("command", *_STATE["command"], what, run.command),
             Quantity("cable_energy", (), "J", "energy in the cables' springs", run.cable_energy),
         ]
-    return found
+    return found + [item for items in run.channels.values() for item in items]
 
 
 def _state(run: Trajectory) -> list[Quantity]:
@@ -239,14 +239,19 @@ def _columns(model: Model, name: str, dims: Sequence[str], units: str) -> list[s
     names = column_names(model, name, dims)
     if dims != ("coordinate",):
         return [f"{one} [{units}]" for one in names]
-    units = _STATE[name][1]
-    return [f"{one} [{_of_stretch(units) if _is_stretch(one) else units}]" for one in names]
+    units = units.partition(" or ")[0]
+    stretches = [_is_stretch(one) for one in model.coordinate_names]
+    return [
+        f"{one} [{_of_stretch(units) if stretch else units}]"
+        for one, stretch in zip(names, stretches, strict=True)
+    ]
 
 
 def column_names(model: Model, name: str, dims: Sequence[str]) -> list[str]:
     """Return the names of the numbers of a quantity, such as q1_x, q1_y."""
-    if dims == ("coordinate",):
-        return list(model.coordinate_names) if name == "q" else rate_names(model)
+    if dims == ("coordinate",):  # q, qd, or such as told_q
+        names = rate_names(model) if name.endswith("qd") else list(model.coordinate_names)
+        return [name.rpartition("q")[0] + one for one in names]
     names = [name]
     for dim in dims:
         names = [_column(one, label) for one in names for label in _labels(model)[dim]]

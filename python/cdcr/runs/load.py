@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from cdcr._core import Status
-from cdcr.base.arrays import FloatArray
+from cdcr.base.arrays import FloatArray, read_only
 from cdcr.base.extras import require
 from cdcr.files.new_file import file_path
 from cdcr.files.number_csv import RUN_TIME, number, read_rows
@@ -60,9 +60,18 @@ def _netcdf(file: Path, model: Model | None) -> dict[str, Any]:
             "method": about["method"],
             "stats": make_stats(int(about[name]) for name in STATS),
             "slack_events": [(t, cable - 1, slack) for t, cable, slack in events],
+            "sensitivities": _slopes(found, "dq_d"),
+            "rate_sensitivities": _slopes(found, "dqd_d"),
         }
     except (OSError, KeyError, AttributeError) as error:
         raise ValueError(f"{file} is no run that cdcr has written: {error}") from None
+
+
+def _slopes(found: Any, prefix: str) -> dict[str, FloatArray]:
+    """Return the derivatives (N, d, k) that stand under this prefix and a name."""
+    names = [name for name in found.data_vars if name.startswith(prefix)]
+    rows = {name.removeprefix(prefix): found[name].values for name in names}
+    return {name: read_only(row.reshape(*row.shape[:2], -1)) for name, row in rows.items()}
 
 
 def _model(described: dict[str, Any], formulation: str) -> Model:

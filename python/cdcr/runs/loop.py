@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from os import PathLike
+from pathlib import Path
+from typing import Any, Literal, NamedTuple
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray
@@ -13,8 +15,17 @@ from cdcr.base.keywords import by_keyword
 from cdcr.model.model import Model
 from cdcr.model.wrench import Wrench
 from cdcr.robot.units import ask_about_commands
+from cdcr.runs.loop_channels import loop_channels
 from cdcr.runs.parts import Actuator, Sensor, as_dicts
 from cdcr.runs.trajectory import Trajectory
+
+
+class ToldMotion(NamedTuple):
+    """States over time, as `Trajectory.view` shows them beside a run."""
+
+    t: FloatArray  # (N,) [s]
+    q: FloatArray  # (N, d) [rad]
+    qd: FloatArray  # (N, d) [rad/s]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -27,6 +38,9 @@ class LoopRun:
         The motion; its command is what the cables got.
     asked : (N, num_cables) array
         What the controller asked for [N], [m].
+    reference : (N, r) array
+        What it followed: coordinates [rad] or the position of the tip [m]; no columns of a
+        controller that does not tell.
     told_q, told_qd : (N, d) array
         The state that it was told [rad], [rad/s].
     measurements : tuple of (N, m) array
@@ -50,6 +64,7 @@ class LoopRun:
 
     trajectory: Trajectory
     asked: FloatArray
+    reference: FloatArray
     told_q: FloatArray
     told_qd: FloatArray
     measurements: tuple[FloatArray, ...]
@@ -58,6 +73,41 @@ class LoopRun:
     deviations: dict[str, FloatArray]
     innovation: FloatArray
     measured: FloatArray
+
+    @property
+    def told(self) -> ToldMotion:
+        """What the controller was told: for ``run.trajectory.view(estimate=run.told)``."""
+        return ToldMotion(self.trajectory.t, self.told_q, self.told_qd)
+
+    def save(self, path: str | PathLike[str], *, overwrite: bool = False) -> Path:
+        """Write it to netCDF, CSV or an MCAP log; see `Trajectory.save`.
+
+        Parameters
+        ----------
+        path : path-like
+            The file, ending in ``.nc``, ``.csv`` or ``.mcap``, in a folder that exists.
+        overwrite : bool
+            Whether an existing file may be replaced.
+
+        Returns
+        -------
+        Path
+            The file written.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> from pathlib import Path
+        >>> import cdcr
+        >>> model = cdcr.Model(cdcr.robots.amouri2020())
+        >>> loop = cdcr.Loop(model, cdcr.ComputedTorque(model))
+        >>> loop.reset([0.1, 0.0], [0.0, 0.0])
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     header = loop.run(0.01).save(Path(folder) / "run.csv").read_text().splitlines()[0]
+        >>> "reference_q1_x [rad]" in header, "duration [s]" in header
+        (True, True)
+        """
+        return self.trajectory.save(path, overwrite=overwrite)
 
     def __repr__(self) -> str:
         """Say what a person wants to know first."""
@@ -191,19 +241,24 @@ class Loop(_core.Loop):
         check.done()
         found = self._sampled(duration, every, wrenches)
         names = ("t", "q", "qd", "tension", "command", "method", "status", "message", "stats")
-        run = Trajectory(model=self.model, **{name: found[name] for name in names})
+        own = None if self.estimator is None else list(self.estimator.values)
+        run = Trajectory(
+            model=self.model,
+            channels=loop_channels(self.model, found, own),
+            **{name: found[name] for name in names},
+        )
         ask_about_commands(self.model.robot, found["asked"])
         if throw and not run.success:
             raise RuntimeError(run.message)
         told = found["told_q"], found["told_qd"], tuple(found["told"])
-        own = [] if self.estimator is None else list(self.estimator.values)
         estimated, deviations = (
-            {name: found[table][:, i] for i, name in enumerate(own)}
+            {name: found[table][:, i] for i, name in enumerate(own or ())}
             for table in ("estimated", "deviations")
         )
         return LoopRun(
             run,
             found["asked"],
+            found["reference"],
             *told,
             found["durations"],
             estimated=estimated,

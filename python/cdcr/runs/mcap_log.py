@@ -141,7 +141,11 @@ def _stamp(time: int) -> Json:
 
 def _channels(run: Trajectory, stamps: list[Json]) -> Iterator[Channel]:
     for topic, names in _NUMBERS.items():
-        yield _numbers(run, topic, [item for item in quantities(run) if item.name in names])
+        own = [item for item in quantities(run) if item.name in names]
+        yield _numbers(run, topic, [*own, *run.channels.get(topic, ())])
+    for topic, items in run.channels.items():
+        if topic not in _NUMBERS:
+            yield _numbers(run, topic, list(items))
     model, last = run.model, run.model.num_sections - 1
     ends = [*(model.pose(run.q, i, 1.0) for i in range(last)), model.tip(run.q)]
     frames = [f"section{i + 1}" for i in range(last)] + [TIP]

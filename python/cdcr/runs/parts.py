@@ -5,18 +5,23 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 from cdcr.base.check import Check, one_of, require_kind
 from cdcr.base.keywords import by_keyword
 
 SensorKind = Literal[
-    "coordinates", "rates", "lengths", "tensions", "tip", "orientation", "curvature"
+    "coordinates",
+    "rates",
+    "lengths",
+    "tensions",
+    "tip",
+    "orientation",
+    "curvature",
+    "base_force",
+    "base_moment",
 ]
-KINDS: tuple[SensorKind, ...] = (
-    *("coordinates", "rates", "lengths"),
-    *("tensions", "tip", "orientation", "curvature"),
-)
+KINDS: tuple[SensorKind, ...] = get_args(SensorKind)
 
 
 def as_dicts(name: str, given: object, kind: type[Any]) -> list[dict[str, Any]]:
@@ -136,8 +141,9 @@ class Sensor:
     kind : str
         "coordinates" [rad], "rates" [rad/s], "lengths" of the cables in the robot [m], "tensions"
         at the base [N], "tip", its position in the base frame [m], "orientation" of the tip in the
-        base frame, a rotation vector [rad], or "curvature" of the backbone at places, in the x and
-        y of its frame [1/m].
+        base frame, a rotation vector [rad], "curvature" of the backbone at places, in the x and y
+        of its frame [1/m], or "base_force" [N] and "base_moment" [N m] of the robot on its base, as
+        `Model.base_wrench` has them.
     period, delay : float, optional
         Whole numbers of steps of the loop [s]; 0: each step, at once.
     noise : float, optional

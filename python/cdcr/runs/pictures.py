@@ -126,6 +126,7 @@ class Pictures:
         self,
         *,
         reference: Motion | None = None,
+        estimate: Motion | None = None,
         markers: Any = None,
         speed: float = 1.0,
         port: int = 8080,
@@ -141,6 +142,9 @@ class Pictures:
         ----------
         reference : Trajectory or Reference, optional
             What is shown beside it, faintly, at the same times.
+        estimate : Trajectory, Reference or LoopRun.told, optional
+            What was taken for its state, shown beside it in a colour of its own, with how far it is
+            off.
         markers : optional
             What was measured, shown as points at the same times: a `cdcr.identification.Motion`, a
             pair of times (N,) [s] and positions (N, 3) or (N, k, 3) [m] in the base frame, where
@@ -175,7 +179,7 @@ class Pictures:
         """
         from cdcr import view
 
-        session = self._session(reference, markers, speed)
+        session = self._session(reference, estimate, markers, speed)
         return view.show(session, "run", port=port, browser=browser)
 
     def record(
@@ -183,6 +187,7 @@ class Pictures:
         path: str | PathLike[str],
         *,
         reference: Motion | None = None,
+        estimate: Motion | None = None,
         markers: Any = None,
         speed: float = 1.0,
         overwrite: bool = False,
@@ -195,7 +200,7 @@ class Pictures:
         ----------
         path : path-like
             The file, ending in ``.html``.
-        reference, markers, speed
+        reference, estimate, markers, speed
             As in `view`.
         overwrite : bool, default False
             Whether an existing file may be replaced.
@@ -226,10 +231,12 @@ class Pictures:
         """
         from cdcr import view
 
-        session = self._session(reference, markers, speed)
+        session = self._session(reference, estimate, markers, speed)
         return view.View(session, "run").record(path, overwrite=overwrite)
 
-    def _session(self, reference: Motion | None, markers: Any, speed: float) -> Session:
+    def _session(
+        self, reference: Motion | None, estimate: Motion | None, markers: Any, speed: float
+    ) -> Session:
         from cdcr import view
 
         run = self._run
@@ -238,6 +245,7 @@ class Pictures:
             run.model.formulation,
             run=run,
             reference=reference,
+            estimate=estimate,
             markers=markers,
             speed=speed,
         )

@@ -70,12 +70,15 @@ def asked_of(model: Model, names: str | Sequence[str]) -> Asked:
         For what is no name.
     """
     given = (names,) if isinstance(names, str) else tuple(names)
+    if not given:
+        return Asked(())
     known = [name for name in given if name in (*_START, *_COMMANDS)]
     paths = [name for name in given if name not in known]
     twice = [name for name in given if given.count(name) > 1]
     if twice or all(name in known for name in _COMMANDS):
         told = repr(twice[0]) if twice else "'tension', which is 'command',"
         raise ValueError(f"sensitivities must be named once each, got {told} twice")
-    parameters = model._parameter_sets.find(model, paths) if paths else None
+    besides = (*_START, *_COMMANDS)
+    parameters = model._parameter_sets.find(model, paths, besides) if paths else None
     order = [name for name in (*_START, *_COMMANDS) if name in known]
     return Asked((*order, *paths), parameters)

@@ -225,7 +225,7 @@ def simulate(
         raw.sensitivities.reshape(len(raw.t), 2 * model.num_coordinates, -1) if by.names else None
     )
     on_q, on_qd = ({}, {}) if rows is None else by.split(model, rows)
-    run = Trajectory(
+    run = Trajectory._of_core(
         model=model,
         t=raw.t,
         q=raw.q,

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     import xarray
 
     from cdcr._core import Stats, Status
+    from cdcr.runs.export import Quantity
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -55,10 +56,12 @@ class Trajectory(Pictures, ReadOnlyArrays):
         The events of `simulate`, in the order of time.
     deflection : ndarray, shape (N, num_cables), optional
         Of cables whose friction remembers, against where they stick [m]; files do not keep it.
+    channels : mapping of str to sequence of Quantity, optional
+        What else files of the run tell over time, by topic; `cdcr.Loop.run` gives it.
     sensitivities, rate_sensitivities : mapping of str to (N, d, k) array
         Derivatives of q [rad] and of qd [rad/s] by what `simulate` was asked for: by the name
         given, with k = d columns for "q0" and "qd0", num_cables for "tension", one for a number of
-        the robot, in SI units.
+        the robot, in SI units. netCDF files keep them, CSV files do not.
     """
 
     model: Model
@@ -74,6 +77,7 @@ class Trajectory(Pictures, ReadOnlyArrays):
     slack_events: tuple[SlackEvent, ...] = ()
     events: tuple[EventRecord, ...] = ()
     deflection: FloatArray | None = None
+    channels: Mapping[str, Sequence[Quantity]] = field(default_factory=dict)
     sensitivities: Mapping[str, FloatArray] = field(default_factory=dict)
     rate_sensitivities: Mapping[str, FloatArray] = field(default_factory=dict)
 
@@ -94,6 +98,15 @@ class Trajectory(Pictures, ReadOnlyArrays):
             object.__setattr__(self, "deflection", read_only(np.array(self.deflection)))
         if rows == 0:
             raise ValueError(f"a run must have at least one sample, got none. {self.message}")
+
+    @classmethod
+    def _of_core(cls, **given: Any) -> Trajectory:
+        """Return a run of arrays that the core made, which fit together and are nobody else's."""
+        if len(given["t"]) == 0:
+            return cls(**given)  # refuses it
+        run = cls.__new__(cls)
+        run.__setstate__(given)
+        return run
 
     def __len__(self) -> int:
         """Return the number of samples."""
@@ -227,7 +240,10 @@ class Trajectory(Pictures, ReadOnlyArrays):
         JSON messages with schemas: numbers on ``/state``, ``/tension``, ``/energy``, named as the
         columns of a CSV file, ``/tip_pose`` (foxglove.PoseInFrame), ``/tf``, the ends of all
         sections (foxglove.FrameTransforms), and ``/backbone`` for a 3D panel
-        (foxglove.SceneUpdate). `load` reads the other two.
+        (foxglove.SceneUpdate). `load` reads the other two. A run of a closed loop also tells what
+        the controller asked for, was told and follows, what was measured and estimated, and how
+        long it took: in an MCAP log on ``/tension``, ``/estimate``, ``/reference``, ``/sensors``
+        and ``/timing``.
 
         Parameters
         ----------

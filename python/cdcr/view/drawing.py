@@ -7,15 +7,17 @@ from typing import Any
 import numpy as np
 
 from cdcr.base.arrays import FloatArray
+from cdcr.base.rotations import quaternions
 from cdcr.plotting.geometry import base_frame, base_plate
 from cdcr.plotting.style import BLACK, COLORS, DISK, GREY, LIGHT_GREY
 from cdcr.view.colors import rgb, section_rgb, shaded, tension_colors
 from cdcr.view.live import LiveModel, round_up
-from cdcr.view.placement import OVERLAP, Poses, cylinder, place, quaternion, sizes
+from cdcr.view.placement import OVERLAP, Poses, cylinder, place, sizes
 from cdcr.view.session import TRAIL_POINTS, Moment
 
 LINE, TRAIL_LINE = 2.5, 2.0  # of cables and of the trail [px]
-GHOST = 0.3  # opacity of the reference
+GHOST = 0.3  # opacity of reference and estimate
+GHOSTS = {"reference": GREY, "estimate": COLORS[1]}
 FRAME, ARROW = 0.07, 0.012  # length of axes and width of the arrow over the robot's length
 MARKER = 0.03  # diameter of a measured marker over the robot's length
 BACKGROUND, TRAIL_COLOR, PULL_COLOR = (255, 255, 255), GREY, BLACK
@@ -102,22 +104,16 @@ class Drawing:
                 point_shape="circle",
                 precision="float32",
             )
-        self.ghost: list[Any] = []
-        if moment.reference is not None:
+        self.ghosts: dict[str, list[Any]] = {}
+        for name, q in self._beside(moment):
             faint = {**solid, "opacity": GHOST}
-            there = place(model, moment.reference)
-            self.ghost = [
-                _cylinders(
-                    scene,
-                    "/reference/backbone",
-                    there.backbone,
-                    self.sizes.backbone,
-                    rgb(GREY),
-                    **faint,
-                ),
-                _cylinders(
-                    scene, "/reference/disks", there.disks, self.sizes.disks, rgb(GREY), **faint
-                ),
+            there, tint = place(model, q), rgb(GHOSTS[name])
+            self.ghosts[name] = [
+                _cylinders(scene, f"/{name}/{part}", poses, scales, tint, **faint)
+                for part, poses, scales in (
+                    ("backbone", there.backbone, self.sizes.backbone),
+                    ("disks", there.disks, self.sizes.disks),
+                )
             ]
 
     def update(self, model: LiveModel, moment: Moment, trail: FloatArray) -> None:
@@ -143,10 +139,16 @@ class Drawing:
         self.trail.points = _pieces(trail).astype(np.float32)
         if moment.markers is not None:
             self.markers.points = moment.markers.astype(np.float32)
-        if moment.reference is not None:
-            there = place(model, moment.reference)
-            for handle, poses in zip(self.ghost, (there.backbone, there.disks), strict=True):
+        for name, q in self._beside(moment):
+            there = place(model, q)
+            for handle, poses in zip(self.ghosts[name], (there.backbone, there.disks), strict=True):
                 _move(handle, poses)
+
+    @staticmethod
+    def _beside(moment: Moment) -> list[tuple[str, FloatArray]]:
+        """Return the name and the state of each ghost that a moment has."""
+        both = {"reference": moment.reference, "estimate": moment.estimate}
+        return [(name, q) for name, q in both.items() if q is not None]
 
     def show_pull(self, start: FloatArray | None, end: FloatArray | None = None) -> None:
         """Show an arrow from a point to another (3,) [m], or none."""
@@ -169,7 +171,7 @@ class Drawing:
             cell_color=rgb(LIGHT_GREY),
             section_color=rgb(LIGHT_GREY),
             shadow_opacity=0.0,
-            wxyz=quaternion(orientation),
+            wxyz=quaternions(orientation),
             position=base,
         )
         rim = base_plate(model)
@@ -177,7 +179,7 @@ class Drawing:
         _cylinders(
             scene,
             "/base",
-            Poses(quaternion(orientation)[None], (base - thick / 2 * orientation[:, 2])[None]),
+            Poses(quaternions(orientation)[None], (base - thick / 2 * orientation[:, 2])[None]),
             np.array([[radius, radius, thick]]),
             rgb(GREY),
             cast_shadow=False,

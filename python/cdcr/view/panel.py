@@ -11,7 +11,7 @@ import numpy as np
 
 from cdcr.view.colors import legend
 from cdcr.view.drawing import Drawing
-from cdcr.view.live import round_up
+from cdcr.view.live import LiveModel, round_up
 from cdcr.view.session import Moment, Session
 
 SPEEDS = ("0.1", "0.25", "0.5", "1", "2", "4")
@@ -67,10 +67,8 @@ class Panel:
             words += f", pulled with {force:.3g} N"
         if session.refusal:
             words += f"; {session.refusal}"
-        self._tell(
-            f"<b>t = {moment.time:.2f} s</b> {state}, {html.escape(words)}"
-            f"<br>{pictures:.0f} frames/s"
-        )
+        first = f"<b>t = {moment.time:.2f} s</b> {state}, {html.escape(words)}"
+        self._tell("<br>".join((first, f"{pictures:.0f} frames/s", *errors(session.model, moment))))
         if self._drawing.scale != self._scale and self._drawing.cables is not None:
             self._scale = self._drawing.scale
             self._legend.content = legend(self._scale)
@@ -148,7 +146,7 @@ class Panel:
             "cables": [drawing.cables],
             "frames": [drawing.frames],
             "path of the tip": [drawing.trail],
-            "reference": drawing.ghost,
+            **drawing.ghosts,
             "markers measured": [drawing.markers],
         }
         for name, handles in parts.items():
@@ -200,6 +198,18 @@ class Panel:
         """Bring the sliders of the cables to the commands shown."""
         for slider, value in zip(self.cables, self._session.command, strict=True):
             slider.value = float(np.clip(value, slider.min, slider.max))
+
+
+def errors(model: LiveModel, moment: Moment) -> list[str]:
+    """Return what to say of how far reference and estimate are from the robot that is shown."""
+    beside = {"reference": moment.reference, "estimate": moment.estimate}
+    told = []
+    for name, q in beside.items():
+        if q is not None:
+            off = 1e3 * float(np.linalg.norm(model.tip(q)[1] - model.tip(moment.q)[1]))
+            most = float(np.abs(q - moment.q).max())
+            told.append(f"{name}: tip {off:.2f} mm off, a coordinate {most:.4f} at most")
+    return told
 
 
 def _within_range(control: Any) -> Any:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cdcr.base.arrays import FloatArray
+from cdcr.base.rotations import quaternions
 from cdcr.plotting.geometry import PIECES, RobotShape, base_frame, robot_shape, twists
 from cdcr.view.live import LiveModel
 
@@ -102,7 +103,7 @@ def place(model: LiveModel, q: FloatArray) -> Placement:
         _disks(shape.disks),
         _marks(shape),
         np.concatenate(pieces) if pieces else np.zeros((0, 2, 3)),
-        Poses(np.array([quaternion(R) for R, _ in frames]), np.array([p for _, p in frames])),
+        Poses(quaternions(np.array([R for R, _ in frames])), np.array([p for _, p in frames])),
         np.array(shape.tool).reshape(-1, 2, 3),
         frames[-1][1],
     )
@@ -135,22 +136,6 @@ def along(directions: FloatArray) -> FloatArray:
     turned = np.stack([1.0 + z, -y, x, np.zeros_like(z)], axis=1)
     turned[z < -1.0 + 1e-12] = (0.0, 1.0, 0.0, 0.0)  # straight back: about x
     return np.asarray(turned / np.linalg.norm(turned, axis=1, keepdims=True))
-
-
-def quaternion(R: FloatArray) -> FloatArray:
-    """Return the quaternion (4,) of a rotation matrix, w first."""
-    # Four times the products of its components; the row of the largest has no cancellation.
-    products = np.array(
-        [
-            [1 + np.trace(R), R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]],
-            [0, 1 + R[0, 0] - R[1, 1] - R[2, 2], R[0, 1] + R[1, 0], R[0, 2] + R[2, 0]],
-            [0, 0, 1 - R[0, 0] + R[1, 1] - R[2, 2], R[1, 2] + R[2, 1]],
-            [0, 0, 0, 1 - R[0, 0] - R[1, 1] + R[2, 2]],
-        ]
-    )
-    products = np.triu(products) + np.triu(products, 1).T
-    row = products[np.argmax(np.diag(products))]
-    return np.asarray(row / np.linalg.norm(row))
 
 
 def cylinder() -> tuple[FloatArray, NDArray[np.uint32]]:

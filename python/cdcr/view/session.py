@@ -33,6 +33,7 @@ class Moment(NamedTuple):
     q: FloatArray  # (d,)
     tension: FloatArray  # (num_cables,) [N]
     reference: FloatArray | None = None  # (d,)
+    estimate: FloatArray | None = None  # (d,)
     markers: FloatArray | None = None  # (k, 3) [m]
 
 
@@ -49,6 +50,8 @@ class Session:
         The run to play; without one the robot is simulated.
     reference : Trajectory or Reference, optional
         What is shown beside it: anything with times `t`, states `q` and rates `qd`.
+    estimate : Trajectory, Reference or LoopRun.told, optional
+        What was taken for its state, likewise.
     markers : optional
         What was measured, shown beside it; as `Markers` takes it.
     speed : float, default 1
@@ -62,32 +65,39 @@ class Session:
         *,
         run: Trajectory | None = None,
         reference: Motion | None = None,
+        estimate: Motion | None = None,
         markers: Any = None,
         speed: float = 1.0,
     ) -> None:
         check = Check()
         self.speed = check.number("speed", speed, "a number > 0 and finite", above=0.0)
         check.done()
-        self.run, self.reference = run, reference
+        self.run, self.reference, self.estimate = run, reference, estimate
         self.markers = None if markers is None else Markers(markers)
         self.playing, self.time = True, 0.0 if run is None else float(run.t[0])
         self.refusal = ""  # of what was asked last
         self._robot, self._formulation = robot, formulation
         self._still = LiveModel(robot, formulation)
-        size = self._still.num_coordinates
-        moves = all(hasattr(reference, name) for name in ("t", "q", "qd"))
-        if reference is not None and not moves:
-            got = format_value(reference)
-            raise TypeError(f"reference must be a cdcr.Trajectory or a cdcr.Reference, got {got}")
-        if reference is not None and reference.q.shape[1] != size:
-            raise ValueError(
-                f"reference must be of a robot of {count(size, 'coordinate')}, got one of "
-                f"{reference.q.shape[1]}"
-            )
+        self._require_motion("reference", reference)
+        self._require_motion("estimate", estimate)
         self._kept: deque[Moment] = deque()
         self.live: LiveRobot | None = None
         if run is None:
             self.restart()
+
+    def _require_motion(self, name: str, motion: Motion | None) -> None:
+        """Refuse what is no motion of this robot."""
+        if motion is None:
+            return
+        if not all(hasattr(motion, part) for part in ("t", "q", "qd")):
+            got = format_value(motion)
+            raise TypeError(f"{name} must be a cdcr.Trajectory or a cdcr.Reference, got {got}")
+        size = self._still.num_coordinates
+        if motion.q.shape[1] != size:
+            raise ValueError(
+                f"{name} must be of a robot of {count(size, 'coordinate')}, got one of "
+                f"{motion.q.shape[1]}"
+            )
 
     @property
     def model(self) -> LiveModel:
@@ -304,15 +314,17 @@ class Session:
         assert self.run is not None
         return max(0, int(np.searchsorted(self.run.t, time, side="right")) - 1)
 
-    def _beside(self, time: float) -> tuple[FloatArray | None, FloatArray | None]:
-        """Return reference and markers at a time."""
-        return self._reference(time), None if self.markers is None else self.markers.at(time)
+    def _beside(self, time: float) -> tuple[FloatArray | None, ...]:
+        """Return reference, estimate and markers at a time."""
+        markers = None if self.markers is None else self.markers.at(time)
+        return _state(self.reference, time), _state(self.estimate, time), markers
 
-    def _reference(self, time: float) -> FloatArray | None:
-        if self.reference is None:
-            return None
-        t = self.reference.t
-        return np.asarray(states_at(self.reference, np.array([np.clip(time, t[0], t[-1])]))[0])
+
+def _state(motion: Motion | None, time: float) -> FloatArray | None:
+    """Return q (d,) at a time, that of the nearer end before and after."""
+    if motion is None:
+        return None
+    return np.asarray(states_at(motion, np.clip([time], motion.t[0], motion.t[-1]))[0])
 
 
 def _rates_at(run: Trajectory, time: float) -> FloatArray:

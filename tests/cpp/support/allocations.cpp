@@ -22,7 +22,7 @@ void cdcr::test::fail_allocation(long n) noexcept {
   failing = count + n;
 }
 
-#if !CDCR_ADDRESS_SANITIZER && defined(__GLIBC__)
+#if !CDCR_ADDRESS_SANITIZER && !CDCR_THREAD_SANITIZER && defined(__GLIBC__)
 
 // The allocator behind the names taken over here. operator new ends in malloc.
 extern "C" {

@@ -1,13 +1,14 @@
 #pragma once
 
 // Counts this thread's heap allocations, C and C++ alike, by standing in for malloc and its kin.
-// Under AddressSanitizer, which does the same, counting is off and the counts stay zero.
+// Under AddressSanitizer and ThreadSanitizer, which do the same, counting is off and the counts
+// stay zero.
 
 #include "sanitizers.hpp"
 
 namespace cdcr::test {
 
-#if CDCR_ADDRESS_SANITIZER || !defined(__GLIBC__)
+#if CDCR_ADDRESS_SANITIZER || CDCR_THREAD_SANITIZER || !defined(__GLIBC__)
 inline constexpr bool allocations_counted = false;
 #else
 inline constexpr bool allocations_counted = true;

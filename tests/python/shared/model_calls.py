@@ -23,5 +23,6 @@ OF_Q: dict[str, Callable[[cdcr.Model, Any], Any]] = {
     "kinetic_energy": lambda m, q: m.kinetic_energy(q, QD),
     "forward_dynamics": lambda m, q: m.forward_dynamics(q, QD, TENSION),
     "inverse_dynamics": lambda m, q: m.inverse_dynamics(q, QD, QDD),
+    "base_wrench": lambda m, q: m.base_wrench(q, QD, QDD),
     "linearize": lambda m, q: m.linearize(q, QD, TENSION),
 }

@@ -6,6 +6,7 @@ from typing import Any, Literal
 
 from pydantic import BaseModel
 
+from cdcr.runs.parts import KINDS, SensorKind
 from cdcr.scenarios.file.schema import STRICT, Finite, needed, optional
 
 
@@ -133,10 +134,14 @@ class TaskSpaceTable(_ControllerTable):
         "a number >= 0 [1/s]", "gain of its rate", ge=0.0, allow_inf_nan=False
     )
     tip: list[Finite] = optional(
-        "three numbers [m]",
-        "position to reach and hold, in the base frame",
+        "three numbers [m], or six, with a rotation vector [rad], of orientation_weight",
+        "position or pose to reach and hold, in the base frame",
         min_length=3,
-        max_length=3,
+        max_length=6,
+    )
+    orientation_weight: float | list[float] = optional(
+        "a number >= 0 [m/rad], or three of the axes of the tip",
+        "what a radian is worth in metres; without it the tip turns as it likes",
     )
 
 
@@ -202,7 +207,7 @@ class FileMotion(BaseModel):
     shape: Literal["file"] = needed('"file"', "kind of motion")
     file: str = needed(
         "the name of a CSV file with the columns t, then the names of the coordinates, or x, y, z "
-        "of the tip",
+        "of the tip, and rx, ry, rz where it is turned",
         "points that it goes through, from rest to rest; found from the folder of this file",
     )
 
@@ -238,17 +243,15 @@ class ActuatorTable(BaseModel):
     )
 
 
+_SEVERAL = '", "'.join(KINDS[:-1])
+
+
 class SensorTable(BaseModel):
     """One table [[loop.sensors]]."""
 
     model_config = STRICT
 
-    kind: Literal[
-        "coordinates", "rates", "lengths", "tensions", "tip", "orientation", "curvature"
-    ] = needed(
-        '"coordinates", "rates", "lengths", "tensions", "tip", "orientation" or "curvature"',
-        "what it measures",
-    )
+    kind: SensorKind = needed(f'"{_SEVERAL}" or "{KINDS[-1]}"', "what it measures")
     period: float = optional("a number >= 0 [s]", "a whole number of steps", ge=0.0)
     delay: float = optional("a number >= 0 [s]", "a whole number of steps", ge=0.0)
     noise: float = optional("a number >= 0", "standard deviation", ge=0.0, allow_inf_nan=False)

@@ -21,9 +21,11 @@ import numpy as np
 
 from cdcr._core import ReferencePath, TrackingController
 from cdcr.base.arrays import FloatArray
+from cdcr.base.rotations import rotation_of, rotation_vector
 from cdcr.control import lqr
 from cdcr.files.toml import refuse, schema_errors
 from cdcr.model.model import Model
+from cdcr.motion.reference import Reference
 from cdcr.runs.controllers import ComputedTorque, StateFeedback, TaskSpace
 from cdcr.runs.pid import Pid
 from cdcr.runs.trajectory import Trajectory
@@ -72,11 +74,22 @@ class ControlLoop:
         """Whether it moves the tip."""
         return self.kind == "task-space"
 
+    def reference(self, t: FloatArray) -> Reference | None:
+        """Return the motion asked for at times (N,) [s]; none where it is of the tip."""
+        if self.of_tip:
+            return None
+        return Reference(t, *np.array([self.path.evaluate(time) for time in t]).transpose(1, 0, 2))
+
     def errors(self, run: Trajectory) -> FloatArray:
-        """Return the distance from the path at each sample [rad], [m]."""
+        """Return the distance from the path at each sample [rad], of the tip's place [m]."""
         wanted = np.array([self.path.evaluate(t)[0] for t in run.t])
         reached = run.tip if self.of_tip else run.q
-        return np.asarray(np.linalg.norm(reached - wanted, axis=1))
+        return np.asarray(np.linalg.norm(reached - wanted[:, : reached.shape[1]], axis=1))
+
+    def _turn(self, run: Trajectory) -> float:
+        """Return the angle between the tip at the end and a pose asked for [rad]."""
+        wanted = rotation_of(self.path.evaluate(run.t[-1])[0][3:])
+        return float(np.linalg.norm(rotation_vector(run.model.tip(run.q[-1])[0].T @ wanted)))
 
     def summarize(self, scenario: Scenario, run: Trajectory) -> tuple[Metric, ...]:
         """Return what every run shows, how near the loop comes, and how hard it pulls."""
@@ -89,6 +102,9 @@ class ControlLoop:
             if self.of_tip
             else Metric("error_end_deg", "error at the end", float(np.rad2deg(error[-1])), "deg"),
         ]
+        if self.of_tip and self.path.size == 6:
+            turn = float(np.rad2deg(self._turn(run)))
+            found.append(Metric("turn_end_deg", "error of the tip's turn at the end", turn, "deg"))
         if moves:
             root = float(np.sqrt(np.mean(error**2)) * scale)
             largest = float(error.max() * scale)
@@ -157,10 +173,19 @@ def _path(table: dict[str, Any], model: Model, file: Path) -> ReferencePath:
 
     of_tip = table["type"] == "task-space"
     if "motion" in table:
-        names = ("x", "y", "z") if of_tip else tuple(model.coordinate_names)
+        names = tuple(model.coordinate_names)
+        if of_tip:
+            names = ("x", "y", "z", *(("rx", "ry", "rz") if "orientation_weight" in table else ()))
         return read_path(table["motion"], names, file)
     if of_tip:
-        return ReferencePath.constant(table.get("tip", TaskSpace(model).reference))
+        weight = table.get("orientation_weight")
+        with values.error_prefix(f"{file}, [{AT}]"):
+            rest = TaskSpace(model, orientation_weight=weight).reference
+        given = table.get("tip", rest)
+        if len(given) != len(rest):
+            told = "six numbers with orientation_weight" if weight is not None else "three numbers"
+            refuse(str(file), [f"{AT}.tip must be {told}, got {len(given)}"])
+        return ReferencePath.constant(given)
     reference, at = table.get("reference", {}), f"{AT}.reference"
     found = [*schema_errors(ReferenceTable, reference, at), *values.rival_errors(reference, at)]
     refuse(str(file), found)

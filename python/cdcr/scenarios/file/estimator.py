@@ -9,8 +9,10 @@ from typing import Any
 from cdcr._core import Estimator
 from cdcr.model.model import Model
 from cdcr.runs.estimators import ExtendedKalman, MomentumObserver, UnscentedKalman
+from cdcr.runs.parameters import Variation
 from cdcr.runs.parts import Actuator, Sensor
 from cdcr.scenarios.file.trajectory import kind_errors
+from cdcr.scenarios.file.values import error_prefix
 
 _FILTERS = {"extended-kalman": ExtendedKalman, "unscented-kalman": UnscentedKalman}
 
@@ -30,11 +32,23 @@ class EstimatorMaker:
         options = dict(self.options)
         if options.pop("actuators"):
             options["actuators"] = actuators
+        if "variants" in options:
+            options["variants"] = [
+                _variant(model, one, f"variants[{i}]") for i, one in enumerate(options["variants"])
+            ]
         if self.kind in _FILTERS:
             made: Estimator = _FILTERS[self.kind](model, sensors=sensors, **options)
             return made
         states = None if self.states is None else self.states(model, sensors, actuators)
         return MomentumObserver(model, states=states, **options)
+
+
+def _variant(model: Model, numbers: dict[str, float], at: str) -> Model:
+    """Return the model of a robot with other numbers at some paths."""
+    if not numbers:
+        raise ValueError(f"{at} must have a number of the robot")
+    with error_prefix(at):
+        return Variation(model, {path: [value] for path, value in numbers.items()}).model_of(0)
 
 
 def read_estimator(table: dict[str, Any], model: Model, step: float, at: str) -> EstimatorMaker:

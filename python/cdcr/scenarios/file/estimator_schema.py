@@ -56,6 +56,17 @@ class KalmanTable(_EstimatorTable):
     force_deviation: float = optional(
         "a number >= 0 [N]", "standard deviation of the force", ge=0.0, allow_inf_nan=False
     )
+    variants: list[dict[str, Finite]] = optional(
+        'an array of tables, such as {payload = 0.05} or {"sections.1.youngs_modulus" = 1e11}',
+        "robots with other numbers; of each the share of that difference is estimated",
+        min_length=1,
+    )
+    share_noise: float = optional(
+        "a number >= 0 [1/s^0.5]", "of a share's random walk", ge=0.0, allow_inf_nan=False
+    )
+    share_deviation: float = optional(
+        "a number >= 0", "standard deviation of a share", ge=0.0, allow_inf_nan=False
+    )
 
 
 class ObserverTable(_EstimatorTable):

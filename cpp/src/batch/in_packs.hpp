@@ -1,0 +1,62 @@
+#pragma once
+
+#include <algorithm>
+#include <initializer_list>
+#include <vector>
+
+#include "batch/lanes.hpp"
+#include "batch/pack.hpp"
+#include "cdcr/batch.hpp"
+
+namespace cdcr::detail {
+
+/// An argument of many states, or an answer, of so many numbers each.
+struct Argument {
+  StateRows rows;
+  Index size;
+};
+struct Answer {
+  double* data;  // null: not wanted
+  Index size;
+};
+
+/// f(in, out) of packs of states in registers of W: all arguments of a pack one after another, and
+/// room for its answers likewise.
+template <int W, class P, class F>
+void in_packs(Index count, std::initializer_list<Argument> arguments,
+              std::initializer_list<Answer> answers, const F& f) {
+  Index num_in = 0, num_out = 0;
+  for (const Argument& argument : arguments) num_in += argument.size;
+  for (const Answer& answer : answers) num_out += answer.size;
+  std::vector<P> room(static_cast<std::size_t>(num_in + num_out));
+  P *in = room.data(), *out = in + num_in;
+  in_lanes_of(std::integral_constant<int, W>(), [&](auto /*width*/) {
+    for (Index first = 0; first < count; first += P::size) {
+      P* to = in;
+      for (const Argument& argument : arguments) {
+        for (int lane = 0; lane < P::size; ++lane) {  // the last again where there are too few
+          const Index state = std::min(first + lane, count - 1);
+          const double* from = argument.rows.data + state * argument.rows.apart;
+          for (Index i = 0; i < argument.size; ++i) set_lane(to[i], lane, from[i]);
+        }
+        to += argument.size;
+      }
+      f(static_cast<const P*>(in), out);
+      const P* from = out;
+      for (const Answer& answer : answers) {
+        for (int lane = 0; answer.data && lane < P::size && first + lane < count; ++lane) {
+          double* row = answer.data + (first + lane) * answer.size;
+          for (Index i = 0; i < answer.size; ++i) row[i] = get_lane(from[i], lane);
+        }
+        from += answer.size;
+      }
+    }
+  });
+}
+
+/// The vector of one state.
+[[nodiscard]] inline Eigen::Map<const VectorXd> row(const StateRows& rows, Index i, Index size) {
+  return {rows.data + i * rows.apart, size};
+}
+
+}  // namespace cdcr::detail
