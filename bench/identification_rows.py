@@ -31,7 +31,7 @@ def robot(stiffer: float) -> cdcr.Robot:
     """Return three damped sections that hang and carry a load."""
     known = cdcr.robots.three_sections(gravity=(0.0, 0.0, 9.81), payload=0.01 * stiffer)
     sections = tuple(
-        replace(one, damping=3e-3 * stiffer, youngs_modulus=stiffer * one.youngs_modulus)
+        replace(one, damping=1e-2 * stiffer, youngs_modulus=stiffer * one.youngs_modulus)
         for one in known.sections
     )
     return replace(known, sections=sections)
@@ -52,7 +52,7 @@ def measured(seconds: float) -> tuple[Poses, Motion]:
     poses = Poses(pulls, tip=seen(model.tips(shapes), draw), noise=NOISE)
     t = np.arange(0.0, seconds + 0.5 / RATE, 1.0 / RATE)
     swings = np.sin(2.0 * np.pi * np.outer(t, draw.uniform(0.1, 1.0, 9)) + np.arange(9.0))
-    told = 2.0 + 2.0 * swings
+    told = 1.0 + swings
     run = cdcr.simulate(model, model.equilibrium(told[0]), np.zeros(6), t=t, command=(t, told))
     return poses, Motion(t, told, tip=seen(run.tip, draw), noise=NOISE)
 

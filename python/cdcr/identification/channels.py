@@ -54,9 +54,9 @@ def row_of(name: str) -> Where:
 
 
 def column_name(item: str, k: int) -> str:
-    """Name a column: 'tip x', 'marker 1 y', 'cable 2' of commands, 'tension 3'."""
-    if item == "tip" or item.startswith("marker"):
-        return f"{item} {'xyz'[k]}"
+    """Name a column: 'tip x', 'marker 1 y', 'base force z', 'cable 2' of commands, 'tension 3'."""
+    if item in ("tip", "base_force", "base_moment") or item.startswith("marker"):
+        return f"{item.replace('_', ' ')} {'xyz'[k]}"
     return f"{'cable' if item == 'command' else item} {k + 1}"
 
 

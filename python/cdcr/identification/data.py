@@ -30,7 +30,10 @@ if TYPE_CHECKING:
 
 Wrenches = Wrench | Sequence[Wrench]
 Noise = Mapping[str, float] | float | None
-_UNITS = {"tip": "m", "tension": "N", "length": "m", "q": "rad"}
+MEASURED = {  # what may be measured beside markers, and its unit
+    "tip": "m", "tension": "N", "length": "m", "q": "rad", "base_force": "N", "base_moment": "N m",
+}  # fmt: skip
+_OF_AXES = ("tip", "base_force", "base_moment")
 
 
 class UnsolvedError(Exception):
@@ -112,9 +115,9 @@ def channels_of(
     for name, value in given.items():
         if value is None:
             continue
-        wide = 3 if name == "tip" else None
+        wide = 3 if name in _OF_AXES else None
         array = measured(name, value, (rows, wide), where, gaps=gaps)
-        found.append((name, _UNITS[name], array))
+        found.append((name, MEASURED[name], array))
     for i, value in enumerate(markers.values()):
         array = measured(f"marker {i + 1}", value, (rows, 3), where, gaps=gaps)
         found.append((f"marker {i + 1}", "m", array))
@@ -146,7 +149,7 @@ def check_channels(data: Data, command: FloatArray, robot: Robot, where: Where) 
             ask_about_places(channel.values, robot, where, channel.name)
         elif channel.name == "q":
             ask_about_shapes(channel.values, where)
-        else:
+        elif channel.name in sizes:
             ask_about_cables(channel, command, robot, where)
 
 
@@ -157,10 +160,16 @@ def answers_of(
     q: FloatArray,
     command: FloatArray,
     tension: FloatArray | None = None,
+    qd: FloatArray | None = None,
+    wrenches: Wrenches = (),
 ) -> list[FloatArray]:
-    """Return what channels of poses or of a motion would show at shapes q (N, 2n)."""
+    """Return what channels of poses or of a motion would show at shapes q (N, 2n).
+
+    Without rates the robot is at rest.
+    """
     model = setup.model
     found: list[FloatArray] = []
+    on_base: FloatArray | None = None
     for channel in channels:
         if channel.name == "tip":
             found.append(model.tips(q))
@@ -171,10 +180,29 @@ def answers_of(
         elif channel.name == "tension":
             still = np.zeros_like(q)
             found.append(model.cable_tensions(q, still, command) if tension is None else tension)
+        elif channel.name in ("base_force", "base_moment"):
+            if on_base is None:
+                on_base = _on_base(model, q, qd, command, wrenches)
+            found.append(on_base[:, :3] if channel.name == "base_force" else on_base[:, 3:])
         else:
             place = places[int(channel.name.rpartition(" ")[2]) - 1]
             found.append(setup.marker(q, place))
     return found
+
+
+def _on_base(
+    model: Model, q: FloatArray, qd: FloatArray | None, command: FloatArray, wrenches: Wrenches
+) -> FloatArray:
+    """Return force and moment of the robot on its base (N, 6) [N], [N m]."""
+    if qd is None:
+        return model.base_wrench(q, np.zeros_like(q), np.zeros_like(q), wrenches)
+    if model.num_deflections > 0 or model.has_backlash:
+        raise UnsolvedError(
+            "what a moving robot does to its base is not known where friction or play remembers: "
+            "presliding_stiffness and backlash must be 0"
+        )
+    qdd = model.forward_dynamics(q, qd, command, wrenches)
+    return model.base_wrench(q, qd, qdd, wrenches)
 
 
 def markers_of(markers: Mapping[Place, ArrayLike] | None) -> dict[Place, ArrayLike]:

@@ -27,6 +27,8 @@ _UNITS = {
     "m": ("m", 1.0),
     "mm": ("m", 1e-3),
     "cm": ("m", 1e-2),
+    "N m": ("N m", 1.0),
+    "N mm": ("N m", 1e-3),
     "N": ("N", 1.0),
     "mN": ("N", 1e-3),
     "rad": ("rad", 1.0),
@@ -154,6 +156,7 @@ class Table:
                 )
             if not _OF_A_RUN.fullmatch(name):
                 known = ["t", "cable 1", "pull 1", "tip x", "marker 1 x", "tension 1", "length 1"]
+                known += ["base force x", "base moment x"]
                 raise ValueError(
                     f"{self.file}, line 1: there is no channel {self._header[name]!r}."
                     f"{nearest(name, known)} Known: {', '.join(known)}, q1 x"
@@ -223,6 +226,8 @@ def _measured(
         "tip": ([f"tip {axis}" for axis in "xyz"], "m"),
         "tension": ([f"tension {j}" for j in cables], "N"),
         "length": ([f"length {j}" for j in cables], "m"),
+        "base_force": ([f"base force {axis}" for axis in "xyz"], "N"),
+        "base_moment": ([f"base moment {axis}" for axis in "xyz"], "N m"),
     }
     for name, (labels, unit) in names.items():
         given[name] = table.take(labels, [unit])

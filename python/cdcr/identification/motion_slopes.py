@@ -65,7 +65,11 @@ def motion_slopes(
             qd = state.qd + share * side.width * on_qd
             command = _commands(motion, there, state, rows, setup)
             tension = there.model.cable_tensions(q, qd, command) if tense else None
-            ends.append(answers_of(there, motion.channels, motion.places, q, command, tension))
+            ends.append(
+                answers_of(
+                    there, motion.channels, motion.places, q, command, tension, qd, motion.wrenches
+                )
+            )
         found.append([(a - b) / side.width for a, b in zip(*ends, strict=True)])
     return [np.stack(columns, axis=-1) for columns in zip(*found, strict=True)]
 

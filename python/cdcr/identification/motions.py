@@ -22,6 +22,7 @@ from cdcr.identification.channels import (
     row_of,
 )
 from cdcr.identification.data import (
+    MEASURED,
     Data,
     Noise,
     Side,
@@ -65,7 +66,7 @@ class Motion(Data):
         Times, increasing [s].
     command : (N, num_cables) or (num_cables,) array_like
         Tensions [N], or lengths [m], at these times, or all the time.
-    tip, markers, tension, length, q, pulled, wrenches, noise, gaps, name
+    tip, markers, tension, length, q, base_force, base_moment, pulled, wrenches, noise, gaps, name
         As in `Poses`; tensions are those at the base.
     start : optional
         How the motion begins: None at rest under the first command; (num_cables,) numbers at rest
@@ -101,6 +102,8 @@ class Motion(Data):
     tension: ArrayLike | None = None
     length: ArrayLike | None = None
     q: ArrayLike | None = None
+    base_force: ArrayLike | None = None
+    base_moment: ArrayLike | None = None
     start: Any = None
     pulled: bool = False
     wrenches: Wrenches = ()
@@ -137,7 +140,7 @@ class Motion(Data):
             given_command = np.tile(given_command, (len(t), 1))
         command = measured("command", given_command, (len(t), None), where)
         markers = markers_of(self.markers)
-        given = {name: getattr(self, name) for name in ("tip", "tension", "length", "q")}
+        given = {name: getattr(self, name) for name in MEASURED}
         channels = channels_of(given, markers, len(t), self.noise, where, gaps=self.gaps == "skip")
         plain = {"t": t, "command": command, "markers": markers, "channels": channels}
         for name, value in plain.items():
@@ -185,7 +188,7 @@ class Motion(Data):
         """
         t = cast("FloatArray", self.t)
         count = int(np.searchsorted(t, t[0] + time, side="right"))
-        names = ("t", "command", "tip", "tension", "length", "q")
+        names = ("t", "command", *MEASURED)
         given: dict[str, Any] = {
             name: None if getattr(self, name) is None else np.asarray(getattr(self, name))[:count]
             for name in names
@@ -273,7 +276,10 @@ class Motion(Data):
 
     def _answers(self, setup: Setup, state: Samples) -> list[FloatArray]:
         """Return what the model says, an array for each channel."""
-        return answers_of(setup, self.channels, self.places, state.q, state.command, state.tension)
+        return answers_of(
+            setup, self.channels, self.places, state.q, state.command, state.tension, state.qd,
+            self.wrenches,
+        )  # fmt: skip
 
     def _slopes(self, setup: Setup, state: Samples, sides: Sequence[Side]) -> list[FloatArray]:
         """Return the derivatives of the answers, from one run with its sensitivities.
@@ -299,8 +305,6 @@ class Motion(Data):
             array: FloatArray = np.where(keep[:, None], np.asarray(value, float), np.nan)
             return array
 
-        given: dict[str, Any] = {
-            name: part(getattr(self, name)) for name in ("tip", "tension", "length", "q")
-        }
+        given: dict[str, Any] = {name: part(getattr(self, name)) for name in MEASURED}
         given["markers"] = {place: part(one) for place, one in (self.markers or {}).items()}
         return replace(self, **given, gaps="skip")

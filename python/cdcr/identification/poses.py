@@ -13,6 +13,7 @@ from cdcr.base.arrays import FloatArray
 from cdcr.base.check import one_of
 from cdcr.identification.channels import Channel, Where, check_commands, measured, row_of
 from cdcr.identification.data import (
+    MEASURED,
     Noise,
     Side,
     Wrenches,
@@ -50,6 +51,9 @@ class Poses(AtRest):
         Measured tensions [N] and lengths [m] of the cables.
     q : (N, 2n) array_like, optional
         Measured bending vectors [rad].
+    base_force, base_moment : (N, 3) array_like, optional
+        What the robot does to its base [N], [N m], about where that is and in its frame; the
+        drives of its cables stand on it.
     pulled : bool, default False
         Whether commands to cables driven by length say what these are pulled by [m], from where
         the robot is straight.
@@ -88,6 +92,8 @@ class Poses(AtRest):
     tension: ArrayLike | None = None
     length: ArrayLike | None = None
     q: ArrayLike | None = None
+    base_force: ArrayLike | None = None
+    base_moment: ArrayLike | None = None
     pulled: bool = False
     wrenches: Wrenches = ()
     history: bool = False
@@ -104,7 +110,7 @@ class Poses(AtRest):
             raise ValueError(f"gaps must be 'refuse' or 'skip', got {self.gaps!r}")
         command = measured("command", self.command, (None, None), self._named)
         markers = markers_of(self.markers)
-        given = {name: getattr(self, name) for name in ("tip", "tension", "length", "q")}
+        given = {name: getattr(self, name) for name in MEASURED}
         channels = channels_of(
             given, markers, len(command), self.noise, self._named, gaps=self.gaps == "skip"
         )
@@ -118,7 +124,8 @@ class Poses(AtRest):
 
         Columns are ``cable 1 [N]`` and so on (``[m]`` for lengths, ``pull 1 [m]`` for what cables
         driven by length are pulled by), ``tip x [m]``, ``marker 1 x [m]``, ``tension 1 [N]``,
-        ``length 1 [m]``, ``q1 x [rad]``; mm, deg and ms are read too.
+        ``length 1 [m]``, ``q1 x [rad]``, ``base force x [N]``, ``base moment x [N m]``; mm, deg
+        and ms are read too.
 
         Parameters
         ----------
@@ -165,7 +172,9 @@ class Poses(AtRest):
 
     def _at(self, setup: Setup, q: FloatArray) -> list[FloatArray]:
         """Return what the model says at shapes q (N, 2n)."""
-        return answers_of(setup, self.channels, self.places, q, self._told(setup))
+        return answers_of(
+            setup, self.channels, self.places, q, self._told(setup), wrenches=self.wrenches
+        )
 
     def _solve(self, setup: Setup, near: Any) -> FloatArray:
         """Return shapes (N, 2n) at rest."""
@@ -186,7 +195,7 @@ class Poses(AtRest):
         pick = np.flatnonzero(chosen)
         given: dict[str, Any] = {
             name: None if getattr(self, name) is None else np.asarray(getattr(self, name))[pick]
-            for name in ("tip", "tension", "length", "q", "command")
+            for name in (*MEASURED, "command")
         }
         given["markers"] = {
             place: np.asarray(one)[pick] for place, one in (self.markers or {}).items()
