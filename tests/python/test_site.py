@@ -125,6 +125,13 @@ def test_every_header_is_in_the_reference() -> None:
     assert sorted(shown) == sorted(headers)
 
 
+def test_no_comment_of_a_header_reads_as_a_quotation() -> None:
+    """As one does that begins with >: Doxygen makes a quotation of it, which breaks the site."""
+    headers = sorted((ROOT / "cpp" / "include" / "cdcr").glob("*.hpp"))
+    begins = re.compile(r"///<? *>(?!=)")
+    assert [path.name for path in headers if begins.search(path.read_text())] == []
+
+
 def tables() -> set[str]:
     """Schemas of scenario files, and of those for `cdcr identify`, that hold keys of their own."""
     from pydantic import BaseModel

@@ -118,7 +118,7 @@ class ExtendedKalman : public KalmanFilter {
 /// How the points of an unscented filter are spread: at the root of spread^2 (size + kappa)
 /// standard deviations.
 struct UnscentedOptions {
-  double spread = 1.0;  ///< > 0
+  double spread = 1.0;  ///< positive
   double beta = 2.0;    ///< weight of the middle in covariances; 2 is best for normal errors
   double kappa = 0.0;   ///< size + kappa > 0
 };
