@@ -163,7 +163,7 @@ void bind_dynamics(PyModel& model) {
           },
           "q"_a, "qd"_a, "qdd"_a, "wrenches"_a = py::tuple(),
           Doc("Force and moment of the robot on its base, where the drives of its cables stand "
-              "too:\ncpp/base-wrench.md eq. (121). At rest the weight, and the wrenches on it.",
+              "too:\ncpp/base-wrench.md eq. (123). At rest the weight, and the wrenches on it.",
               {docs::q, docs::qd,
                "qdd : (..., d) array_like\n"
                "    Accelerations [rad/s^2].\n",

@@ -8,7 +8,7 @@
 namespace CDCR_EXPORT cdcr {
 
 /// Force [N] and moment [N m] (6) of the robot on its base, in the base frame, the moment about
-/// base_position, cpp/base-wrench.md eq. (121): at rest its weight and the wrenches on it.
+/// base_position, cpp/base-wrench.md eq. (123): at rest its weight and the wrenches on it.
 ///
 /// The drives of the cables stand on that base too, so their tensions count by the motion alone
 /// that they make. Of (q, qd) and accelerations qdd, beside wrenches that validate() accepts.

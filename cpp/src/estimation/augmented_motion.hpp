@@ -31,9 +31,9 @@ class AugmentedMotion {
   /// How the accelerations change with x (d, size).
   void slopes(const VectorXd& x, const VectorXd& command, MatrixXd& out) noexcept;
 
-  /// What the base feels (6): eq. (121) of all models at the acceleration that they have together.
+  /// What the base feels (6): eq. (123) of all models at the acceleration that they have together.
   void base_wrench(const VectorXd& x, const VectorXd& command, VectorRef out) noexcept;
-  /// How that changes with x (6, size), eq. (122), once there is room for it.
+  /// How that changes with x (6, size), eq. (124), once there is room for it.
   void base_wrench_slopes(const VectorXd& x, const VectorXd& command, MatrixXd& out) noexcept;
   void make_room_for_base_wrench();
 

@@ -6,7 +6,7 @@
 namespace cdcr::detail {
 
 /// What a sensor is expected to tell and how that changes with the state x of a motion,
-/// cpp/estimation.md eq. (98), cpp/base-wrench.md eq. (122). Real-time safe after construction.
+/// cpp/estimation.md eq. (98), cpp/base-wrench.md eq. (124). Real-time safe after construction.
 /// It refers to the motion.
 class MeasurementSlopes {
  public:

@@ -11,7 +11,7 @@ namespace {
 using detail::Vector3;
 
 /// Takes from a wrench (6) the rate of momentum less the weight of all that moves, from base to
-/// tip, cpp/base-wrench.md eq. (121). `section` is room for one at a time.
+/// tip, cpp/base-wrench.md eq. (123). `section` is room for one at a time.
 template <class Section, class S = typename Section::Scalar>
 void take_inertia(const detail::Chain& chain, Section& section, const S* q, const S* qd,
                   const S* qdd, S* wrench) noexcept {
