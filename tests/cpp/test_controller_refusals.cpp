@@ -42,6 +42,14 @@ TEST_CASE("what does not fit is refused in a sentence") {
   torque.limits.tension.pretension = Eigen::Vector2d(1.0, 1.0);
   CHECK_THROWS_SENTENCE(ComputedTorque(model, torque),
                         "pretension must have one value for each of the 3 cables, got 2");
+  torque.limits = {};
+  torque.limits.tension.min_tension = -2.0;
+  torque.limits.tension.max_tension = -1.0;
+  CHECK_THROWS_SENTENCE(ComputedTorque(model, torque),
+                        "max_tension must be >= 0 N (a cable cannot push), got -1");
+  torque.limits = {};
+  torque.limits.tension.cables = {2, 1, 2};
+  CHECK_THROWS_SENTENCE(ComputedTorque(model, torque), "cables must differ, got 2 2 times");
   StateFeedbackOptions feedback;
   feedback.gain = MatrixXd::Zero(3, 3);
   CHECK_THROWS_SENTENCE(StateFeedback(model, feedback),
@@ -52,6 +60,10 @@ TEST_CASE("what does not fit is refused in a sentence") {
   TaskSpace tip_controller(model, {});
   CHECK_THROWS_SENTENCE(tip_controller.set_reference(Eigen::Vector2d(0.0, 0.1)),
                         "reference must be 3 finite values [m], got [  0 0.1]");
+  CHECK_NOTHROW(tip_controller.set_reference(tip(model, Eigen::Vector2d(0.0, 0.0)).p));
+  CHECK_THROWS_SENTENCE(tip_controller.set_reference(Vector3d(3.0, 0.0, 4.0)),
+                        "reference must be at most 0.802 m from the base, as far as the tip "
+                        "reaches, got [3 0 4], which is 5 m away");
   ComputedTorque fine(model);
   const Model other(by_length(1));
   const VectorXd zero = VectorXd::Zero(2);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "batch/rk4_lanes.hpp"
+#include "cdcr/batch.hpp"
 #include "cdcr/simulate.hpp"
 #include "support/cable_robots.hpp"
 #include "support/cases.hpp"
@@ -54,6 +55,22 @@ VectorXd acceleration(const Model& model, const VectorXd& y, const VectorXd& for
   VectorXd qdd(d);
   forward_dynamics_force(model, data, y.head(d), y.tail(d), force, qdd);
   return qdd;
+}
+
+/// Answers of so many numbers each that many(out) gives of `count` states, beside one(i, out).
+template <class Many, class One>
+void check_rows(Index count, Index size, const Many& many, const One& one) {
+  RowMatrixXd found(count, size);
+  many(found.data());
+  for (Index i = 0; i < count; ++i) {
+    VectorXd expected(size);
+    one(i, expected);
+    CHECK(residual(found.row(i).transpose(), expected, expected.norm()) <= same_acceleration);
+  }
+}
+/// The rows of a matrix one after another.
+VectorXd in_rows(const RowMatrixXd& matrix) {
+  return Eigen::Map<const VectorXd>(matrix.data(), matrix.size());
 }
 
 /// body(model) for one section in closed form and chains, with and without gravity.
@@ -146,6 +163,93 @@ TEST_CASE("many states at once are those of single states, of any robot and numb
                          pulls.row(i).transpose(), expected);
         CHECK(residual(qdd.row(i).transpose(), expected, expected.norm()) <= same_acceleration);
       }
+    }
+  }
+}
+
+/// Of `count` states q, qd with accelerations qdd.
+void check_dynamics(const Model& model, const RowMatrixXd& q, const RowMatrixXd& qd,
+                    const RowMatrixXd& qdd) {
+  const Index d = model.num_coordinates(), count = q.rows();
+  Data data(model);
+  const StateRows x{q.data(), d}, xd{qd.data(), d}, xdd{qdd.data(), d};
+  const auto at = [](const RowMatrixXd& rows, Index i) { return VectorXd(rows.row(i)); };
+  check_rows(
+      count, d, [&](double* out) { inverse_dynamics(model, data, count, x, xd, xdd, out); },
+      [&](Index i, VectorXd& out) {
+        inverse_dynamics(model, data, at(q, i), at(qd, i), at(qdd, i), out);
+      });
+  check_rows(
+      count, d, [&](double* out) { bias(model, data, count, x, xd, out); },
+      [&](Index i, VectorXd& out) { bias(model, data, at(q, i), at(qd, i), out); });
+  check_rows(
+      count, d * d, [&](double* out) { mass_matrix(model, data, count, x, out); },
+      [&](Index i, VectorXd& out) {
+        MatrixXd M(d, d);
+        mass_matrix(model, data, at(q, i), M);
+        out = in_rows(M);
+      });
+  check_rows(
+      count, 1, [&](double* out) { kinetic_energy(model, data, count, x, xd, out); },
+      [&](Index i, VectorXd& out) { out[0] = kinetic_energy(model, data, at(q, i), at(qd, i)); });
+  check_rows(
+      count, 1, [&](double* out) { potential_energy(model, data, count, x, out); },
+      [&](Index i, VectorXd& out) { out[0] = potential_energy(model, data, at(q, i)); });
+  check_rows(
+      count, d, [&](double* out) { potential_gradient(model, data, count, x, out); },
+      [&](Index i, VectorXd& out) { potential_gradient(model, data, at(q, i), out); });
+}
+
+void check_places(const Model& model, const RowMatrixXd& q) {
+  const Index d = model.num_coordinates(), count = q.rows(), half = model.num_sections() / 2;
+  const StateRows x{q.data(), d};
+  const auto at = [&q](Index i) { return VectorXd(q.row(i)); };
+  check_rows(
+      count, 9, [&](double* R) { pose(model, count, x, half, 0.3, R, nullptr); },
+      [&](Index i, VectorXd& out) { out = in_rows(pose(model, at(i), half, 0.3).R); });
+  check_rows(
+      count, 3, [&](double* p) { tip(model, count, x, nullptr, p); },
+      [&](Index i, VectorXd& out) { out = tip(model, at(i)).p; });
+  check_rows(
+      count, 6 * d, [&](double* J) { jacobian(model, count, x, half, 0.3, J); },
+      [&](Index i, VectorXd& out) {
+        MatrixXd J(6, d);
+        jacobian(model, at(i), half, 0.3, J);
+        out = in_rows(J);
+      });
+  check_rows(
+      count, 6 * d, [&](double* J) { tip_jacobian(model, count, x, J); },
+      [&](Index i, VectorXd& out) {
+        MatrixXd J(6, d);
+        tip_jacobian(model, at(i), J);
+        out = in_rows(J);
+      });
+  check_rows(
+      count, model.num_cables(), [&](double* l) { cable_lengths(model, count, x, l); },
+      [&](Index i, VectorXd& out) { cable_lengths(model, at(i), out); });
+}
+
+TEST_CASE("other functions of many states are those of single states, of any robot and number") {
+  Random random;
+  std::vector<Model> models;
+  for_each_model([&](const Model& model, Random&) { models.push_back(model); });
+  models.emplace_back(rubbing_chain(random, 2));
+  models.emplace_back(rod_robot());
+  Robot with_tool = random_chain(random, 3);
+  with_tool.tool.topRightCorner<3, 1>() = Vector3d(0.01, 0.02, 0.03);
+  with_tool.base_position = {0.1, 0.2, 0.3};
+  models.emplace_back(with_tool);
+  for (const Model& model : models) {
+    const Index d = model.num_coordinates();
+    for (const Index count : {0, 1, 7}) {
+      RowMatrixXd q(count, d), qd(count, d), qdd(count, d);
+      for (Index i = 0; i < count; ++i) {
+        q.row(i) = model.rest() + random.vector(d, model.has_rods() || i % 3 == 0 ? 1e-2 : 0.5);
+        qd.row(i) = random.vector(d, 1.0);
+        qdd.row(i) = random.vector(d, 5.0);
+      }
+      check_dynamics(model, q, qd, qdd);
+      check_places(model, q);
     }
   }
 }

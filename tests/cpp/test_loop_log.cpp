@@ -21,7 +21,9 @@ namespace {
 
 using Bits = std::vector<double>;
 
-const std::vector<LogColumn> two{{"t", "s", ""}, {"square", "s^2", "powers"}};
+std::vector<LogColumn> two() {
+  return {{"t", "s", ""}, {"square", "s^2", "powers"}};
+}
 
 /// The numbers of columns in a row, from that of a name on.
 VectorXd values(const Log& log, const VectorXd& row, const std::string& name, Index count) {
@@ -53,7 +55,7 @@ class Scratch {
 TEST_SUITE_BEGIN("loop_log");
 
 TEST_CASE("rows come out in their order, and what finds no room is counted") {
-  Log log(two, 3);
+  Log log(two(), 3);
   CHECK(log.capacity() == 4);
   Eigen::Vector2d row;
   CHECK_FALSE(log.pop(row));
@@ -73,7 +75,7 @@ TEST_CASE("rows come out in their order, and what finds no room is counted") {
 constexpr int count = 20000;  // rows that two threads hand over
 
 TEST_CASE("between two threads no row is torn, lost or told twice") {
-  Log log(two, 8);
+  Log log(two(), 8);
   std::thread other([&log] {
     for (int k = 0; k < count; ++k) log.push(Eigen::Vector2d(k, 1.0 * k * k));
     while (!log.push(Eigen::Vector2d(count, -1.0))) std::this_thread::yield();
@@ -111,7 +113,8 @@ TEST_CASE("a row is what run tells of the step, bit for bit") {
     how.sensors[0].noise = 1e-4;
     how.sensors[1].kind = Sensor::Kind::tensions;
     Loop loop(model, controller, how);
-    const VectorXd start = model.rest(), still = VectorXd::Zero(d);
+    const VectorXd& start = model.rest();
+    const VectorXd still = VectorXd::Zero(d);
     loop.reset(start, still, 1.0);
     const LoopRun told = run(loop, 0.03);
     LoopLog log(loop);
@@ -181,9 +184,9 @@ TEST_CASE("an estimator and a reference of the tip stand in it, and how a step f
       command.setConstant(-1.0);
       return Status::ok;
     }
-    double period() const noexcept override { return 1e-3; }
-    Index num_coordinates() const noexcept override { return any_size; }
-    Index num_cables() const noexcept override { return any_size; }
+    [[nodiscard]] double period() const noexcept override { return 1e-3; }
+    [[nodiscard]] Index num_coordinates() const noexcept override { return any_size; }
+    [[nodiscard]] Index num_cables() const noexcept override { return any_size; }
   } pushing;
   Loop failing(model, pushing);
   CHECK_THROWS_SENTENCE(failing.set_log(&log),
@@ -214,11 +217,11 @@ TEST_CASE("a loop with a log allocates nothing, with room and without") {
 }
 
 TEST_CASE("files keep every bit, and can be read while they grow") {
-  Log log(two, 64);
+  Log log(two(), 64);
   const Bits numbers{0.5, 0.1, 1.0 / 3.0, 5e-324, -1.7976931348623157e308, 3.0};
   for (const double number : numbers) log.push(Eigen::Vector2d(0.25, number));
   const Scratch csv("a.csv"), npy("a.npy"), mcap("a.mcap");
-  LogFile text(csv.path(), two), records(npy.path(), two), messages(mcap.path(), two);
+  LogFile text(csv.path(), two()), records(npy.path(), two()), messages(mcap.path(), two());
   CHECK(text.take(log) == 6);
   CHECK(text.take(log) == 0);
   text.flush();
@@ -248,7 +251,7 @@ TEST_CASE("files keep every bit, and can be read while they grow") {
 
 TEST_CASE("a writer writes all rows from a thread of its own") {
   const Scratch csv("b.csv"), gone("no_such_folder/b.csv");
-  Log log(two, 4096);
+  Log log(two(), 4096);
   {
     LogWriter writer(log, csv.path(), 1e-3);
     for (int k = 0; k < 1000; ++k) log.push(Eigen::Vector2d(k, k));
@@ -264,23 +267,23 @@ TEST_CASE("a writer writes all rows from a thread of its own") {
                         "period of a log's writer must be > 0 s and finite, got 0");
   const std::string refused =
       gone.path() + " cannot be written: is there such a folder, and is it yours?";
-  CHECK_THROWS_SENTENCE(LogFile(gone.path(), two), refused.c_str());
-  CHECK_THROWS_SENTENCE(LogFile("log.txt", two),
+  CHECK_THROWS_SENTENCE(LogFile(gone.path(), two()), refused.c_str());
+  CHECK_THROWS_SENTENCE(LogFile("log.txt", two()),
                         "the file of a log must end in .csv, .npy or .mcap, got log.txt");
   CHECK_THROWS_SENTENCE(Log({}), "the first column of a log must be t in s, got none");
   CHECK_THROWS_SENTENCE(Log({{"q", "rad", ""}}),
                         "the first column of a log must be t in s, got q in rad");
-  CHECK_THROWS_SENTENCE(Log(two, 0), "capacity of a log must be 1 to 16777216 rows, got 0");
-  CHECK_THROWS_SENTENCE(Log({two[0], {"a,b", "m", "x"}}),
+  CHECK_THROWS_SENTENCE(Log(two(), 0), "capacity of a log must be 1 to 16777216 rows, got 0");
+  CHECK_THROWS_SENTENCE(Log({two()[0], {"a,b", "m", "x"}}),
                         "names in a log must be of ASCII letters without comma, quotes and "
                         "backslash, got a,b");
-  LogFile file(csv.path(), two);
+  LogFile file(csv.path(), two());
   CHECK_THROWS_SENTENCE(file.write(Vector3d::Zero()), "a row of this log has 2 values, got 3");
 }
 
 TEST_CASE("a writer that can write no more says so at the end, and the loop goes on") {
   const Scratch csv("c.csv");
-  Log log(two, 1024);
+  Log log(two(), 1024);
   LogWriter writer(log, csv.path(), 1e-3);
   rlimit before{};
   getrlimit(RLIMIT_FSIZE, &before);

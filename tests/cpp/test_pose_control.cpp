@@ -75,7 +75,7 @@ TEST_CASE("the tip accelerates and turns as reference, gains and errors say") {
   CHECK(residual(controller.path().coefficients().col(0), pose_at(model, model.rest())) <= 1e-14);
   const VectorXd q = bent(6, 0.7), qd = bent(6, -1.1);
   VectorXd there = pose_at(model, q);
-  there.head<3>().array() += 0.01;
+  there.head<3>() *= 0.9;
   const Vector3d times(0.0, 0.5, 1.0);
   // Through a small rotation vector, where series take over, and a large one.
   for (const double size : {1.0, 0.01}) {
@@ -201,7 +201,8 @@ TEST_CASE("where coordinates are few the pose is met as well as may be, and noth
     options.orientation_weight = VectorXd::Constant(1, 0.2);
     TaskSpace controller(model, options);
     VectorXd wanted = pose_at(model, model.rest());
-    wanted[0] += 0.05;
+    wanted[0] += 0.03;
+    wanted[2] -= 0.04;
     wanted.tail<3>() = detail::rotation_vector(tip(model, model.rest()).R *
                                                detail::rotation_of(Vector3d(0.0, 0.3, 0.0)));
     controller.set_reference(wanted);

@@ -12,20 +12,13 @@
 namespace cdcr::test {
 namespace {
 
-static_assert(is_noexcept<decltype(&mass_matrix)>);
-static_assert(is_noexcept<decltype(&bias)>);
 static_assert(is_noexcept<decltype(&actuation_force)>);
 static_assert(is_noexcept<decltype(&forward_dynamics_force)>);
-static_assert(is_noexcept<decltype(&kinetic_energy)>);
-static_assert(is_noexcept<decltype(&potential_energy)>);
-static_assert(is_noexcept<decltype(&potential_gradient)>);
 static_assert(is_noexcept<decltype(&potential_hessian)>);
 static_assert(is_noexcept<decltype(&state_jacobian)>);
 static_assert(is_noexcept<decltype(&acceleration_derivatives)>);
-static_assert(is_noexcept<decltype(&pose)>);
-static_assert(is_noexcept<decltype(&tip)>);
-static_assert(is_noexcept<decltype(&jacobian)>);
-static_assert(is_noexcept<decltype(&cable_lengths)>);
+static_assert(is_noexcept<decltype(&kinematic_hessian)>);
+static_assert(is_noexcept<decltype(&tip_hessian)>);
 static_assert(is_noexcept<decltype(&InverseSolver::solve)>);
 static_assert(is_noexcept<decltype(&polar)>);
 static_assert(is_noexcept<decltype(&bending)>);
@@ -37,6 +30,18 @@ static_assert(is_noexcept<decltype(&Simulator::time)>);
 
 // Overloaded functions have no single address.
 using Vector = const ConstVectorRef&;
+template <class Result, class... Arguments>
+using Of = Result (*)(const Model&, Arguments...) noexcept;
+[[maybe_unused]] constexpr Of<void, Data&, Vector, MatrixRef> one_mass_matrix = &mass_matrix;
+[[maybe_unused]] constexpr Of<void, Data&, Vector, Vector, VectorRef> one_bias = &bias;
+[[maybe_unused]] constexpr Of<double, Data&, Vector, Vector> one_kinetic_energy = &kinetic_energy;
+[[maybe_unused]] constexpr Of<double, Data&, Vector> one_potential_energy = &potential_energy;
+[[maybe_unused]] constexpr Of<void, Data&, Vector, VectorRef> one_potential_gradient =
+    &potential_gradient;
+[[maybe_unused]] constexpr Of<Pose, Vector, Index, double> one_pose = &pose;
+[[maybe_unused]] constexpr Of<Pose, Vector> one_tip = &tip;
+[[maybe_unused]] constexpr Of<void, Vector, Index, double, MatrixRef> one_jacobian = &jacobian;
+[[maybe_unused]] constexpr Of<void, Vector, VectorRef> one_cable_lengths = &cable_lengths;
 template <class... Arguments>
 using DynamicsFunction = void (*)(const Model&, Data&, Vector, Vector, Vector,
                                   Arguments...) noexcept;

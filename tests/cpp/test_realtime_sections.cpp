@@ -124,6 +124,9 @@ TEST_CASE("cables, wrenches and kinematics of three sections allocate nothing") 
     CHECK(allocations_of([&] { sink = tip(model, q).p[0]; }) == 0);
     CHECK(allocations_of([&] { jacobian(model, q, 2, 0.7, J); }) == 0);
     CHECK(allocations_of([&] { tip_jacobian(model, q, J); }) == 0);
+    MatrixXd H(6, 36);
+    CHECK(allocations_of([&] { kinematic_hessian(model, q, 2, 0.7, H); }) == 0);
+    CHECK(allocations_of([&] { tip_hessian(model, q, H); }) == 0);
     MatrixXd B(6, model.num_cables());
     CHECK(allocations_of([&] { actuation_matrix(model, q, B); }) == 0);
   });

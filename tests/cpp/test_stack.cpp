@@ -58,6 +58,8 @@ TEST_CASE("motion of 32 sections runs in 128 kB") {
     forward_dynamics(r.model, r.data, r.q, r.qd, r.tension, r.wrenches, r.out);
     inverse_dynamics(r.model, r.data, r.q, r.qd, VectorXd(r.out), r.out);
     potential_gradient(r.model, r.data, r.q, r.out);
+    VectorXd on_base(6);
+    base_wrench(r.model, r.q, r.qd, r.out, r.wrenches, on_base);
     Simulator simulator(r.model);
     simulator.reset(r.q, r.qd);
     static_cast<void>(simulator.step(r.tension));

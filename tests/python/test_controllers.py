@@ -58,7 +58,7 @@ def test_state_feedback_of_lqr_settles_where_it_is_told_at_the_rate_of_its_poles
 @pytest.mark.parametrize("kind", controllers(MODEL))
 def test_they_pickle_and_copy_with_their_path(kind: str) -> None:
     one = controllers(THREE)[kind]
-    start, end = np.array(one.reference), np.array(one.reference) + 0.01
+    start, end = np.array(one.reference), np.array(one.reference) - 0.01
     one.path = cdcr.ReferencePath.spline([0.0, 1.0], [start, end])
     state = np.full(6, 0.02), np.full(6, -0.1)
     one.update(0.2, *state)
@@ -128,6 +128,32 @@ REFUSALS: dict[str, tuple[Any, str]] = {
     "gain of feedback": (
         lambda: cdcr.StateFeedback(MODEL, gain=np.zeros((2, 2))),
         "gain must have shape (3, 4), got (2, 2)",
+    ),
+    "pushing cables": (
+        lambda: cdcr.ComputedTorque(MODEL, min_tension=-math.inf, max_tension=-1.0),
+        "max_tension must be >= 0 N (a cable cannot push), got -1",
+    ),
+    "a cable twice": (
+        lambda: cdcr.Pid(MODEL, kp=1.0, cables=[0, 1, 0]),
+        "cables must differ, got 0 2 times",
+    ),
+    "no cables": (
+        lambda: cdcr.Pid(MODEL, kp=1.0, cables=[]),
+        "cables must be a sequence of one index or more, got [] (list)",
+    ),
+    "a place beyond reach": (
+        lambda: setattr(cdcr.TaskSpace(THREE), "reference", [5.0, 0.0, 0.0]),
+        "reference must be at most 0.75 m from the base, as far as the tip reaches, got [5 0 0], "
+        "which is 5 m away",
+    ),
+    "a path beyond reach": (
+        lambda: setattr(
+            cdcr.TaskSpace(THREE, orientation_weight=0.3),
+            "path",
+            cdcr.ReferencePath.spline([0, 1], [[0, 0, 0.7, 0, 0, 0], [0, 0, 0.8, 0, 0, 0]]),
+        ),
+        "reference must be at most 0.75 m from the base, as far as the tip reaches, got [       0"
+        "        0 0.750732], which is 0.750732 m away",
     ),
     "period": (
         lambda: cdcr.TaskSpace(MODEL, period=0.0),

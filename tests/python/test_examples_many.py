@@ -39,3 +39,16 @@ def test_domain_randomisation(example: Example) -> None:
     assert found["loose"].success
     assert found["held"].success
     assert found["left"][:, -1].max() < 1e-9
+
+
+def test_fast_tip(example: Example) -> None:
+    found = example(26)
+    assert found["best"] > 3.0 * found["speed"](found["once"]).max()
+    assert found["bound"] > 0.95
+    # At a bound it would be slower with any tension within; the motion itself is by another method.
+    assert found["best"] == pytest.approx(-found["search"].fun, rel=1e-6)
+    _, slopes = found["value"](found["search"].x)
+    within, steps = found["search"].x, 1e-4
+    for k in (0, 7, 299):
+        ahead, behind = (found["value"](within + side * np.eye(300)[k])[0] for side in (steps, 0.0))
+        np.testing.assert_allclose((ahead - behind) / steps, slopes[k], atol=1e-5)

@@ -288,3 +288,19 @@ def test_the_picture_shows_the_path_of_the_tip_measured_and_predicted() -> None:
             np.testing.assert_allclose(
                 np.array(line.get_xydata(), float), 1e3 * places[:, [first, second]]
             )
+
+
+def test_a_motion_that_did_not_begin_at_rest_is_told_so() -> None:
+    """One that a pull sets going from the straight robot, given without its start."""
+    model = cdcr.Model(cdcr.robots.amouri2020(damping=0.01))
+    t, pull = np.linspace(0.0, 0.5, 51), [5.0, 0.0, 0.0]
+    run = cdcr.simulate(model, [0.0, 0.0], [0.0, 0.0], t=t, tension=pull)
+    sought = {"sections[*].youngs_modulus": None}
+
+    def told(**start: Any) -> str:
+        motion = cdcr.identification.Motion(t, pull, q=run.q, noise=1e-3, **start)
+        return cdcr.identify(motion, model.robot, sought).report()
+
+    sentence = "off in q: without a start it is at rest under its first command."
+    assert sentence in told()
+    assert sentence not in told(start=([0.0, 0.0], [0.0, 0.0]))

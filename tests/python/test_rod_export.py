@@ -66,7 +66,7 @@ def test_a_rod_that_twists_vibrates_as_its_links_do(tmp_path: Path) -> None:
         gravity=(0.0, 0.0, 9.81),
         payload=0.02,
         payload_position=(0.04, 0.0, 0.0),
-        payload_inertia=np.diag([1e-6, 1e-5, 1e-5]),
+        payload_inertia=((1e-6, 0.0, 0.0), (0.0, 1e-5, 0.0), (0.0, 0.0, 1e-5)),
     )
     cdcr.export.write_mjcf(robot, tmp_path / "rod.xml", links=20)
     model = mujoco.MjModel.from_xml_path(str(tmp_path / "rod.xml"))

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import cdcr
-from validation_scripts import common, ftdcr, sorosim, three_codes, write
+from validation_scripts import common, ftdcr, loaded_shapes, sorosim, three_codes, write
 
 EXACT = 1e-4  # [mm]: of a fit to what the same model gave, which files hold to more digits
 
@@ -181,3 +181,17 @@ def test_the_table_is_markdown(capsys: pytest.CaptureFixture[str]) -> None:
     assert [one.strip() for one in row.split("|")[1:-1]] == [
         "a", "arcs", "2", "", "1.50", "0.50 % of length", "6", "0.25",
     ]  # fmt: skip
+
+
+# Loaded shapes ---------------------------------------------------------------------------------
+
+
+def test_orders_come_nearer_to_a_loaded_rod_than_arcs(capsys: pytest.CaptureFixture[str]) -> None:
+    lines = loaded_shapes.table(2)
+    print("\n".join(lines))
+    rows = {cells[1]: cells[2:6] for line in lines[2:] for cells in [re.split(r" ?\| ?", line)]}
+    off = {name: float(cells[1].split()[0]) for name, cells in rows.items()}
+    turned = {name: float(cells[2].split()[0]) for name, cells in rows.items()}
+    assert off["one arc"] > 10.0 * off["bending order 1"] > 10.0 * off["bending order 3"]
+    assert off["bending order 3"] < off["arcs in 16 parts"] < off["arcs in 8 parts"]
+    assert turned["bending order 3"] > 1.0 > 10.0 * turned["bending order 3, twist order 1"]

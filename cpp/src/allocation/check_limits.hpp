@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/arguments.hpp"
@@ -14,6 +15,8 @@ inline void check(const Model& model, const TensionLimits& limits) {
               limits.max_tension >= limits.min_tension,
           "tension limits must satisfy min_tension <= max_tension, got min_tension ",
           limits.min_tension, " N and max_tension ", limits.max_tension, " N");
+  require(limits.max_tension >= 0.0, "max_tension must be >= 0 N (a cable cannot push), got ",
+          limits.max_tension);
   require(limits.pretension.size() == 0 || limits.pretension.size() == model.num_cables(),
           "pretension must have one value for each of the ", model.num_cables(), " cables, got ",
           limits.pretension.size());
@@ -25,6 +28,8 @@ inline void check(const Model& model, const TensionLimits& limits) {
   for (const Index cable : limits.cables) {
     require(is_cable(model, cable), "cables must be indices from 0 to ", model.num_cables() - 1,
             ", got ", cable);
+    const auto times = std::count(limits.cables.begin(), limits.cables.end(), cable);
+    require(times == 1, "cables must differ, got ", cable, " ", times, " times");
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <type_traits>
 #include <vector>
 
 #include "batch/lanes.hpp"
@@ -20,6 +21,13 @@ struct Answer {
   Index size;
 };
 
+/// f(size), of the coordinates of one section as a constant.
+template <class F>
+void with_size(Index size, const F& f) {
+  if (size == 2) return f(std::integral_constant<Index, 2>());
+  f(size);
+}
+
 /// f(in, out) of packs of states in registers of W: all arguments of a pack one after another, and
 /// room for its answers likewise.
 template <int W, class P, class F>
@@ -34,20 +42,24 @@ void in_packs(Index count, std::initializer_list<Argument> arguments,
     for (Index first = 0; first < count; first += P::size) {
       P* to = in;
       for (const Argument& argument : arguments) {
-        for (int lane = 0; lane < P::size; ++lane) {  // the last again where there are too few
-          const Index state = std::min(first + lane, count - 1);
-          const double* from = argument.rows.data + state * argument.rows.apart;
-          for (Index i = 0; i < argument.size; ++i) set_lane(to[i], lane, from[i]);
-        }
+        with_size(argument.size, [&](auto size) {
+          for (int lane = 0; lane < P::size; ++lane) {  // the last again where there are too few
+            const Index state = std::min(first + lane, count - 1);
+            const double* from = argument.rows.data + state * argument.rows.apart;
+            for (Index i = 0; i < size; ++i) set_lane(to[i], lane, from[i]);
+          }
+        });
         to += argument.size;
       }
       f(static_cast<const P*>(in), out);
       const P* from = out;
       for (const Answer& answer : answers) {
-        for (int lane = 0; answer.data && lane < P::size && first + lane < count; ++lane) {
-          double* row = answer.data + (first + lane) * answer.size;
-          for (Index i = 0; i < answer.size; ++i) row[i] = get_lane(from[i], lane);
-        }
+        with_size(answer.data != nullptr ? answer.size : 0, [&](auto size) {
+          for (int lane = 0; lane < P::size && first + lane < count; ++lane) {
+            double* row = answer.data + (first + lane) * answer.size;
+            for (Index i = 0; i < size; ++i) row[i] = get_lane(from[i], lane);
+          }
+        });
         from += answer.size;
       }
     }

@@ -1,6 +1,7 @@
 #include "cdcr/tracking_controller.hpp"
 
 #include <chrono>
+#include <limits>
 #include <utility>
 
 #include "base/rotation.hpp"
@@ -18,6 +19,18 @@ VectorXd tip_at_rest(const Model& model, bool with_orientation) {
   VectorXd value(6);
   value << at.p, detail::rotation_vector(at.R);
   return value;
+}
+
+/// How far from its base the tip can be: the length of the backbone and the tool's place; no bound
+/// where sections stretch.
+double reach_of(const Model& model) {
+  const Robot& robot = model.robot();
+  double reach = robot.tool.topRightCorner<3, 1>().norm();
+  for (const Section& section : robot.sections) {
+    if (section.stretch_order >= 0) return std::numeric_limits<double>::infinity();
+    reach += section.length;
+  }
+  return reach;
 }
 
 }  // namespace
@@ -41,7 +54,9 @@ void TrackingController::set_path(const ReferencePath& path) {
 }
 
 void TrackingController::accept(const ReferencePath& path) {
-  constexpr int looks = 256;  // along a path
+  constexpr int looks = 256;      // along a path
+  constexpr double slack = 1e-9;  // of the straight robot's tip, whose place is rounded
+  const double farthest = reach_of(model()) * (1.0 + slack);
   Setpoint at(path.size());
   for (int i = 0; i <= (path.is_constant() ? 0 : looks); ++i) {
     path.evaluate(path.start() + (path.end() - path.start()) * i / looks, at);
@@ -53,6 +68,11 @@ void TrackingController::accept(const ReferencePath& path) {
                                : "6 finite values, a position [m] and a "
                                  "rotation vector [rad]",
                       ", got [", at.value.transpose(), "]");
+      const Vector3d place = at.value.head<3>();
+      const double away = (place - model().robot().base_position).norm();
+      detail::require(away <= farthest, "reference must be at most ", farthest,
+                      " m from the base, as far as the tip reaches, got [", place.transpose(),
+                      "], which is ", away, " m away");
       continue;
     }
     detail::require(sound && check_shape(model(), at.value) == Status::ok, "reference must be ",
@@ -63,8 +83,9 @@ void TrackingController::accept(const ReferencePath& path) {
 }
 
 std::vector<std::string> TrackingController::reference_names() const {
-  if (of_tip_) return {"tip_x", "tip_y", "tip_z"};
-  return model().coordinate_names();
+  if (follows_ == Follows::coordinates) return model().coordinate_names();
+  if (follows_ == Follows::position) return {"tip_x", "tip_y", "tip_z"};
+  return {"tip_x", "tip_y", "tip_z", "rotation_x", "rotation_y", "rotation_z"};
 }
 
 void TrackingController::reset() noexcept {

@@ -169,7 +169,7 @@ void linearize(const Model& model, Data& data, const ConstVectorRef& q, const Co
   assert(detail::has_size(B, 2 * m, model.num_cables()));
   set_upper_rows(m, A);
   B.topRows(m).setZero();
-  MatrixRef on_command = B.bottomRows(m);
+  MatrixRef on_command = B.middleRows(B.cols() > 0 ? m : 0, m);  // without cables it has no data
   differentiate_motion(model, data, q, qd, command, wrenches,
                        {A.bottomLeftCorner(m, m), A.bottomRightCorner(m, m), &on_command});
 }

@@ -10,7 +10,7 @@ namespace {
 
 static_assert(std::atomic<std::size_t>::is_always_lock_free);
 
-constexpr Index most_rows = Index{1} << 24;
+constexpr Index most_rows = 16777216;  // 2^24
 
 /// Names and units go into three formats as they are.
 bool is_plain(const std::string& text) {

@@ -50,7 +50,8 @@ LogFile::LogFile(const std::string& path, const std::vector<LogColumn>& columns)
 LogFile::~LogFile() {
   try {
     flush();
-  } catch (const std::exception&) {  // a destructor has nobody to tell
+  } catch (const std::exception&) {
+    parts_->stream.close();  // a destructor has nobody to tell
   }
 }
 

@@ -2,6 +2,7 @@
 // messages with JSON schemas, as in python/cdcr/runs/mcap_log.py.
 #include <cmath>
 #include <cstdint>
+#include <string_view>
 
 #include "cdcr/version.hpp"
 #include "logging/log_format.hpp"
@@ -9,7 +10,7 @@
 namespace cdcr::detail {
 namespace {
 
-const std::string magic("\x89MCAP0\r\n", 8);
+constexpr std::string_view magic("\x89MCAP0\r\n", 8);
 
 enum class Kind : unsigned char { header = 1, footer, schema, channel, message, data_end = 15 };
 
@@ -46,8 +47,8 @@ class Mcap final : public LogFormat {
   explicit Mcap(const std::vector<LogColumn>& columns)
       : LogFormat(columns), topics_(topics_of(columns)) {}
 
-  std::string head(long long /*rows*/) const override {
-    std::string bytes = magic, header;
+  [[nodiscard]] std::string head(long long /*rows*/) const override {
+    std::string bytes(magic), header;
     append_text("", header);  // no profile
     append_text(std::string("cdcr ") + version, header);
     append_record(Kind::header, header, bytes);
@@ -77,15 +78,15 @@ class Mcap final : public LogFormat {
     }
   }
 
-  std::string end() const override {
-    std::string bytes, footer;
+  [[nodiscard]] std::string end() const override {
+    std::string bytes;
     append_record(Kind::data_end, std::string(4, '\0'), bytes);  // without a checksum
     append_record(Kind::footer, std::string(20, '\0'), bytes);   // without a summary
-    return bytes + magic;
+    return bytes.append(magic);
   }
 
  private:
-  const std::string& name(Index column) const {
+  [[nodiscard]] const std::string& name(Index column) const {
     return columns()[static_cast<std::size_t>(column)].name;
   }
 

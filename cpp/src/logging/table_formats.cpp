@@ -15,7 +15,7 @@ namespace {
 class Csv final : public LogFormat {
  public:
   using LogFormat::LogFormat;
-  std::string head(long long /*rows*/) const override {
+  [[nodiscard]] std::string head(long long /*rows*/) const override {
     std::string line;
     for (const LogColumn& column : columns()) {
       line += (line.empty() ? "" : ",") + column.name + " [" + column.unit + "]";
@@ -34,7 +34,7 @@ class Csv final : public LogFormat {
 class NumPy final : public LogFormat {
  public:
   using LogFormat::LogFormat;
-  std::string head(long long rows) const override {
+  [[nodiscard]] std::string head(long long rows) const override {
     constexpr std::size_t digits = 20, before = 12,
                           whole = 64;  // of a count; bytes before the text
     std::string text = "{'descr': [";

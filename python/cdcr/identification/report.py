@@ -4,17 +4,23 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Iterator
 from datetime import datetime, timezone
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 import cdcr._core as core
 from cdcr.files.new_file import file_path, new_file
+from cdcr.identification.motions import Motion
 from cdcr.robot.file import robot_lines
 
 if TYPE_CHECKING:
     from cdcr.identification.result import Identified
+
+FAR_OFF = 10.0  # standard deviations by which a motion begins elsewhere
 
 
 def report(found: Identified) -> str:
@@ -35,10 +41,23 @@ def report(found: Identified) -> str:
             "",
             f"What is left over is {math.sqrt(found.misfit):.2g} times the noise stated: the model "
             "misses something. The standard errors are grown by as much.",
+            *_wrong_starts(found),
         ]
     if not found.success:
         lines += ["", f"The search ended early: {found.message}"]
     return "\n".join(line.rstrip() for line in lines)
+
+
+def _wrong_starts(found: Identified) -> Iterator[str]:
+    """Say which motions, taken to begin at rest, began somewhere else."""
+    at_rest = [one.name for one in found.data if isinstance(one, Motion) and one.start is None]
+    for left in found.residuals:
+        off = float(np.nanmax(np.abs(left.values[:1]), initial=0.0))
+        if left.data in at_rest and off > FAR_OFF * left.noise:
+            yield (
+                f"{left.data} begins {off:.2g} {left.unit} off in {left.channel}: without a start "
+                "it is at rest under its first command."
+            )
 
 
 def _row(name: str, value: str, error: str, start: str, unit: str) -> str:

@@ -37,6 +37,8 @@ def checked(
     given["cables"] = []
     if cables is not None:
         chosen = check.items("cables", cables, "a sequence of indices of cables")
+        if isinstance(cables, (list, tuple)) and not cables:
+            check.refuse("cables", "a sequence of one index or more", cables)
         given["cables"] = [
             check.whole(f"cables[{i}]", cable, "the index of a cable")
             for i, cable in enumerate(chosen)

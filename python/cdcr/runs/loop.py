@@ -39,8 +39,8 @@ class LoopRun:
     asked : (N, num_cables) array
         What the controller asked for [N], [m].
     reference : (N, r) array
-        What it followed: coordinates [rad] or the position of the tip [m]; no columns of a
-        controller that does not tell.
+        What it followed: coordinates [rad], or of the tip the position [m] and maybe a rotation
+        vector [rad]; no columns of a controller that does not tell.
     told_q, told_qd : (N, d) array
         The state that it was told [rad], [rad/s].
     measurements : tuple of (N, m) array

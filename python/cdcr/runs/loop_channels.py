@@ -59,7 +59,7 @@ def _reference(model: Model, names: Sequence[str], values: FloatArray) -> tuple[
     if list(names) == list(model.coordinate_names):
         return (_state(model, "reference_q", about, values),)
     return tuple(
-        _quantity(f"reference_{name}", (), "m", about, column)
+        _quantity(f"reference_{name}", (), "m" if name[:3] == "tip" else "rad", about, column)
         for name, column in zip(names, values.T, strict=True)
     )
 

@@ -105,7 +105,9 @@ class Trajectory(Pictures, ReadOnlyArrays):
         if len(given["t"]) == 0:
             return cls(**given)  # refuses it
         run = cls.__new__(cls)
-        run.__setstate__(given)
+        mappings = ("channels", "sensitivities", "rate_sensitivities")
+        made: dict[str, Any] = {name: {} for name in mappings}  # as fields make them
+        run.__setstate__(made | given)
         return run
 
     def __len__(self) -> int:
