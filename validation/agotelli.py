@@ -17,6 +17,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -34,6 +35,7 @@ DRIVEN = "data_collection/dataCollectionPack/20260127"
 AT_REST = "statics_0"
 SHORT = 1.5  # of a motion that is fitted first [s]
 SECONDS = 12.0  # of a release that are compared
+HALF, STRETCHES = 0.353, (0.0, 3.0, 6.0, SECONDS)  # a half swing, and in which it fades [s]
 MOVING, FREE = 0.3, 2.5  # a tip faster than this [m/s] is on its way; cables are off it later [s]
 MODES, AROUND = 4, 6  # in which a state is sought, and samples on either side of it
 EVERY = 0.05  # of a driven run, whose tensions change slowly [s]
@@ -165,6 +167,22 @@ def release(folder: Path, name: str, known: cdcr.Robot, beside: FloatArray) -> M
     return Motion(t[chosen] - t[begin], slack, tip=tip[chosen], start=start, name=name)
 
 
+def fading(motion: Motion) -> str:
+    """Return how fast swings of some sizes fade, as a sentence."""
+    t, tip = np.asarray(motion.t), np.asarray(motion.tip)
+    away = np.linalg.norm((tip - tip.mean(axis=0))[:, :2], axis=1)
+    count = int(t[-1] / HALF)
+    middle = HALF * (np.arange(count) + 0.5)
+    most = np.array([away[(t >= k * HALF) & (t < (k + 1) * HALF)].max() for k in range(count)])
+    told = []
+    for low, high in pairwise(STRETCHES):
+        here = (middle >= low) & (middle < high)
+        if here.sum() > 2:
+            rate = -np.polyfit(middle[here], np.log(most[here]), 1)[0]
+            told.append(f"of {1e3 * most[here].mean():.0f} mm by {rate:.3f} 1/s")
+    return f"{motion.name}: its swings fade, " + ", ".join(told)
+
+
 def driven(folder: Path, name: str) -> Motion:
     """Return a run under measured tensions, from the raw files: their clock is one."""
     # In the processed file of one circle the base is turned by 37 degrees. Angles of its first
@@ -211,6 +229,7 @@ def rows(folder: Path, parts: int) -> list[Row]:
     known = seen_at(robot(parts), beside[-1])
     names = sorted(path.name for path in home.glob("*release*"))
     motions = {name: release(home, name, known, beside) for name in names}
+    print("\n".join(fading(one) for one in motions.values()), "\n")
     used = [motions.pop(name) for name in FITTED]
     every = sorted(path.name for path in home.glob("statics_*"))
     others = [name for name in every if "diagonal" in name]

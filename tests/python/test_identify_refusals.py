@@ -101,7 +101,10 @@ def test_fewer_data_than_parameters() -> None:
             "poses, row 3, tip y must be a fini",
         ),
         ({"tip": TIPS[:3]}, "tip must have shape (4, 3), got (3, 3)"),
-        ({}, "nothing was measured: give one of tip, tension, length, q or markers"),
+        (
+            {},
+            "nothing was measured: give one of tip, tension, length, q, base_force, base_m",
+        ),
         (
             {"tip": TIPS, "noise": 0.0},
             "noise of tip must be a number > 0 and finite, got 0.0 (floa",

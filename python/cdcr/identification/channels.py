@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cdcr.base.arrays import FloatArray
 from cdcr.base.check import Check, format_value
@@ -183,7 +184,7 @@ def ask_about_shapes(values: FloatArray, where: Where) -> None:
         )
 
 
-def _straight(robot: Robot) -> tuple[FloatArray, FloatArray]:
+def _straight(robot: Robot) -> tuple[NDArray[np.bool_], FloatArray]:
     """Return which cables are driven by length, and the lengths of all in the straight robot."""
     model = Model(robot)
     driven = np.array([cable.length_driven for cable in robot.all_cables], dtype=bool)
