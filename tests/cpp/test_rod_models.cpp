@@ -204,6 +204,30 @@ TEST_CASE("statics of rods: what is out of balance, and how it changes") {
   CHECK(shapes.squared_frequency[0] > 0.0);
 }
 
+TEST_CASE("rods that stretch come to rest in a few steps") {
+  // Stretch is a million times stiffer than bending; steps of unscaled coordinates crawl.
+  Robot robot;
+  robot.gravity = {1.0, -2.0, -9.0};
+  robot.payload = 0.01;
+  Section rod = rod_section(2, 1, 1);
+  rod.stretch_stiffness = 1e4;
+  rod.length = 0.2;
+  rod.cable_angles.clear();
+  robot.sections = {rod, rod, rod};
+  for (const double angle : {0.0, 2.0, 4.0}) {
+    Cable cable;
+    cable.radius = 0.02;
+    cable.angle = angle;
+    cable.end_section = 2;
+    robot.cables.push_back(cable);
+  }
+  const Equilibrium found = equilibrium(Model(robot), Eigen::Vector3d(1.0, 2.0, 0.5));
+  CHECK(found.status == Status::ok);
+  CHECK(found.stable);
+  CHECK(found.searches == 1);
+  CHECK(found.iterations <= 40);
+}
+
 TEST_CASE("a rigid link is a payload") {
   Robot linked = amouri2020();
   linked.gravity = {1.0, 2.0, -9.0};

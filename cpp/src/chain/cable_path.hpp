@@ -32,6 +32,9 @@ class CablePath {
     return sum;
   }
 
+  /// Adds `pull` times the second derivatives of the length to the lower half of K (d, d).
+  void add_curvature(const Chain& chain, const double* q, double pull, MatrixRef K) const noexcept;
+
   /// Adds the force of a cable that rubs, with this tension at its base while its length changes at
   /// this rate. The tension that is left beyond each section goes to `beyond_sections` where
   /// wanted.

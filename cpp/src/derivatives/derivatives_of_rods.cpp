@@ -4,7 +4,5 @@
 namespace cdcr::detail {
 
 template class MotionDerivatives<Rod>;
-template void weight_hessian(const Chain&, const RodChainState<double>&, const double*, Rod<Dual>&,
-                             MatrixRef) noexcept;
 
 }  // namespace cdcr::detail

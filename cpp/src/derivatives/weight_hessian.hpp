@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "chain/chain.hpp"
 #include "derivatives/dual.hpp"
 #include "section/width.hpp"
@@ -15,6 +17,38 @@ template <class DualSection>
   with_fma<double>([&] { dual.update_position(fixed, base, q); });
 }
 
+/// Second derivatives with respect to the coordinates of an arc, on dual numbers.
+template <class DualSection, class Matrix>
+void differentiate_own(const SectionParameters& fixed, const ConstantCurvature<double>& arc,
+                       const double* q, const Vector3d& g, double mass, const Vector3d& h,
+                       DualSection& dual, Matrix&& H) {
+  const Vector3d moment = h.cross(g);
+  const FrameState<Dual> base{arc.base.x.template cast<Dual>(), arc.base.y.template cast<Dual>(),
+                              arc.base.z.template cast<Dual>(), Vector3<Dual>::Zero()};
+  std::array<Dual, 2> x{Dual(q[0]), Dual(q[1])};
+  for (int lane = 0; lane < 2; ++lane) x[lane].slopes[lane] = 1.0;
+  place(dual, fixed, base, x.data());
+  const typename DualSection::Vectorm force = DualSection::elastic_force(fixed, x.data()) -
+                                              dual.linear_coupling().transpose().lazyProduct(g) -
+                                              dual.J_omega.transpose().lazyProduct(moment) -
+                                              dual.J_v.transpose().lazyProduct(mass * g);
+  for (int k = 0; k < 2; ++k) {
+    const Vector3d turned = Vector3d(arc.J_omega.col(k)).cross(h).cross(g);
+    for (int c = 0; c < 2; ++c) {
+      H(c, k) = force[c].slopes[k] - arc.J_omega.col(c).dot(turned);
+    }
+  }
+}
+
+/// The same of a rod, in closed form.
+template <class DualSection, class Matrix>
+void differentiate_own(const SectionParameters& fixed, const Rod<double>& rod, const double* /*q*/,
+                       const Vector3d& g, double mass, const Vector3d& h, DualSection& /*dual*/,
+                       Matrix&& H) {
+  H = fixed.rod->stiffness;
+  rod.subtract_curvature(g, mass, h, H);
+}
+
 template <class Section, class DualSection>
 void add_up_weight_hessian(const Chain& chain, const ChainState<Section>& state, const double* q,
                            DualSection& dual, MatrixRef& H) {
@@ -26,32 +60,12 @@ void add_up_weight_hessian(const Chain& chain, const ChainState<Section>& state,
     const Section& section = state.sections[i];
     const SectionParameters& fixed = chain.sections[i];
     const Index at = chain.first[i], size = chain.first[i + 1] - at;
-    const Vector3d moment = h.cross(g);
-    const FrameState<Dual> base{section.base.x.template cast<Dual>(),
-                                section.base.y.template cast<Dual>(),
-                                section.base.z.template cast<Dual>(), Vector3<Dual>::Zero()};
-    std::array<Dual, Section::max_m> x;
-    for (Index k = 0; k < size; ++k) x[k] = Dual(q[at + k]);
-    for (Index first = 0; first < size; first += Quad::count) {
-      const int count = static_cast<int>(std::min<Index>(Quad::count, size - first));
-      for (int lane = 0; lane < count; ++lane) x[first + lane].slopes[lane] = 1.0;
-      place(dual, fixed, base, x.data());
-      const typename DualSection::Vectorm force =
-          DualSection::elastic_force(fixed, x.data()) -
-          dual.linear_coupling().transpose().lazyProduct(g) -
-          dual.J_omega.transpose().lazyProduct(moment) - dual.J_v.transpose().lazyProduct(mass * g);
-      for (int lane = 0; lane < count; ++lane) {
-        for (Index c = 0; c < size; ++c) H(at + c, at + first + lane) = force[c].slopes[lane];
-        x[first + lane].slopes[lane] = 0.0;
-      }
-    }
+    differentiate_own(fixed, section, q + at, g, mass, h, dual, H.block(at, at, size, size));
     Matrix3m pull;  // what turns with a coordinate pulls on the sections that carry it
     pull.resize(3, size);
     const Matrix3m coupling = section.linear_coupling();
     for (Index k = 0; k < size; ++k) {
       const Vector3d swing = Vector3d(section.J_omega.col(k)).cross(h);
-      const Vector3d turned = swing.cross(g);
-      for (Index c = 0; c < size; ++c) H(at + c, at + k) -= section.J_omega.col(c).dot(turned);
       pull.col(k) = Vector3d(coupling.col(k) + mass * section.J_v.col(k) + swing).cross(g);
     }
     for (Index j = 0; j < i; ++j) {

@@ -8,8 +8,7 @@
 namespace cdcr {
 
 namespace closed_form = detail::closed_form;
-using detail::of_coordinates;
-using detail::single_of;
+using detail::of_coordinates, detail::single_of;
 
 void mass_matrix(const Model& model, Data& data, const ConstVectorRef& q, MatrixRef M) noexcept {
   assert(data.belongs_to(model) && of_coordinates(model, q));

@@ -51,6 +51,10 @@ class Magnus {
     on_a.diagonal().array() += 1.0;
   }
 
+  /// Second derivatives of along.Omega with respect to alpha_1, alpha_2, alpha_3; its body is in
+  /// derivatives/rod_curvature.cpp.
+  [[nodiscard]] Eigen::Matrix<S, 9, 9> curvature(const Vector3<S>& along) const;
+
   /// First and second derivatives of Omega in time while the alphas change at these rates.
   void rates(const Vector3<S>& a1, const Vector3<S>& b1, const Vector3<S>& c1, Vector3<S>& first,
              Vector3<S>& second) const {

@@ -15,8 +15,7 @@ RodCable::RodCable(const RodParameters& rod, const CableRoute& route)
   std::size_t k = 0;
   for (const auto& [at, weight] : gauss_legendre(num_points_)) {
     const auto x = static_cast<double>(at);
-    const double radius = route.base_radius + x * widens;
-    const double angle = route.base_angle + x * winds;
+    const double radius = route.base_radius + x * widens, angle = route.base_angle + x * winds;
     const double c = std::cos(angle), s = std::sin(angle);
     weight_[k] = static_cast<double>(weight);
     x_[k] = radius * c;

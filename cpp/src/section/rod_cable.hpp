@@ -28,6 +28,10 @@ class RodCable {
     return sum;
   }
 
+  /// Adds `pull` times the second derivatives of the length to the lower half of K (m, m). Its body
+  /// is in derivatives/cable_curvature.cpp. Real-time safe.
+  void add_curvature(const RodParameters& rod, const double* q, double pull, MatrixRef K) const;
+
  private:
   using Values = std::array<double, max_rod_nodes>;
 

@@ -29,6 +29,11 @@ struct RodFrames {
   /// Frames, places and Jacobians of all points.
   void update_position(const SectionParameters& section, const FrameState<S>& at, const S* q);
 
+  /// Takes from H (m, m) the second derivatives of the work of weight: of the rod's own mass, and
+  /// of a mass beyond its tip whose first moment about the tip is h, cpp/derivatives.md eq. (80).
+  /// Its body is in derivatives/rod_curvature.cpp.
+  void subtract_curvature(const Vector3<S>& g, double mass, const Vector3<S>& h, MatrixRef H) const;
+
  protected:
   using L = Lanes<S>;
   using Pack = typename L::Pack;

@@ -68,6 +68,10 @@ class RodTurns {
   /// What each step adds to J_omega: rows of x, y and z, `width` apart.
   void slopes(const RodParameters& rod, S* columns, int width) const;
 
+  /// Second derivatives of moment.(R T dOmega) of the steps from s on with respect to their alphas,
+  /// at a constant moment and R.
+  [[nodiscard]] Eigen::Matrix<Pack, 9, 9> curvature(int s, const Vector3<Pack>& moment) const;
+
   /// omega of the frames and its rate from velocities alone.
   void rates(const RodParameters& rod, const S* qd, Vectors<S>& omega_at,
              Vectors<S>& omega_dot_at) const;

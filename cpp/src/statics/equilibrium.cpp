@@ -42,6 +42,7 @@ class NewtonSolver {
         r_(K_.rows()),
         trial_(K_.rows()),
         trial_r_(K_.rows()),
+        unit_(problem.model().elastic_stiffness().diagonal().cwiseSqrt().cwiseInverse()),
         llt_(K_.rows()) {}
 
   /// Moves q to a point of rest; true when it got there.
@@ -76,17 +77,22 @@ class NewtonSolver {
   }
 
   /// Newton step with the eigenvalues of K made positive, so that it always points downhill.
+  /// Coordinates are scaled to be alike in elastic energy, as stretch is far stiffer than bending.
   VectorXd modified_newton_step() {
-    llt_.compute(K_);
+    scaled_.noalias() = unit_.asDiagonal() * K_ * unit_.asDiagonal();
+    const VectorXd scaled_r = unit_.cwiseProduct(r_);
+    llt_.compute(scaled_);
     if (llt_.info() == Eigen::Success) {
       const auto pivots = llt_.matrixLLT().diagonal();
-      if (pivots.minCoeff() > 1e-2 * pivots.maxCoeff()) return llt_.solve(-r_);
+      if (pivots.minCoeff() > 1e-2 * pivots.maxCoeff()) {
+        return -unit_.cwiseProduct(llt_.solve(scaled_r));
+      }
     }
-    const auto [values, vectors] = detail::symmetric_eigen(K_);
+    const auto [values, vectors] = detail::symmetric_eigen(scaled_);
     const double floor = 1e-6 * values.cwiseAbs().maxCoeff();
     const VectorXd curvature = values.cwiseAbs().cwiseMax(floor);
-    const VectorXd in_eigenbasis = vectors.transpose() * r_;
-    return -(vectors * in_eigenbasis.cwiseQuotient(curvature));
+    const VectorXd in_eigenbasis = vectors.transpose() * scaled_r;
+    return -unit_.cwiseProduct(vectors * in_eigenbasis.cwiseQuotient(curvature));
   }
 
   /// Newton step, or where K is singular the gradient's way with the largest stiffness.
@@ -122,8 +128,9 @@ class NewtonSolver {
   }
 
   StaticProblem& problem_;
-  MatrixXd K_;
+  MatrixXd K_, scaled_;
   VectorXd r_, trial_, trial_r_;
+  VectorXd unit_;  // of each coordinate
   Eigen::LLT<MatrixXd> llt_;
   int iterations_ = 0;
 };

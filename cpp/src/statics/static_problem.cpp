@@ -29,25 +29,28 @@ double moment_of(const Model& model, const Wrenches& wrenches) {
   return sum + mass * (length + chain.payload.position.norm()) * chain.gravity.norm();
 }
 
-/// Takes from K the derivatives of the force of the cables of rods at rest, without friction.
-void subtract_path_stiffness(const Model& model, const ConstVectorRef& q,
-                             const ConstVectorRef& command, MatrixRef K) {
+/// Adds to K the stiffness of the cables of rods at rest, without friction: each pulls along
+/// -dl/dq, which changes with the shape, and a spring pulls more where it is longer.
+void add_path_stiffness(const Model& model, const ConstVectorRef& q, const ConstVectorRef& command,
+                        MatrixRef K) noexcept {
   const Chain& chain = chain_of(model);
-  differentiate(q.size(), q.data(), K, -1.0, [&](const Dual* x, Dual* force) {
-    for (Index j = 0; j < model.num_cables(); ++j) {
-      const Cable& cable = model.cables()[static_cast<std::size_t>(j)];
-      if (!cable.length_driven()) {
-        static_cast<void>(path_of(model, j).length(chain, x, Dual(command[j]), force));
-        continue;
-      }
-      const CableSlope<Dual> slope(chain, path_of(model, j), x);
-      const Dual longer = slope.length - (command[j] + model.slack_offset()[j]);
-      if (!(longer > 0.0)) continue;
-      for (Index i = 0; i < q.size(); ++i) {
-        force[i] += slope.column[i] * (cable.stiffness * longer);
+  for (Index j = 0; j < model.num_cables(); ++j) {
+    const Cable& cable = model.cables()[static_cast<std::size_t>(j)];
+    const CablePath& path = path_of(model, j);
+    if (!cable.length_driven()) {
+      path.add_curvature(chain, q.data(), command[j], K);
+      continue;
+    }
+    const CableSlope<double> slope(chain, path, q.data());
+    const double longer = slope.length - (command[j] + model.slack_offset()[j]);
+    if (!(longer > 0.0)) continue;
+    path.add_curvature(chain, q.data(), cable.stiffness * longer, K);
+    for (Index i = 0; i < q.size(); ++i) {
+      for (Index k = i; k < q.size(); ++k) {
+        K(k, i) += slope.column[k] * cable.stiffness * slope.column[i];
       }
     }
-  });
+  }
 }
 
 }  // namespace
@@ -153,10 +156,12 @@ void add_load_stiffness(const Model& model, const ConstVectorRef& q, const Const
                         const Wrenches& wrenches, MatrixRef K) noexcept {
   assert(detail::of_coordinates(model, q) && detail::of_cables(model, command));
   assert(check_wrenches(model, wrenches) == Status::ok);
-  detail::subtract_wrench_stiffness(model, q, wrenches, K);
   if (!model.has_constant_actuation()) {
-    return detail::subtract_path_stiffness(model, q, command, K);
+    detail::add_path_stiffness(model, q, command, K);
+    K.triangularView<Eigen::StrictlyUpper>() = K.transpose();
+    return detail::subtract_wrench_stiffness(model, q, wrenches, K);
   }
+  detail::subtract_wrench_stiffness(model, q, wrenches, K);
   const MatrixXd& B = model.actuation_matrix();
   for (Index j = 0; j < model.num_cables(); ++j) {
     const Cable& cable = model.cables()[static_cast<std::size_t>(j)];
