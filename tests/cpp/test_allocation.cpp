@@ -95,7 +95,7 @@ TensionLimits random_limits(Random& random) {
   if (kind == 3) limits.min_tension = -inf;
   if (random.integer(0, 2) > 0) {
     const double low = std::isfinite(limits.min_tension) ? limits.min_tension : 0.0;
-    limits.max_tension = low + random.uniform(0.0, 10.0);
+    limits.max_tension = std::max(low, 0.0) + random.uniform(0.0, 10.0);
   }
   return limits;
 }
