@@ -178,8 +178,8 @@ void bind_kinematics(PyModel& model) {
             });
           },
           "q"_a, "section"_a, "fraction"_a,
-          Doc("Derivatives of `jacobian` by the coordinates, exact: the last formula of\n"
-              "cpp/derivatives.md.",
+          Doc("Derivatives of `jacobian` by the coordinates, exact: the formula after\n"
+              "cpp/derivatives.md eq. (83).",
               {docs::q, docs::section, docs::fraction}, hessian, docs::bad_states))
       .def(
           "tip_hessian",
@@ -188,8 +188,8 @@ void bind_kinematics(PyModel& model) {
                             [&](auto& x, auto& H) { tip_hessian(self, x, H); });
           },
           "q"_a,
-          Doc("Derivatives of `tip_jacobian` by the coordinates, exact: the last formula\nof "
-              "cpp/derivatives.md.",
+          Doc("Derivatives of `tip_jacobian` by the coordinates, exact: the formula\n"
+              "after cpp/derivatives.md eq. (83).",
               {docs::q}, hessian, docs::bad_states));
   model.def("_inverse_kinematics", &find_bending, "p"_a, "R"_a, "q0"_a, py::kw_only(),
             "max_theta"_a, "orientation_weight"_a, "tolerance"_a, "seeds"_a, "iterations"_a,

@@ -1,5 +1,6 @@
 """The command new: its file runs as it is, and with each of its comments switched on."""
 
+import csv
 import json
 import re
 from dataclasses import fields, replace
@@ -190,6 +191,13 @@ def file_scenarios() -> list[str]:
     return found
 
 
+def columns(path: Path) -> list[dict[str, str]]:
+    """Rows of a run's CSV but for how long updates of the controller took, by the clock."""
+    with path.open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    return [{name: row[name] for name in row if name != "duration [s]"} for row in rows]
+
+
 @pytest.mark.usefixtures("quick")
 @pytest.mark.parametrize("name", file_scenarios())
 def test_a_scenario_written_out_is_the_same_run(tmp_path: Path, name: str) -> None:
@@ -206,7 +214,7 @@ def test_a_scenario_written_out_is_the_same_run(tmp_path: Path, name: str) -> No
         runs.append(json.loads(result.stdout))
     same = ("title", "source", "robot", "formulation", "method", "t_end", "num_samples", "stats")
     assert [runs[0][key] for key in same] == [runs[1][key] for key in same]
-    assert (out / "my.csv").read_bytes() == (out / f"{name}.csv").read_bytes()
+    assert columns(out / "my.csv") == columns(out / f"{name}.csv")
 
 
 def test_only_scenarios_that_run_can_be_written_out(tmp_path: Path) -> None:

@@ -157,7 +157,7 @@ def test_poses_are_those_of_the_model(run: cdcr.Trajectory, log: Log) -> None:
     for k, (time, message) in enumerate(messages["/tip_pose"]):
         R, p = run.model.tip(run.q[k])
         pose = message["pose"]
-        np.testing.assert_array_equal(values(pose["position"]), p)
+        np.testing.assert_allclose(values(pose["position"]), p, rtol=0.0, atol=ROUNDING)
         turned = Rotation.from_quat(values(pose["orientation"])).as_matrix()
         np.testing.assert_allclose(turned, R, rtol=0.0, atol=ROUNDING)
         stamp = message["timestamp"]
@@ -167,12 +167,12 @@ def test_poses_are_those_of_the_model(run: cdcr.Trajectory, log: Log) -> None:
         assert [one["child_frame_id"] for one in frames] == ["section1", "section2", "tip"]
         for i, one in enumerate(frames):
             R, p = run.model.pose(run.q[k], i, 1.0)
-            np.testing.assert_array_equal(values(one["translation"]), p)
+            np.testing.assert_allclose(values(one["translation"]), p, rtol=0.0, atol=ROUNDING)
             turned = Rotation.from_quat(values(one["rotation"])).as_matrix()
             np.testing.assert_allclose(turned, R, rtol=0.0, atol=ROUNDING)
     (entity,) = messages["/backbone"][7][1]["entities"]
     points = np.array([values(point) for point in entity["lines"][0]["points"]])
-    np.testing.assert_array_equal(points[[0, -1]], [[0.0] * 3, run.tip[7]])
+    np.testing.assert_allclose(points[[0, -1]], [[0.0] * 3, run.tip[7]], rtol=0.0, atol=ROUNDING)
     length = np.sum(np.linalg.norm(np.diff(points, axis=0), axis=1))
     np.testing.assert_allclose(length, run.model.robot.length, rtol=2e-3)  # chords
 

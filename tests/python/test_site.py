@@ -139,7 +139,7 @@ def tables() -> set[str]:
     from cdcr.identification import schema as identify
     from cdcr.scenarios.file import control_schema, estimator_schema, schema, shape_schema
 
-    bases = {"BaseModel", "TensionShape"}
+    bases = {"BaseModel", "MeasuredTable", "TensionShape"}
     homes = {"schema": schema, "shape_schema": shape_schema, "identify": identify}
     homes |= {"control_schema": control_schema, "estimator_schema": estimator_schema}
     return {

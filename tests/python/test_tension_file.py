@@ -131,8 +131,7 @@ def test_times_must_increase(tmp_path: Path) -> None:
         (
             "t;cable 1;cable 2;cable 3\n0;1;2;3\n",
             "tension.csv, line 1",
-            "the columns must be t, cable 1, cable 2, cable 3, "
-            "got 't;cable 1;cable 2;cable 3' with ';' in place of commas",
+            "columns must be separated by commas, not semicolons",
         ),
         ("t,cable 1,cable 2,cable 3\n0,1\n", "tension.csv, line 2", "must have 4 columns, got 2"),
         (

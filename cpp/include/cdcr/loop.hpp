@@ -11,11 +11,12 @@
 #include "cdcr/simulate.hpp"
 #include "cdcr/simulator.hpp"
 
-namespace CDCR_EXPORT cdcr {
-
-namespace detail {
+namespace cdcr::detail {
 class PlantBase;
 }
+
+namespace CDCR_EXPORT cdcr {
+
 class LoopLog;
 
 struct LoopOptions {

@@ -71,7 +71,7 @@ def read_rows(path: Path, what: str) -> tuple[list[str], list[tuple[str, list[st
         rows = [(f"{path}, line {reader.line_num}", row) for row in reader if row]
     except csv.Error as error:
         raise ValueError(f"{path} is not a CSV file: {error}") from None
-    for mark, name in ((";", "semicolons"), ("\t", "tabs")):
+    for mark, name in ((";", "semicolons"), ("\t", "tabs"), ("|", "bars")):
         if len(header) == 1 and mark in header[0]:
             raise ValueError(f"{path}, line 1: columns must be separated by commas, not {name}")
     for where, row in rows:
@@ -93,11 +93,8 @@ def _layout(header: list[str], layouts: Sequence[Layout], path: Path) -> tuple[L
     plain = [one for one in layouts if one.time != RUN_TIME]
     requirement = "; or ".join(", ".join([one.time, *one.columns]) for one in plain)
     # A header that is nothing like ours may be of a file that is nobody's business.
-    parted = re.match(r"(?:t|t \[s\])([;\t|])", ",".join(header))
     got = (
-        f"{','.join(header)!r} with {parted[1]!r} in place of commas"
-        if parted
-        else ", ".join(header)
+        ", ".join(header)
         if header[:1] in (["t"], [RUN_TIME])
         else "others"
         if header

@@ -215,12 +215,13 @@ class TaskSpace(_core.TaskSpace):
     >>> bool(abs(run.tip[-1] - goal).max() < 1e-4)
     True
 
-    A pose, which three sections just reach:
+    A pose, which three sections just reach, from near it:
 
     >>> R, p = model.tip([0.5, 0.0, 0.2, 0.1, 0.1, 0.3])
-    >>> controller = cdcr.TaskSpace(model, orientation_weight=0.3, damping=1e-3, min_tension=0.5)
+    >>> controller = cdcr.TaskSpace(model, orientation_weight=0.3, damping=3e-3, min_tension=0.5)
     >>> controller.reference = [*p, *cdcr.rotation_vector(R)]
-    >>> run = cdcr.simulate(model, [0.1] * 6, [0] * 6, t=[0.0, 4.0], controller=controller)
+    >>> near = [0.4, 0.1, 0.2, 0.1, 0.1, 0.2]
+    >>> run = cdcr.simulate(model, near, [0] * 6, t=[0.0, 4.0], controller=controller)
     >>> bool(abs(run.q[-1] - [0.5, 0.0, 0.2, 0.1, 0.1, 0.3]).max() < 1e-3)
     True
     """
