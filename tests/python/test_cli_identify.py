@@ -126,7 +126,7 @@ history = true
 def test_poses_with_a_history_tell_friction(tmp_path: Path) -> None:
     """Cables pulled and let go again, on a robot that does not come back the same way."""
     ROBOT.save(tmp_path / "arm.toml")
-    rubs = [replace(one, cable_entry_friction=0.3) for one in ROBOT.sections]
+    rubs = tuple(replace(one, cable_entry_friction=0.3) for one in ROBOT.sections)
     pull = np.concatenate([np.linspace(0.0, 3.0, 8), np.linspace(3.0, 0.0, 8)])
     commands = np.zeros((32, 6))
     commands[:16, 0], commands[16:, 4] = pull, pull
