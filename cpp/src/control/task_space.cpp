@@ -24,8 +24,8 @@ struct Turning {
 
 Turning turning_of(const Vector3d& u, const Vector3d& rate, const Vector3d& second) noexcept {
   const double s = u.squaredNorm();
-  double a, b, da, db;  // J_l = 1 + a u^ + b u^ u^, and d/ds
-  if (s < 1e-2) {       // where closed forms lose digits
+  double a = 0.0, b = 0.0, da = 0.0, db = 0.0;  // J_l = 1 + a u^ + b u^ u^, and d/ds
+  if (s < 1e-2) {                               // where closed forms lose digits
     a = 1.0 / 2 - s * (1.0 / 24 - s * (1.0 / 720 - s / 40320));
     b = 1.0 / 6 - s * (1.0 / 120 - s * (1.0 / 5040 - s / 362880));
     da = -1.0 / 24 + s * (1.0 / 360 - s * (1.0 / 13440 - s / 907200));

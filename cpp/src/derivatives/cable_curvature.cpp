@@ -21,7 +21,8 @@ void RodCable::add_curvature(const RodParameters& rod, const double* q, double p
   }
   std::array<double, max_rod_coordinates> P{};
   std::array<std::array<double, max_rod_coordinates>, num_strains> with{};
-  std::array<double, max_rod_coordinates * max_rod_coordinates> sums;
+  constexpr std::size_t most = max_rod_coordinates;
+  std::array<double, most * most> sums;
   for (int i = 0; i < size * size; ++i) sums[i] = 0.0;
   for (int k = 0; k < num_points_; ++k) {
     const Vector3d& locked = rod.locked_turning;

@@ -111,12 +111,12 @@ void BaseWrenchSlopes::update(const Model& model, const ConstVectorRef& q, const
     for (int lane = 0; lane < count; ++lane) motion_[first + lane].slopes[lane] = 1.0;
     std::array<Dual, 6> wrench;
     wrench.fill(Dual(0.0));
-    std::visit(
-        [&](auto& section) {
-          take_inertia(chain_of(model), section.front(), motion_.data(), motion_.data() + d,
-                       motion_.data() + 2 * d, wrench.data());
-        },
-        section_);
+    const auto take = [&](auto& section) {
+      take_inertia(chain_of(model), section.front(), motion_.data(), motion_.data() + d,
+                   motion_.data() + 2 * d, wrench.data());
+    };
+    if (auto* arc = std::get_if<0>(&section_)) take(*arc);
+    if (auto* rod = std::get_if<1>(&section_)) take(*rod);
     for (int lane = 0; lane < count; ++lane) {
       for (int c = 0; c < 6; ++c) slopes(c, first + lane) = wrench[c].slopes[lane];
       motion_[first + lane].slopes[lane] = 0.0;
