@@ -41,6 +41,8 @@ CableDrive::CableDrive(const Model& model, const TensionLimits& limits, double m
   force_ = wanted_ = VectorXd::Zero(d);
   moved_ = B_;
   normal_ = MatrixXd::Identity(c, c);
+  ldlt_.compute(normal_);  // before, Eigen leaves a status without a value, which copies would read
+  llt_.compute(MatrixXd::Identity(d, d));
   for (const Cable& cable : model.cables()) has_lengths_ = has_lengths_ || cable.length_driven();
   detail::require(limits.min_tension >= 0.0 || !has_lengths_,
                   "min_tension must be >= 0 N where cables are driven by length, got ",

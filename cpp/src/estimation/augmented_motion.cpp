@@ -25,6 +25,7 @@ AugmentedMotion::AugmentedMotion(const Model& model, const std::vector<Model>& v
   between_ = slope_ = VectorXd::Zero(size());
   qdd_ = bias_ = unbalanced_ = added_ = VectorXd::Zero(d_);
   M_ = own_ = MatrixXd::Zero(d_, d_);
+  llt_.compute(MatrixXd::Identity(d_, d_));  // its status is copied before the first update
   A_ = MatrixXd::Zero(2 * d_, 2 * d_);
   on_base_ = VectorXd::Zero(6);
 }
