@@ -34,7 +34,7 @@ def soromox() -> None:
     import cdcr
 
     arm = soromox_arms.robot(1)
-    pair = Pair(cdcr.Model(arm), soromox_arms.soromox(arm))
+    pair = Pair("n = 1", cdcr.Model(arm), soromox_arms.soromox(arm))
     pair.soromox_run(np.array([0.8, 0.0]), np.array([0.0, 1.0]), np.linspace(0.0, 10.0, 101))(1e-8)
 
 
