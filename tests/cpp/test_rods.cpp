@@ -258,6 +258,29 @@ TEST_CASE("cables pull with the slope of their length, and straight ones as on a
   }
 }
 
+TEST_CASE("cables summed up together pull as one by one, whatever their numbers of points") {
+  Random random;
+  const detail::RodParameters rod(described_rod(amouri2020().sections[0], 2, 1, 1));
+  std::vector<RodCable> cables;
+  for (const double winding : {0.0, 0.0, 6.0 * pi, -6.0 * pi, 1.0, 0.0}) {
+    cables.emplace_back(rod, CableRoute{0.02, 0.01, 0.3, 0.3 + winding});
+  }
+  for (int i = 0; i < test_count(); ++i) {
+    INFO(random);
+    VectorXd q = random.vector(rod.size(), 1.0), together = VectorXd::Zero(rod.size()),
+             alone = together;
+    q.tail(2) *= 0.1 * rod.length;
+    detail::RodCables<double> all(rod, q.data(), together.data());
+    for (const RodCable& cable : cables) {
+      const double tension = random.uniform(1.0, 10.0);
+      const double length = cable.length(rod, q.data(), tension, alone.data());
+      CHECK(residual(all.add(cable, tension), length) <= tolerance::rounding);
+    }
+    all.finish();
+    CHECK(residual(together, alone) <= tolerance::rounding);
+  }
+}
+
 TEST_CASE("motion of rods, and their cables, allocate nothing") {
   const auto state = std::make_unique<RodChain>();
   for (const Json& reference : rod_cases()) {

@@ -2,6 +2,7 @@
 #include "batch/motion_lanes.hpp"
 #include "cdcr/batch.hpp"
 #include "loads/cable_force.hpp"
+#include "statics/potential.hpp"
 
 namespace cdcr {
 namespace {
@@ -85,7 +86,7 @@ void potential_energy(const Model& model, Data& data, Index count, const StateRo
                       double* energy) {
   const Index d = model.num_coordinates();
   answer(model, Quantity::potential_energy, count, {{q, d}}, 1, energy,
-         [&](Index i) { energy[i] = detail::energy_from_base(model, data, row(q, i, d)); });
+         [&](Index i) { energy[i] = detail::energy_from_base(model, data.kept(), row(q, i, d)); });
   for (Index i = 0; i < count; ++i) energy[i] += model.base_energy();
 }
 

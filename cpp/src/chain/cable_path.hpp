@@ -32,8 +32,11 @@ class CablePath {
     return sum;
   }
 
-  /// Adds `pull` times the second derivatives of the length to the lower half of K (d, d).
-  void add_curvature(const Chain& chain, const double* q, double pull, MatrixRef K) const noexcept;
+  /// What it is in a rod, where it passes that.
+  [[nodiscard]] const RodCable* in(Index rod) const noexcept {
+    const Index i = rod - first_;
+    return 0 <= i && i < static_cast<Index>(smooth_.size()) ? &smooth_[i] : nullptr;
+  }
 
   /// Adds the force of a cable that rubs, with this tension at its base while its length changes at
   /// this rate. The tension that is left beyond each section goes to `beyond_sections` where

@@ -1,71 +1,66 @@
-#include "chain/cable_path.hpp"
+#include "derivatives/cable_curvature.hpp"
+
+#include <algorithm>
 
 namespace cdcr::detail {
 
-void RodCable::add_curvature(const RodParameters& rod, const double* q, double pull,
-                             MatrixRef K) const {
-  // With s = |s| t, d2|s| = (ds.ds - (t.ds)^2)/|s|, where ds is linear in the strains: bending x
-  // and y, twist and stretch. All but the twist change s_z alone.
-  enum Strain { x, y, twist, stretch, num_strains };
-  const int size = rod.size();
-  std::array<Strain, max_rod_coordinates> strain_of{};
-  std::array<int, max_rod_coordinates> order_of{};
-  for (int c = 0; c < size; ++c) {
-    if (c < rod.first_twist) {
-      strain_of[c] = c % 2 == 0 ? x : y;
-      order_of[c] = c / 2;
-    } else {
-      strain_of[c] = c < rod.first_stretch ? twist : stretch;
-      order_of[c] = c - (c < rod.first_stretch ? rod.first_twist : rod.first_stretch);
+void CableCurvature::add(const RodCable& cable, double pull, MatrixRef K) {
+  const int num_points = cable.num_points_;
+  if (points_ == nullptr || points_->num_points_ != num_points) {
+    finish(K);
+    points_ = &cable;
+    cable.find_strains(rod_, q_, strains_);
+    for (auto& row : sums_) {
+      for (auto& of_pair : row) of_pair.fill(Pair(0.0));
     }
   }
-  std::array<double, max_rod_coordinates> P{};
-  std::array<std::array<double, max_rod_coordinates>, num_strains> with{};
-  constexpr std::size_t most = max_rod_coordinates;
-  std::array<double, most * most> sums;
-  for (int i = 0; i < size * size; ++i) sums[i] = 0.0;
-  for (int k = 0; k < num_points_; ++k) {
-    const Vector3d& locked = rod.locked_turning;
-    double strain[num_strains] = {locked[1], -locked[0], locked[2], rod.length};
-    for (int c = 0; c < size; ++c) {
-      P[c] = legendre_[order_of[c]][k];
-      strain[strain_of[c]] += P[c] * q[c];
+  with_fma<double>([&] {
+    for (int k = 0; k < num_points; k += L::count) {
+      // With s = |s| t, d2|s| = (ds.ds - (t.ds)^2)/|s|, where ds is linear in the strains. All but
+      // the twist change s_z alone.
+      const int p = k / L::count;
+      const Pair twist = strains_[twisting][p];
+      const Pair d_x = L::load(&cable.x_[k]), d_y = L::load(&cable.y_[k]);
+      const Pair s_x = L::load(&cable.slope_x_[k]) - d_y * twist,
+                 s_y = L::load(&cable.slope_y_[k]) + d_x * twist,
+                 s_z = strains_[stretching][p] - d_x * strains_[bending_x][p] -
+                       d_y * strains_[bending_y][p];
+      const Pair shorter = 1.0 / sqrt(s_x * s_x + s_y * s_y + s_z * s_z);
+      const Pair t_x = shorter * s_x, t_y = shorter * s_y, t_z = shorter * s_z;
+      const Pair round = d_x * t_y - d_y * t_x, share = pull * L::load(&cable.weight_[k]) * shorter;
+      const Pair across = share * (t_x * t_x + t_y * t_y), mixed = -share * t_z * round;
+      sums_[bending_x][bending_x][p] += across * d_x * d_x;
+      sums_[bending_y][bending_x][p] += across * d_x * d_y;
+      sums_[bending_y][bending_y][p] += across * d_y * d_y;
+      sums_[twisting][bending_x][p] -= mixed * d_x;
+      sums_[twisting][bending_y][p] -= mixed * d_y;
+      sums_[twisting][twisting][p] += share * (d_x * d_x + d_y * d_y - round * round);
+      sums_[stretching][bending_x][p] -= across * d_x;
+      sums_[stretching][bending_y][p] -= across * d_y;
+      sums_[stretching][twisting][p] += mixed;
+      sums_[stretching][stretching][p] += across;
     }
-    const double along[num_strains] = {-x_[k], -y_[k], 0.0, 1.0};
-    const Vector3d s(slope_x_[k] - y_[k] * strain[twist], slope_y_[k] + x_[k] * strain[twist],
-                     strain[stretch] + along[x] * strain[x] + along[y] * strain[y]);
-    const double shorter = 1.0 / s.norm();
-    const Vector3d t = s * shorter;
-    const double round = x_[k] * t[1] - y_[k] * t[0], share = pull * weight_[k] * shorter;
-    const double across = share * (t[0] * t[0] + t[1] * t[1]), mixed = -share * t[2] * round;
-    for (int c = 0; c < size; ++c) {
-      const double on_z = along[strain_of[c]] * P[c];
-      if (strain_of[c] == twist) {
-        for (const Strain a : {x, y, stretch}) with[a][c] = mixed * along[a] * P[c];
-        with[twist][c] = share * (x_[k] * x_[k] + y_[k] * y_[k] - round * round) * P[c];
-      } else {
-        for (const Strain a : {x, y, stretch}) with[a][c] = across * along[a] * on_z;
-        with[twist][c] = mixed * on_z;
-      }
-    }
-    for (int j = 0; j < size; ++j) {
-      const double* column = with[strain_of[j]].data();
-      for (int c = j; c < size; ++c) sums[j * size + c] += P[j] * column[c];
-    }
-  }
-  for (int j = 0; j < size; ++j) {
-    for (int c = j; c < size; ++c) K(c, j) += sums[j * size + c];
-  }
+  });
 }
 
-void CablePath::add_curvature(const Chain& chain, const double* q, double pull,
-                              MatrixRef K) const noexcept {
-  for (std::size_t i = 0; i < smooth_.size(); ++i) {
-    const auto k = static_cast<std::size_t>(first_) + i;
-    const RodParameters& rod = *chain.sections[k].rod;
-    const Index at = chain.first[k];
-    smooth_[i].add_curvature(rod, q + at, pull, K.block(at, at, rod.size(), rod.size()));
-  }
+void CableCurvature::finish(MatrixRef K) {
+  if (points_ == nullptr) return;
+  const int num_packs = (points_->num_points_ + L::count - 1) / L::count;
+  with_fma<double>([&] {
+    for (int j = 0; j < rod_.size(); ++j) {
+      const double* P_j = points_->legendre_[rod_.order_of[j]].data();
+      for (int c = j; c < rod_.size(); ++c) {
+        const double* P_c = points_->legendre_[rod_.order_of[c]].data();
+        const StrainKind a = rod_.strain_of[c], b = rod_.strain_of[j];
+        const auto& of_pair = sums_[std::max(a, b)][std::min(a, b)];
+        Pair sum(0.0);
+        for (int p = 0; p < num_packs; ++p) {
+          sum += L::load(&P_c[p * L::count]) * L::load(&P_j[p * L::count]) * of_pair[p];
+        }
+        K(c, j) += L::total(sum);
+      }
+    }
+  });
 }
 
 }  // namespace cdcr::detail

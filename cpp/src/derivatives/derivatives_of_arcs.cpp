@@ -4,6 +4,6 @@ namespace cdcr::detail {
 
 template class MotionDerivatives<ConstantCurvature>;
 template void weight_hessian(const Chain&, const ArcChainState<double>&, const double*,
-                             ConstantCurvature<Dual>&, MatrixRef) noexcept;
+                             MatrixRef) noexcept;
 
 }  // namespace cdcr::detail

@@ -205,7 +205,7 @@ void RodFrames<S>::subtract_curvature(const Vector3<S>& g, double mass, const Ve
 
 template void RodFrames<double>::subtract_curvature(const Vector3d&, double, const Vector3d&,
                                                     MatrixRef) const;
-template void weight_hessian(const Chain&, const RodChainState<double>&, const double*, Rod<Dual>&,
+template void weight_hessian(const Chain&, const RodChainState<double>&, const double*,
                              MatrixRef) noexcept;
 
 }  // namespace cdcr::detail

@@ -18,10 +18,12 @@ template <class DualSection>
 }
 
 /// Second derivatives with respect to the coordinates of an arc, on dual numbers.
-template <class DualSection, class Matrix>
+template <class Matrix>
 void differentiate_own(const SectionParameters& fixed, const ConstantCurvature<double>& arc,
                        const double* q, const Vector3d& g, double mass, const Vector3d& h,
-                       DualSection& dual, Matrix&& H) {
+                       Matrix&& H) {
+  using DualSection = ConstantCurvature<Dual>;
+  DualSection dual;
   const Vector3d moment = h.cross(g);
   const FrameState<Dual> base{arc.base.x.template cast<Dual>(), arc.base.y.template cast<Dual>(),
                               arc.base.z.template cast<Dual>(), Vector3<Dual>::Zero()};
@@ -41,17 +43,16 @@ void differentiate_own(const SectionParameters& fixed, const ConstantCurvature<d
 }
 
 /// The same of a rod, in closed form.
-template <class DualSection, class Matrix>
+template <class Matrix>
 void differentiate_own(const SectionParameters& fixed, const Rod<double>& rod, const double* /*q*/,
-                       const Vector3d& g, double mass, const Vector3d& h, DualSection& /*dual*/,
-                       Matrix&& H) {
+                       const Vector3d& g, double mass, const Vector3d& h, Matrix&& H) {
   H = fixed.rod->stiffness;
   rod.subtract_curvature(g, mass, h, H);
 }
 
-template <class Section, class DualSection>
+template <class Section>
 void add_up_weight_hessian(const Chain& chain, const ChainState<Section>& state, const double* q,
-                           DualSection& dual, MatrixRef& H) {
+                           MatrixRef& H) {
   using Matrix3m = typename Section::Matrix3m;
   const Vector3d& g = chain.gravity;
   double mass = chain.payload.mass;  // of all beyond this tip
@@ -60,7 +61,7 @@ void add_up_weight_hessian(const Chain& chain, const ChainState<Section>& state,
     const Section& section = state.sections[i];
     const SectionParameters& fixed = chain.sections[i];
     const Index at = chain.first[i], size = chain.first[i + 1] - at;
-    differentiate_own(fixed, section, q + at, g, mass, h, dual, H.block(at, at, size, size));
+    differentiate_own(fixed, section, q + at, g, mass, h, H.block(at, at, size, size));
     Matrix3m pull;  // what turns with a coordinate pulls on the sections that carry it
     pull.resize(3, size);
     const Matrix3m coupling = section.linear_coupling();
@@ -83,17 +84,17 @@ void add_up_weight_hessian(const Chain& chain, const ChainState<Section>& state,
 }
 
 /// Second derivatives (d, d) of the potential energy, cpp/derivatives.md eqs. (79), (80): O(d^2).
-/// `state` needs its position alone; `dual` is room for one section.
-template <class Section, class DualSection>
+/// `state` needs its position alone.
+template <class Section>
 void weight_hessian(const Chain& chain, const ChainState<Section>& state, const double* q,
-                    DualSection& dual, MatrixRef H) noexcept {
-  with_fma<double>([&] { add_up_weight_hessian(chain, state, q, dual, H); });
+                    MatrixRef H) noexcept {
+  with_fma<double>([&] { add_up_weight_hessian(chain, state, q, H); });
 }
 
 extern template void weight_hessian(const Chain&, const ArcChainState<double>&, const double*,
-                                    ConstantCurvature<Dual>&, MatrixRef) noexcept;
+                                    MatrixRef) noexcept;
 extern template void weight_hessian(const Chain&, const RodChainState<double>&, const double*,
-                                    Rod<Dual>&, MatrixRef) noexcept;
+                                    MatrixRef) noexcept;
 
 }  // namespace cdcr::detail
 

@@ -1,7 +1,6 @@
 #include "cdcr/dynamics.hpp"
 
 #include "base/sizes.hpp"
-#include "derivatives/weight_hessian.hpp"
 #include "dynamics/kept.hpp"
 #include "loads/cable_force.hpp"
 
@@ -99,46 +98,6 @@ double kinetic_energy(const Model& model, Data& data, const ConstVectorRef& q,
   return data.kept()->with(
       model,
       [&](auto& chain, auto& state) { return detail::kinetic_energy(chain, state, qd.data()); },
-      q.data());
-}
-
-double detail::energy_from_base(const Model& model, Data& data, const ConstVectorRef& q) noexcept {
-  assert(data.belongs_to(model) && of_coordinates(model, q));
-  if (model.has_closed_form()) return closed_form::potential_energy(single_of(model), q);
-  return data.kept()->with(
-      model,
-      [&](auto& chain, auto& state) { return detail::potential_energy(chain, state, q.data()); },
-      q.data());
-}
-
-double potential_energy(const Model& model, Data& data, const ConstVectorRef& q) noexcept {
-  return detail::energy_from_base(model, data, q) + model.base_energy();
-}
-
-void potential_gradient(const Model& model, Data& data, const ConstVectorRef& q,
-                        VectorRef gradient) noexcept {
-  assert(data.belongs_to(model) && of_coordinates(model, q, gradient));
-  if (model.has_closed_form()) {
-    return closed_form::potential_gradient(single_of(model), q, gradient);
-  }
-  data.kept()->with(
-      model,
-      [&](auto& chain, auto& state) {
-        detail::weight_gradient(chain, state, q.data(), gradient.data());
-      },
-      q.data());
-}
-
-void potential_hessian(const Model& model, Data& data, const ConstVectorRef& q,
-                       MatrixRef H) noexcept {
-  assert(of_coordinates(model, q));
-  assert(detail::has_size(H, model.num_coordinates(), model.num_coordinates()));
-  if (model.has_closed_form()) return closed_form::potential_hessian(single_of(model), q, H);
-  data.kept()->with_derivatives(
-      model,
-      [&](auto& chain, auto& state, auto& derivatives) {
-        detail::weight_hessian(chain, state, q.data(), derivatives.dual, H);
-      },
       q.data());
 }
 

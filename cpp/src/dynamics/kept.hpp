@@ -57,52 +57,58 @@ class KeptState {
   bool has_position_ = false, has_velocity_ = false;
 };
 
-}  // namespace detail
-
-/// The chain of one model as it was last asked for, and room for its derivatives.
-class Data::Kept {
+/// The chain of one model, of either kind of section, as it was last asked for.
+class KeptChain {
  public:
-  explicit Kept(const Model& model) : force_duals(model) {
-    const detail::Chain& chain = detail::chain_of(model);
-    if (chain.has_rods()) {
-      rods_.emplace(chain, model.num_cables());
-    } else {
-      arcs_.emplace(chain, model.num_cables());
-    }
+  explicit KeptChain(const Model& model) {
+    const Chain& chain = chain_of(model);
+    if (chain.has_rods()) rods_.emplace(chain);
+    if (!chain.has_rods()) arcs_.emplace(chain);
   }
 
   /// f(chain, state) at a position, or at a position and a velocity.
   template <class F, class... Positions>
   auto with(const Model& model, const F& f, const Positions*... at) noexcept {
-    return with_derivatives(
-        model, [&f](auto& chain, auto& state, auto& /*derivatives*/) { return f(chain, state); },
-        at...);
+    const Chain& chain = chain_of(model);
+    if (arcs_) return f(chain, arcs_->at(chain, at...));
+    // NOLINTNEXTLINE(bugprone-unchecked-optional-access): one of the two
+    return f(chain, rods_->at(chain, at...));
+  }
+
+ private:
+  std::optional<KeptState<ArcChainState<double>>> arcs_;
+  std::optional<KeptState<RodChainState<double>>> rods_;
+};
+
+}  // namespace detail
+
+/// The same with room for derivatives of motions.
+class Data::Kept : public detail::KeptChain {
+ public:
+  explicit Kept(const Model& model) : KeptChain(model), force_duals(model) {
+    const detail::Chain& chain = detail::chain_of(model);
+    if (chain.has_rods()) of_rods_.emplace(chain, model.num_cables());
+    if (!chain.has_rods()) of_arcs_.emplace(chain, model.num_cables());
   }
 
   /// f(chain, state, derivatives).
   template <class F, class... Positions>
   auto with_derivatives(const Model& model, const F& f, const Positions*... at) noexcept {
-    const detail::Chain& chain = detail::chain_of(model);
-    if (arcs_) return f(chain, arcs_->motion.at(chain, at...), arcs_->derivatives);
-    // NOLINTNEXTLINE(bugprone-unchecked-optional-access): one of the two
-    return f(chain, rods_->motion.at(chain, at...), rods_->derivatives);
+    return with(
+        model, [&](auto& chain, auto& state) { return f(chain, state, derivatives_of(state)); },
+        at...);
   }
 
   detail::ForceDuals force_duals;
 
  private:
-  /// Of one kind of section.
-  template <template <class> class Kind>
-  struct Rooms {
-    Rooms(const detail::Chain& chain, Index num_cables)
-        : motion(chain), derivatives(chain, num_cables) {}
+  // NOLINTBEGIN(bugprone-unchecked-optional-access): one of the two, that of the chain
+  auto& derivatives_of(const detail::ArcChainState<double>& /*state*/) { return *of_arcs_; }
+  auto& derivatives_of(const detail::RodChainState<double>& /*state*/) { return *of_rods_; }
+  // NOLINTEND(bugprone-unchecked-optional-access)
 
-    detail::KeptState<detail::ChainState<Kind<double>>> motion;
-    detail::MotionDerivatives<Kind> derivatives;
-  };
-
-  std::optional<Rooms<detail::ConstantCurvature>> arcs_;
-  std::optional<Rooms<detail::Rod>> rods_;
+  std::optional<detail::MotionDerivatives<detail::ConstantCurvature>> of_arcs_;
+  std::optional<detail::MotionDerivatives<detail::Rod>> of_rods_;
 };
 
 }  // namespace cdcr

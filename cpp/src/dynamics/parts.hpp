@@ -31,9 +31,5 @@ namespace detail {
   return *model.parts()->single;  // NOLINT(bugprone-unchecked-optional-access)
 }
 
-/// Potential energy of the robot were its base at the origin: with all digits wherever it stands.
-[[nodiscard]] double energy_from_base(const Model& model, Data& data,
-                                      const ConstVectorRef& q) noexcept;
-
 }  // namespace detail
 }  // namespace cdcr

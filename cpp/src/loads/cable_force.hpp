@@ -12,6 +12,10 @@
 
 namespace cdcr::detail {
 
+[[nodiscard]] inline bool is_length_driven(const Model& model, Index cable) noexcept {
+  return model.cables()[static_cast<std::size_t>(cable)].length_driven();
+}
+
 /// Rate at which the part of a cable in a section shortens, or with q in place of qd its change.
 template <class S>
 [[nodiscard]] S shortening(const Model& model, Index cable, Index section, const S* rate) {
@@ -48,9 +52,7 @@ template <class S>
            cable.damping * slope.rate(chain_of(model), qd);
   }
   S rate(0.0);
-  for (Index k = 0; k <= cable.end_section; ++k) {
-    rate -= shortening(model, j, k, qd);
-  }
+  for (Index k = 0; k <= cable.end_section; ++k) rate -= shortening(model, j, k, qd);
   return cable.stiffness * elongation(model, j, q, command) + cable.damping * rate;
 }
 
@@ -58,7 +60,7 @@ template <class S>
 template <class S>
 [[nodiscard]] S base_tension(const Model& model, Index j, const S* q, const S* qd,
                              const S& command) {
-  if (!model.cables()[static_cast<std::size_t>(j)].length_driven()) return command;
+  if (!is_length_driven(model, j)) return command;
   const S pull = spring_force(model, j, q, qd, command);
   return pull > 0.0 ? pull : S(0.0);
 }
@@ -203,12 +205,35 @@ void add_cable_force(const Model& model, Index j, const S* q, const S* qd, const
   add_pulled_force(model, j, q, qd, base_tension(model, j, q, qd, command), force);
 }
 
+/// Adds those of all cables that tensions drive through rods, without friction. The sum of tensions
+/// times lengths.
+template <class S>
+S add_smooth_forces(const Model& model, const S* q, const S* tension, S* force) {
+  const Chain& chain = chain_of(model);
+  S work(0.0);
+  for (Index k = 0; k < chain.num_sections(); ++k) {
+    with_fma<S>([&] {
+      RodCables<S> cables(*chain.sections[k].rod, q + chain.first[k], force + chain.first[k]);
+      for (Index j = 0; j < model.num_cables(); ++j) {
+        const RodCable* cable = path_of(model, j).in(k);
+        if (cable == nullptr || is_length_driven(model, j)) continue;
+        work += tension[j] * cables.add(*cable, tension[j]);
+      }
+      cables.finish();
+    });
+  }
+  return work;
+}
+
 /// Generalised force of all cables.
 template <class S>
 void cable_force(const Model& model, const S* q, const S* qd, const S* command, S* force) {
   if (model.has_plain_cables()) return actuation_force(model, command, force);
   for (Index i = 0; i < model.num_coordinates(); ++i) force[i] = S(0.0);
+  const bool together = model.has_rods() && !model.has_friction();
+  if (together) static_cast<void>(add_smooth_forces(model, q, command, force));
   for (Index j = 0; j < model.num_cables(); ++j) {
+    if (together && !is_length_driven(model, j)) continue;
     add_cable_force(model, j, q, qd, command[j], force);
   }
 }

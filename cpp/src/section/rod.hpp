@@ -18,6 +18,8 @@ struct Rod : RodFrames<S> {
   using RodFrames<S>::base, RodFrames<S>::rod, RodFrames<S>::axes, RodFrames<S>::r,
       RodFrames<S>::J_omega, RodFrames<S>::J_v;
 
+  Rod() {}  // NOLINT(modernize-use-equals-default): that would set all of it to zero
+
   Vector3<S> tip_angular_bias, tip_linear_bias, moment, force;
   Vectorm bias;
   Vectorm elastic;

@@ -63,6 +63,12 @@ RodParameters::RodParameters(const RodDescription& rod)
       rule(rod.mass, rod.num_nodes > 0 ? rod.num_nodes : nodes_needed(rod)) {
   for (const Disk& disk : rod.mass.disks) mass += disk.mass;
 
+  for (int c = 0; c < size(); ++c) {
+    const bool bends = c < first_twist, twists = !bends && c < first_stretch;
+    strain_of[c] = bends ? (c % 2 == 0 ? bending_x : bending_y) : twists ? twisting : stretching;
+    order_of[c] = bends ? c / 2 : c - (twists ? first_twist : first_stretch);
+  }
+
   const long double inner = rod.mass.inner_diameter;
   const auto diameter = [&](long double x) {
     return rod.mass.base_diameter + x * (rod.mass.tip_diameter - rod.mass.base_diameter);

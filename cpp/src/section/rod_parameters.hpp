@@ -12,6 +12,9 @@ namespace cdcr::detail {
 /// Largest number of coordinates of a rod: orders 4 of bending, twist and stretch.
 inline constexpr int max_rod_coordinates = 4 * (max_legendre_order + 1);
 
+/// What a coordinate changes.
+enum StrainKind { bending_x, bending_y, twisting, stretching, num_strains };
+
 /// A section whose bending, twist and stretch vary along it, cpp/rods.md eq. (51).
 struct RodDescription {
   double length = 0.0;  // [m]
@@ -49,6 +52,8 @@ struct RodParameters {
   VectorXd damping;
   double material_damping;  // this times the stiffness is damping too [s]
   Vector3d locked_turning;  // what a locked bending or twist adds to u
+  std::array<StrainKind, max_rod_coordinates> strain_of{};  // of each coordinate
+  std::array<int, max_rod_coordinates> order_of{};
 };
 
 }  // namespace cdcr::detail

@@ -48,15 +48,9 @@ class RubbingPath {
       rate -= point.weight * (s.x * changes.x + s.y * changes.y + s.z * changes.z) / length;
       const S share = point.weight * tension / length;
       const S on_bending = share * s.z, on_twist = share * (s.x * point.y - s.y * point.x);
-      for (int j = 0; j < rod.num_bending; ++j) {
-        force[2 * j] += point.legendre[j] * point.x * on_bending;
-        force[2 * j + 1] += point.legendre[j] * point.y * on_bending;
-      }
-      for (int j = 0; j < rod.num_twist; ++j) {
-        force[rod.first_twist + j] += point.legendre[j] * on_twist;
-      }
-      for (int j = 0; j < rod.num_stretch; ++j) {
-        force[rod.first_stretch + j] -= point.legendre[j] * on_bending;
+      const S on[num_strains] = {point.x * on_bending, point.y * on_bending, on_twist, -on_bending};
+      for (int c = 0; c < rod.size(); ++c) {
+        force[c] += point.legendre[rod.order_of[c]] * on[rod.strain_of[c]];
       }
     }
     rub(sum_of(weights_, turning), ends ? before : rate);
@@ -82,14 +76,11 @@ class RubbingPath {
   /// Bending, twist and stretch at a point of this order of derivative.
   template <class S>
   struct Strains {
-    S q_x{0.0}, q_y{0.0}, twist{0.0}, stretch{0.0};
-    Strains(const RodParameters& rod, const LegendreValues& P, const S* q) {
-      for (int j = 0; j < rod.num_bending; ++j) {
-        q_x += P[j] * q[2 * j];
-        q_y += P[j] * q[2 * j + 1];
-      }
-      for (int j = 0; j < rod.num_twist; ++j) twist += P[j] * q[rod.first_twist + j];
-      for (int j = 0; j < rod.num_stretch; ++j) stretch += P[j] * q[rod.first_stretch + j];
+    S q_x, q_y, twist, stretch{0.0};
+    Strains(const RodParameters& rod, const LegendreValues& P, const S* q, const Vector3d& locked)
+        : q_x(locked[1]), q_y(-locked[0]), twist(locked[2]) {
+      S* const of[num_strains] = {&q_x, &q_y, &twist, &stretch};
+      for (int c = 0; c < rod.size(); ++c) *of[rod.strain_of[c]] += P[rod.order_of[c]] * q[c];
     }
   };
 
@@ -99,10 +90,7 @@ class RubbingPath {
     S x, y, z;
     Slope(const RodParameters& rod, const Point& p, const S* q, double length,
           const Vector3d& locked, double own = 1.0) {
-      Strains<S> e(rod, p.legendre, q);
-      e.q_x += locked[1];
-      e.q_y -= locked[0];
-      e.twist += locked[2];
+      const Strains<S> e(rod, p.legendre, q, locked);
       x = own * p.slope_x - e.twist * p.y;
       y = own * p.slope_y + e.twist * p.x;
       z = length + e.stretch - e.q_x * p.x - e.q_y * p.y;
@@ -114,11 +102,8 @@ class RubbingPath {
   static S turning_at(const RodParameters& rod, const Point& p, const S* q) {
     using std::sqrt;
     const Slope<S> s(rod, p, q, rod.length, rod.locked_turning);
-    Strains<S> e(rod, p.legendre, q);
-    e.q_x += rod.locked_turning[1];
-    e.q_y -= rod.locked_turning[0];
-    e.twist += rod.locked_turning[2];
-    const Strains<S> d(rod, p.legendre_slope, q);
+    const Strains<S> e(rod, p.legendre, q, rod.locked_turning);
+    const Strains<S> d(rod, p.legendre_slope, q, Vector3d::Zero());
     const S a_x = p.curve_x - d.twist * p.y - e.twist * p.slope_y + e.q_x * s.z - e.twist * s.y;
     const S a_y = p.curve_y + d.twist * p.x + e.twist * p.slope_x + e.twist * s.x + e.q_y * s.z;
     const S a_z = d.stretch - d.q_x * p.x - d.q_y * p.y - e.q_x * p.slope_x - e.q_y * p.slope_y -

@@ -23,6 +23,10 @@ constexpr double neutral = 1e-12;
 constexpr double longest_step = 1.0;
 // Unbalanced moment over its rounding error that a stalled search may be left with.
 constexpr double stalled = 1e3;
+// What a step with the stiffness of the last one may leave of the unbalanced moment, and one with
+// that of the backbone alone; how many of these are made at most.
+constexpr double much_nearer = 1e-2, nearer = 0.3;
+constexpr int backbone_steps = 2;
 // Load steps: the first, and the one below which the robot may snap to another shape.
 constexpr double first_load_step = 0.25, snap_load_step = 1e-3;
 constexpr int max_load_steps = 400;
@@ -43,20 +47,27 @@ class NewtonSolver {
         trial_(K_.rows()),
         trial_r_(K_.rows()),
         unit_(problem.model().elastic_stiffness().diagonal().cwiseSqrt().cwiseInverse()),
-        llt_(K_.rows()) {}
+        llt_(K_.rows()),
+        lu_(K_.rows()) {}
 
   /// Moves q to a point of rest; true when it got there.
   bool run(VectorXd& q) {
     problem_.residual(q, r_);
     double merit = merit_of(q, r_);
+    step_by_backbone(q, merit);
     for (int i = 0; i < max_iterations && size(r_) > problem_.rounding_bound(q);
          ++i, ++iterations_) {
       problem_.stiffness(q, K_);
       VectorXd step = problem_.has_energy() ? modified_newton_step() : newton_step();
       const double longest = detail::largest_bending(problem_.model(), step);
       if (!(longest < HUGE_VAL)) break;
-      if (longest > longest_step) step *= longest_step / longest;
+      if (longest > longest_step) {
+        step *= longest_step / longest;
+        serves_again_ = false;
+      }
       if (!move(q, step, merit)) break;
+      while (step_again(q, merit, much_nearer)) {
+      }
     }
     // A search stalled by rounding has converged as far as the arithmetic allows; loads that
     // overflow when squared have no scale to tell.
@@ -82,12 +93,9 @@ class NewtonSolver {
     scaled_.noalias() = unit_.asDiagonal() * K_ * unit_.asDiagonal();
     const VectorXd scaled_r = unit_.cwiseProduct(r_);
     llt_.compute(scaled_);
-    if (llt_.info() == Eigen::Success) {
-      const auto pivots = llt_.matrixLLT().diagonal();
-      if (pivots.minCoeff() > 1e-2 * pivots.maxCoeff()) {
-        return -unit_.cwiseProduct(llt_.solve(scaled_r));
-      }
-    }
+    const auto pivots = llt_.matrixLLT().diagonal();
+    serves_again_ = llt_.info() == Eigen::Success && pivots.minCoeff() > 1e-2 * pivots.maxCoeff();
+    if (serves_again_) return -unit_.cwiseProduct(llt_.solve(scaled_r));
     const auto [values, vectors] = detail::symmetric_eigen(scaled_);
     const double floor = 1e-6 * values.cwiseAbs().maxCoeff();
     const VectorXd curvature = values.cwiseAbs().cwiseMax(floor);
@@ -97,10 +105,48 @@ class NewtonSolver {
 
   /// Newton step, or where K is singular the gradient's way with the largest stiffness.
   VectorXd newton_step() {
-    VectorXd step = -K_.partialPivLu().solve(r_);
+    lu_.compute(K_);
+    VectorXd step = -lu_.solve(r_);
     const double slope = r_.dot(K_ * step);
-    if (step.allFinite() && slope < -0.5 * r_.squaredNorm()) return step;
+    serves_again_ = step.allFinite() && slope < -0.5 * r_.squaredNorm();
+    if (serves_again_) return step;
     return -K_.transpose() * r_ / std::fmax(K_.squaredNorm(), 1e-300);
+  }
+
+  /// A step with the stiffness of the last one, since that of a rod costs more than the force out
+  /// of balance; false, and no step, where it does not leave less than a share of that.
+  bool step_again(VectorXd& q, double& merit, double share) {
+    if (!serves_again_ || !problem_.model().has_rods()) return false;
+    if (size(r_) <= problem_.rounding_bound(q)) return false;
+    if (problem_.has_energy()) {
+      trial_ = q - unit_.cwiseProduct(llt_.solve(unit_.cwiseProduct(r_)));
+    } else {
+      trial_ = q - lu_.solve(r_);
+    }
+    if (!within_limit(problem_.model(), trial_)) return false;
+    problem_.residual(trial_, trial_r_);
+    if (!(trial_r_.norm() < share * r_.norm())) return false;
+    const double trial_merit = merit_of(trial_, trial_r_);
+    if (!(trial_merit <= merit + 1e-12 * std::abs(merit))) return false;
+    accept(q, merit, trial_merit);
+    return true;
+  }
+
+  /// The first steps with the stiffness of the backbone alone, where they lead nearer.
+  void step_by_backbone(VectorXd& q, double& merit) {
+    if (!problem_.has_energy() || !problem_.model().has_rods()) return;
+    scaled_.noalias() =
+        unit_.asDiagonal() * problem_.model().elastic_stiffness() * unit_.asDiagonal();
+    llt_.compute(scaled_);
+    serves_again_ = llt_.info() == Eigen::Success;
+    for (int i = 0; i < backbone_steps && step_again(q, merit, nearer); ++i) {
+    }
+  }
+
+  void accept(VectorXd& q, double& merit, double trial_merit) {
+    q.swap(trial_);
+    r_.swap(trial_r_);
+    merit = trial_merit;
   }
 
   /// Goes along the step as far as the merit falls, by Armijo's rule; near the end differences
@@ -119,9 +165,8 @@ class NewtonSolver {
       const bool closer = halving == 0 && trial_r_.norm() < 0.9 * r_.norm() &&
                           trial_merit <= merit + 1e-12 * std::abs(merit);
       if (!falls && !closer) continue;
-      q.swap(trial_);
-      r_.swap(trial_r_);
-      merit = trial_merit;
+      accept(q, merit, trial_merit);
+      serves_again_ = serves_again_ && halving == 0;
       return true;
     }
     return false;
@@ -130,8 +175,10 @@ class NewtonSolver {
   StaticProblem& problem_;
   MatrixXd K_, scaled_;
   VectorXd r_, trial_, trial_r_;
-  VectorXd unit_;  // of each coordinate
-  Eigen::LLT<MatrixXd> llt_;
+  VectorXd unit_;                     // of each coordinate
+  Eigen::LLT<MatrixXd> llt_;          // of what has an energy, scaled
+  Eigen::PartialPivLU<MatrixXd> lu_;  // of anything else
+  bool serves_again_ = false;         // whether the last step was a whole one of Newton's
   int iterations_ = 0;
 };
 

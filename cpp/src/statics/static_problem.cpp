@@ -7,6 +7,7 @@
 #include "cdcr/dynamics.hpp"
 #include "cdcr/kinematics.hpp"
 #include "cdcr/statics.hpp"
+#include "derivatives/cable_curvature.hpp"
 #include "derivatives/weight_hessian.hpp"
 #include "dynamics/kept.hpp"
 #include "loads/cable_force.hpp"
@@ -29,25 +30,40 @@ double moment_of(const Model& model, const Wrenches& wrenches) {
   return sum + mass * (length + chain.payload.position.norm()) * chain.gravity.norm();
 }
 
+/// Adds to the lower half of K the second derivatives of the lengths of cables through rods, times
+/// pull_of(cable).
+template <class F>
+void add_path_curvature(const Model& model, const ConstVectorRef& q, const F& pull_of,
+                        MatrixRef K) {
+  const Chain& chain = chain_of(model);
+  for (Index k = 0; k < chain.num_sections(); ++k) {
+    const Index at = chain.first[k], size = chain.first[k + 1] - at;
+    CableCurvature sum(*chain.sections[k].rod, q.data() + at);
+    for (Index j = 0; j < model.num_cables(); ++j) {
+      const RodCable* cable = path_of(model, j).in(k);
+      const double pull = cable == nullptr ? 0.0 : pull_of(j);
+      if (pull != 0.0) sum.add(*cable, pull, K.block(at, at, size, size));
+    }
+    sum.finish(K.block(at, at, size, size));
+  }
+}
+
 /// Adds to K the stiffness of the cables of rods at rest, without friction: each pulls along
 /// -dl/dq, which changes with the shape, and a spring pulls more where it is longer.
 void add_path_stiffness(const Model& model, const ConstVectorRef& q, const ConstVectorRef& command,
                         MatrixRef K) noexcept {
-  const Chain& chain = chain_of(model);
+  add_path_curvature(
+      model, q, [&](Index j) { return is_length_driven(model, j) ? 0.0 : command[j]; }, K);
   for (Index j = 0; j < model.num_cables(); ++j) {
-    const Cable& cable = model.cables()[static_cast<std::size_t>(j)];
-    const CablePath& path = path_of(model, j);
-    if (!cable.length_driven()) {
-      path.add_curvature(chain, q.data(), command[j], K);
-      continue;
-    }
-    const CableSlope<double> slope(chain, path, q.data());
+    if (!is_length_driven(model, j)) continue;
+    const CableSlope<double> slope(chain_of(model), path_of(model, j), q.data());
     const double longer = slope.length - (command[j] + model.slack_offset()[j]);
     if (!(longer > 0.0)) continue;
-    path.add_curvature(chain, q.data(), cable.stiffness * longer, K);
+    const double stiffness = model.cables()[static_cast<std::size_t>(j)].stiffness;
+    add_path_curvature(model, q, [&](Index i) { return i == j ? stiffness * longer : 0.0; }, K);
     for (Index i = 0; i < q.size(); ++i) {
       for (Index k = i; k < q.size(); ++k) {
-        K(k, i) += slope.column[k] * cable.stiffness * slope.column[i];
+        K(k, i) += slope.column[k] * stiffness * slope.column[i];
       }
     }
   }
@@ -60,8 +76,9 @@ StaticProblem::StaticProblem(const Model& model, const ConstVectorRef& command,
     : model_(model),
       command_(command),
       wrenches_(wrenches),
-      data_(model),
+      kept_(model.has_closed_form() ? nullptr : std::make_unique<KeptChain>(model)),
       constant_force_(VectorXd::Zero(model.num_coordinates())),
+      force_(constant_force_),
       has_energy_(conservative(wrenches)),
       has_paths_(!model.has_constant_actuation()) {
   const MatrixXd& B = model.actuation_matrix();
@@ -73,6 +90,7 @@ StaticProblem::StaticProblem(const Model& model, const ConstVectorRef& command,
                (cable.stiffness * model.straight_lengths()[j] + cable.pretension);
     } else if (has_paths_) {
       size_ += B.col(j).lpNorm<Eigen::Infinity>() * command[j];
+      straight_work_ += command[j] * model.straight_lengths()[j];
     } else {
       constant_force_ += B.col(j) * command[j];
     }
@@ -81,27 +99,30 @@ StaticProblem::StaticProblem(const Model& model, const ConstVectorRef& command,
 }
 
 void StaticProblem::residual(const ConstVectorRef& q, VectorRef r) noexcept {
-  potential_gradient(model_, data_, q, r);
+  potential_gradient(model_, kept_.get(), q, r);
   r -= constant_force_;
-  for (Index j = 0; (has_springs_ || has_paths_) && j < model_.num_cables(); ++j) {
+  if (has_paths_) {
+    force_.setZero();
+    static_cast<void>(add_smooth_forces(model_, q.data(), command_.data(), force_.data()));
+    r -= force_;
+  }
+  for (Index j = 0; has_springs_ && j < model_.num_cables(); ++j) {
     const Cable& cable = model_.cables()[static_cast<std::size_t>(j)];
+    if (!cable.length_driven()) continue;
     if (has_paths_) {
       const CableSlope<double> slope(chain_of(model_), path_of(model_, j), q.data());
-      const double pull = cable.length_driven()
-                              ? cable.stiffness * std::fmax(0.0, slope.length - command_[j] -
-                                                                     model_.slack_offset()[j])
-                              : command_[j];
+      const double longer = slope.length - command_[j] - model_.slack_offset()[j];
+      const double pull = cable.stiffness * std::fmax(0.0, longer);
       for (Index i = 0; i < q.size(); ++i) r[i] -= slope.column[i] * pull;
       continue;
     }
-    if (!cable.length_driven()) continue;
     const double longer = elongation(model_, j, q.data(), double{command_[j]});
     if (longer > 0.0) r -= model_.actuation_matrix().col(j) * (cable.stiffness * longer);
   }
   if (!wrenches_.empty()) {
-    data_.force.setZero();
-    add_wrench_force(model_, q, wrenches_, data_.force);
-    r -= data_.force;
+    force_.setZero();
+    add_wrench_force(model_, q, wrenches_, force_);
+    r -= force_;
   }
   if (load_factor_ == 1.0) return;
   elastic_.noalias() = model_.elastic_stiffness().lazyProduct(q - model_.rest());
@@ -109,20 +130,17 @@ void StaticProblem::residual(const ConstVectorRef& q, VectorRef r) noexcept {
 }
 
 void StaticProblem::stiffness(const ConstVectorRef& q, MatrixRef K) noexcept {
-  static_stiffness(model_, data_, q, command_, wrenches_, K);
+  static_stiffness(model_, kept_.get(), q, command_, wrenches_, K);
   if (load_factor_ == 1.0) return;
   K = load_factor_ * K + (1.0 - load_factor_) * model_.elastic_stiffness();
 }
 
 double StaticProblem::energy(const ConstVectorRef& q) noexcept {
-  double U = energy_from_base(model_, data_, q) - constant_force_.dot(q);
+  double U = energy_from_base(model_, kept_.get(), q) - constant_force_.dot(q);
   if (has_springs_) U += cable_energy(model_, q, command_);
-  for (Index j = 0; has_paths_ && j < model_.num_cables(); ++j) {
-    if (model_.cables()[static_cast<std::size_t>(j)].length_driven()) continue;
-    const double shorter =
-        CableSlope<double>(chain_of(model_), path_of(model_, j), q.data()).length -
-        model_.straight_lengths()[j];
-    U += command_[j] * shorter;
+  if (has_paths_) {
+    double unused[max_coordinates] = {};
+    U += add_smooth_forces(model_, q.data(), command_.data(), unused) - straight_work_;
   }
   for (const Wrench& w : wrenches_) U -= w.force.dot(pose(model_, q, w.section, w.fraction).p);
   if (load_factor_ == 1.0) return U;
@@ -178,28 +196,33 @@ void add_load_stiffness(const Model& model, const ConstVectorRef& q, const Const
 
 }  // namespace
 
+void detail::static_stiffness(const Model& model, KeptChain* kept, const ConstVectorRef& q,
+                              const ConstVectorRef& command, const Wrenches& wrenches,
+                              MatrixRef K) noexcept {
+  potential_hessian(model, kept, q, K);
+  add_load_stiffness(model, q, command, wrenches, K);
+}
+
 void static_stiffness(const Model& model, Data& data, const ConstVectorRef& q,
                       const ConstVectorRef& command, const Wrenches& wrenches,
                       MatrixRef K) noexcept {
   assert(data.belongs_to(model));
-  potential_hessian(model, data, q, K);
-  add_load_stiffness(model, q, command, wrenches, K);
+  detail::static_stiffness(model, data.kept(), q, command, wrenches, K);
 }
 
 void static_stiffness(const Model& model, const ConstVectorRef& q, const ConstVectorRef& command,
                       const Wrenches& wrenches, MatrixRef K) noexcept {
   assert(detail::has_size(K, model.num_coordinates(), model.num_coordinates()));
   if (model.has_rods()) {
-    Data data(model);
-    return static_stiffness(model, data, q, command, wrenches, K);
+    detail::KeptChain kept(model);
+    return detail::static_stiffness(model, &kept, q, command, wrenches, K);
   }
   if (model.has_closed_form()) {
     detail::closed_form::potential_hessian(detail::single_of(model), q, K);
   } else {
     detail::MotionState state;
-    detail::ConstantCurvature<detail::Dual> room;
     update_position(detail::chain_of(model), state, q.data());
-    detail::weight_hessian(detail::chain_of(model), state, q.data(), room, K);
+    detail::weight_hessian(detail::chain_of(model), state, q.data(), K);
   }
   add_load_stiffness(model, q, command, wrenches, K);
 }

@@ -1,9 +1,17 @@
 #pragma once
 
+#include <memory>
+
 #include "cdcr/model.hpp"
 #include "cdcr/wrench.hpp"
+#include "statics/potential.hpp"
 
 namespace cdcr::detail {
+
+/// dr/dq, static_stiffness of cdcr/statics.hpp.
+void static_stiffness(const Model& model, KeptChain* kept, const ConstVectorRef& q,
+                      const ConstVectorRef& command, const Wrenches& wrenches,
+                      MatrixRef K) noexcept;
 
 /// What is out of balance in a robot at rest, cpp/several-sections.md eqs. (40) to (43):
 /// r(q) = dU/dq - Q, where Q is that of the cables, without friction, and of wrenches. A load
@@ -32,14 +40,15 @@ class StaticProblem {
   const Model& model_;
   ConstVectorRef command_;
   const Wrenches& wrenches_;
-  Data data_;
+  std::unique_ptr<KeptChain> kept_;  // none where the closed form applies
   double load_factor_ = 1.0;
   VectorXd constant_force_;  // of the cables driven by tension
-  VectorXd elastic_;
+  VectorXd elastic_, force_;
   bool has_energy_;
   bool has_paths_;  // cables whose pull changes with the shape
   bool has_springs_ = false;
-  double size_ = 0.0;  // of the moments in balance
+  double size_ = 0.0;           // of the moments in balance
+  double straight_work_ = 0.0;  // tensions of cables through rods times their lengths when straight
 };
 
 }  // namespace cdcr::detail
