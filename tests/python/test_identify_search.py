@@ -105,6 +105,17 @@ def test_a_bound_on_the_way_holds_the_search(monkeypatch: pytest.MonkeyPatch) ->
     assert bounded == [False, True]
 
 
+@pytest.mark.parametrize("away", [0.3, 1.0, 1.9])  # in steps to either side, for derivatives
+def test_derivatives_close_to_a_bound_stay_off_it(clean: FloatArray, away: float) -> None:
+    path = "sections[*].youngs_modulus"  # nothing has one of zero
+    whole = prepared(motion(clean, 0), ROBOT, {path: None})
+    x = whole.low + away * problem.STEP
+    side = whole._side(x, 0, whole.setup(x))
+    low, high = (one.robot.sections[0].youngs_modulus for one in (side.below, side.above))
+    assert 0.0 < low < high
+    assert high - low == pytest.approx(side.width * whole.size[0])
+
+
 def test_motions_side_by_side_tell_what_one_after_another_do(
     clean: FloatArray, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -133,10 +133,11 @@ class Problem:
 
     def _side(self, x: FloatArray, k: int, setup: Setup) -> Side:
         """Return laboratories on either side in one unknown, both within its bounds."""
-        up, down = min(STEP, self.high[k] - x[k]), min(STEP, x[k] - self.low[k])
-        if up < STEP / 2:  # at the upper bound: one below, taken for the one above
+        # Half of the way to a bound at most: no robot may have what lies there.
+        up, down = min(STEP, 0.5 * (self.high[k] - x[k])), min(STEP, 0.5 * (x[k] - self.low[k]))
+        if up < STEP / 4:  # at the upper bound: one below, taken for the one above
             up, down = -STEP, 0.0
-        elif down < STEP / 2:
+        elif down < STEP / 4:
             down = 0.0
         above = self.setup(_moved(x, k, up), setup)
         below = self.setup(_moved(x, k, -down), setup) if down else setup
