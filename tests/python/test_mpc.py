@@ -166,7 +166,7 @@ def test_refused_robots_and_references() -> None:
         controller.path = 3  # type: ignore[assignment]
     with pytest.raises(
         AttributeError,
-        match=r"^Mpc has no attribute 'refrence' that can be set\. Did you mean 'reference'\?",
+        match=r"^Mpc has no attribute 'reference_tip' that can be set\. Did you mean 'reference'\?",
     ):
-        controller.refrence = [0.1, 0.2, 0.5]  # type: ignore[attr-defined]
+        controller.reference_tip = [0.1, 0.2, 0.5]  # type: ignore[attr-defined]
     assert controller.path is None
