@@ -131,16 +131,19 @@ void MotionDerivatives<Kind>::accelerate(const Chain& chain, const ChainState<Se
 template <template <class> class Kind>
 void MotionDerivatives<Kind>::differentiate_inwards(const Chain& chain,
                                                     const ChainState<Section>& state,
-                                                    const double* q, const double* qd) {
+                                                    const double* q, const double* qd, bool base) {
   Outboard outboard(chain.payload, state.tip, bodies_[chain.num_sections() - 1].tip_alpha,
                     bodies_[chain.num_sections() - 1].tip_a);
   for (Index i = chain.num_sections() - 1; i >= 0; --i) {
     const Section& section = state.sections[i];
     carry_loads(chain, section, i);
     Matrix3d J_own = Matrix3d::Zero();
-    if (i == 0) return differentiate_section<false>(chain, section, i, q, qd, outboard, J_own);
+    if (i == 0 && !base) {
+      return differentiate_section<false>(chain, section, i, q, qd, outboard, J_own);
+    }
     set_gyros(section, outboard, i, chain.first[i], size_of(chain, i));
     differentiate_section<true>(chain, section, i, q, qd, outboard, J_own);
+    if (i == 0) return;
     outboard.shift(section.r, bodies_[i].moving);
     outboard.add(chain.sections[i].mass, section, part_of<Vectorm>(chain, i, qd),
                  part_of<Vectorm>(chain, i, qdd.data()), bodies_[i].alpha, bodies_[i].a, J_own);

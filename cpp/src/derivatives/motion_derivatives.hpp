@@ -34,6 +34,10 @@ class MotionDerivatives {
   /// constant qdd, with zeros for commands. `state` is that of q and qd.
   void update(const Chain& chain, const ChainState<Section>& state, const double* q,
               const double* qd, const double* force) noexcept;
+  /// Derivatives of the force and the moment of inertia and weight on the base, at accelerations,
+  /// with respect to q, qd and qdd, (6, 3d), cpp/base-wrench.md eq. (124). Rows are lost.
+  void differentiate_base(const Chain& chain, const ChainState<Section>& state, const double* q,
+                          const double* qd, const double* accelerations, MatrixRef slopes) noexcept;
   /// Multiplies by M^-1 the first `width` quads of all rows.
   void solve(Index width) noexcept;
 
@@ -88,7 +92,7 @@ class MotionDerivatives {
   void add_up_mass(const Chain& chain, const ChainState<Section>& state);
   void accelerate(const Chain& chain, const ChainState<Section>& state, const double* qd);
   void differentiate_inwards(const Chain& chain, const ChainState<Section>& state, const double* q,
-                             const double* qd);
+                             const double* qd, bool base = false);
   void carry_loads(const Chain& chain, const Section& section, Index i);
   void set_gyros(const Section& section, const Outboard& outboard, Index i, Index first,
                  Index size);
