@@ -10,6 +10,7 @@
 #include "derivatives/dual.hpp"
 #include "derivatives/lane_map.hpp"
 #include "derivatives/outboard.hpp"
+#include "section/width.hpp"
 
 // NOLINTBEGIN(readability-identifier-naming): letters of the equations
 
@@ -42,13 +43,15 @@ class MotionDerivatives {
   void solve(Index width) noexcept;
 
   /// Multiplies a vector by M^-1.
-  void solve(double* x) const noexcept { mass_.solve(x); }
+  void solve(double* x) const noexcept {
+    with_fma<double>([&] { mass_.solve(x); });
+  }
   /// Sets all rows to zero.
   void clear() noexcept { std::fill(rows.begin(), rows.end(), Quad(0.0)); }
 
-  /// What stands in a lane of a row.
-  [[nodiscard]] double operator()(Index row, Index lane) const noexcept {
-    return rows[row * lanes.width() + lane / Quad::count][static_cast<int>(lane % Quad::count)];
+  /// What stands in the lanes of a row.
+  [[nodiscard]] const double* row(Index i) const noexcept {
+    return reinterpret_cast<const double*>(rows.data() + i * lanes.width());
   }
 
   LaneMap lanes;
