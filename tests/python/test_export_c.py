@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -49,14 +50,13 @@ def rubbing() -> cdcr.Robot:
     """Cables that rub in the holes, and two of the robot's own that do so at the entry too."""
     robot = turned(cdcr.robots.three_sections())
     sections = [dataclasses.replace(one, cable_friction=0.3) for one in robot.sections]
-    entry = {"entry_friction": 0.05, "sheath_friction": 0.2, "viscosity": 2.0}
-    drive = {"stiffness": 2e3, "damping": 5.0, "pretension": 3.0}
-    own = [
-        cdcr.Cable(end_section=1, radius=0.01, angle=0.5, friction=0.1, **entry),
-        cdcr.Cable(end_section=2, radius=0.01, angle=2.5, friction=0.0, **entry, **drive),
-    ]
+    entry: Any = {"entry_friction": 0.05, "sheath_friction": 0.2, "viscosity": 2.0}
+    cable = cdcr.Cable(end_section=1, radius=0.01, angle=0.5, friction=0.1)
+    rubs = dataclasses.replace(cable, **entry)
+    drive: Any = {"stiffness": 2e3, "damping": 5.0, "pretension": 3.0}
+    driven = dataclasses.replace(rubs, end_section=2, angle=2.5, friction=0.0, **drive)
     return dataclasses.replace(
-        robot, sections=sections, cables=[*robot.cables, *own], sliding_speed=0.02
+        robot, sections=tuple(sections), cables=(*robot.cables, rubs, driven), sliding_speed=0.02
     )
 
 

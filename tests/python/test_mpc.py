@@ -168,5 +168,5 @@ def test_refused_robots_and_references() -> None:
         AttributeError,
         match=r"^Mpc has no attribute 'reference_tip' that can be set\. Did you mean 'reference'\?",
     ):
-        controller.reference_tip = [0.1, 0.2, 0.5]  # type: ignore[attr-defined]
+        controller.reference_tip = [0.1, 0.2, 0.5]
     assert controller.path is None
