@@ -219,7 +219,7 @@ def _with_noise(
         if change < SETTLED:
             break
         if alone:
-            solution = _rescaled(problem, solution)
+            solution = _rescaled(solution, problem.noise[0][0])
             break
         found = search(problem, solution.x, options, optimise)
         solution = solution if found is None else found
@@ -246,10 +246,10 @@ def _find_noise(
     return largest
 
 
-def _rescaled(problem: Problem, solution: Any) -> Any:
-    """Return a solution with residuals and derivatives counted in the noise found."""
-    fun, jac = problem.residuals(solution.x), problem.jacobian(solution.x)
-    solution.fun, solution.jac, solution.cost = fun, jac, 0.5 * float(fun @ fun)
+def _rescaled(solution: Any, level: float) -> Any:
+    """Return a solution found with a noise of one, counted in the noise of its only channel."""
+    solution.fun, solution.jac = solution.fun / level, solution.jac / level
+    solution.cost /= level**2
     return solution
 
 
