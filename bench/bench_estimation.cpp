@@ -1,4 +1,5 @@
-// An estimator inside a loop of 1 ms: an update of each, from cable lengths and the tip.
+// An estimator inside a loop of 1 ms: an update of each, from cable lengths and the tip, and from
+// cable lengths and what the base feels.
 #include "cdcr/cdcr.hpp"
 #include "harness.hpp"
 
@@ -23,13 +24,31 @@ KalmanOptions options() {
   return options;
 }
 
+/// From lengths and from what the base feels.
+KalmanOptions of_base() {
+  KalmanOptions options;
+  options.sensors.resize(3);
+  options.sensors[0].kind = Sensor::Kind::lengths;
+  options.sensors[0].noise = 1e-4;
+  options.sensors[1].kind = Sensor::Kind::base_force;
+  options.sensors[1].noise = 0.02;
+  options.sensors[2].kind = Sensor::Kind::base_moment;
+  options.sensors[2].noise = 0.01;
+  return options;
+}
+
 void measure(const Harness& harness, const std::string& name, const Model& model,
-             Estimator& estimator) {
+             const std::vector<Sensor>& sensors, Estimator& estimator) {
   const VectorXd zero = VectorXd::Zero(model.num_coordinates());
+  VectorXd at_rest(6);
+  base_wrench(model, zero, zero, zero, {}, at_rest);
   const VectorXd command = VectorXd::Constant(model.num_cables(), 1.0);
-  std::vector<Measurement> told(2);
-  told[0] = {model.straight_lengths(), true};
-  told[1] = {tip(model, zero).p, true};
+  std::vector<Measurement> told;
+  for (const Sensor& sensor : sensors) {
+    SensorChannel channel(model, sensor, 1e-3);
+    channel.reset(zero, zero, command, at_rest);
+    told.push_back({channel.value(), true});
+  }
   VectorXd q = zero, qd = zero;
   harness.run(
       {name, "us", 100, 500}, [&] { estimator.reset(zero, zero, command); },
@@ -49,14 +68,18 @@ int main(int argc, char** argv) {
     const Model model = bench::arms(sections);
     const std::string of =
         ", " + std::to_string(sections) + (sections > 1 ? " sections" : " section");
-    ExtendedKalman extended(model, bench::options());
-    bench::measure(harness, "ExtendedKalman.update" + of, model, extended);
-    KalmanOptions more = bench::options();
+    const KalmanOptions options = bench::options(), base = bench::of_base();
+    ExtendedKalman extended(model, options);
+    bench::measure(harness, "ExtendedKalman.update" + of, model, options.sensors, extended);
+    KalmanOptions more = options;
     more.force_at = Place{sections - 1, 1.0};
     ExtendedKalman with_force(model, more);
-    bench::measure(harness, "the same with a force" + of, model, with_force);
-    UnscentedKalman unscented(model, bench::options());
-    bench::measure(harness, "UnscentedKalman.update" + of, model, unscented);
+    bench::measure(harness, "the same with a force" + of, model, more.sensors, with_force);
+    ExtendedKalman by_base(model, base);
+    bench::measure(harness, "ExtendedKalman.update from lengths and the base" + of, model,
+                   base.sensors, by_base);
+    UnscentedKalman unscented(model, options);
+    bench::measure(harness, "UnscentedKalman.update" + of, model, options.sensors, unscented);
   }
   return 0;
 }

@@ -1,4 +1,6 @@
-"""How many instructions a step of exported C takes, three sections: on x86-64 and on a Cortex-M7.
+"""How many instructions exported C takes, three sections: on x86-64 and on a Cortex-M7.
+
+A step without and with friction of the cables, and the derivatives of the accelerations.
 
     python bench/exported_c.py
 
@@ -14,13 +16,20 @@ import re
 import shutil
 import subprocess
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from rows import layout
 
 HERE = Path(__file__).parent / "exported_c"
-STEPS = 100
+STEPS = 20
+# What is counted: friction in the holes, and what steps.c and the compiler are told.
+WHAT = {
+    "a step": (0.0, []),
+    "a step with friction": (0.3, []),
+    "derivatives": (0.0, ["-DDERIVATIVES", "-fcx-limited-range"]),
+}
 HZ, RATE = 400e6, 1e3  # of a core, of a loop
 TICK = 40  # instructions, see boot.c
 M7 = ["-mcpu=cortex-m7", "-mthumb", "-mfpu=fpv5-d16", "-mfloat-abi=hard", "-nostartfiles"]
@@ -52,22 +61,28 @@ def number(pattern: str, text: str) -> int:
     return int(found[1])
 
 
-def on_pc(folder: Path, real: str, steps: int) -> int:
+def built(folder: Path, compiler: list[str], told: list[str]) -> str:
+    """Compile the steps; return the program."""
+    program = str(folder / "program")
+    sources = [str(one) for one in (HERE / "steps.c", folder / "arm.c")]
+    if "-DDERIVATIVES" in told:
+        sources.append(str(folder / "arm_derivatives.c"))
+    flags = ["-std=c99", "-O3", f"-I{folder}", *told]
+    output([*compiler, *flags, *sources, "-o", program])
+    return program
+
+
+def on_pc(folder: Path, told: list[str], steps: int) -> int:
     """Instructions of so many steps, start included, by callgrind."""
-    program = str(folder / f"pc_{real}")
-    sources = [str(HERE / "steps.c"), str(folder / "arm.c")]
-    flags = ["-std=c99", "-O3", f"-DARM_REAL={real}", f"-I{folder}"]
-    output(["gcc", *flags, *sources, "-o", program])
+    program = built(folder, ["gcc"], told)
     callgrind = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null"]
     return number(r"Collected : (\d+)", output([*callgrind, program, str(steps)]))
 
 
-def on_m7(folder: Path, real: str, steps: int) -> int:
+def on_m7(folder: Path, told: list[str], steps: int) -> int:
     """Instructions of so many steps, start included, by QEMU."""
-    program = str(folder / f"m7_{real}")
-    sources = [str(HERE / "steps.c"), str(HERE / "boot.c"), str(folder / "arm.c")]
-    flags = ["-std=c99", "-O3", f"-DARM_REAL={real}", f"-DSTEPS={steps}", f"-I{folder}", *M7]
-    output(["arm-none-eabi-gcc", *flags, *sources, "-T", str(HERE / "memory.ld"), "-o", program])
+    start = [str(HERE / "boot.c"), "-T", str(HERE / "memory.ld"), f"-DSTEPS={steps}"]
+    program = built(folder, ["arm-none-eabi-gcc", *M7, *start], told)
     host = ["-semihosting-config", "enable=on,target=native"]
     return TICK * number(r"(\d+)", output(["qemu-system-arm", *BOARD, *host, "-kernel", program]))
 
@@ -81,23 +96,26 @@ def main() -> None:
     import cdcr
     from cdcr.export import write_c
 
-    ways: dict[str, Callable[[Path, str, int], int]] = {"x86-64": on_pc, "Cortex-M7": on_m7}
+    ways: dict[str, Callable[[Path, list[str], int], int]] = {"x86-64": on_pc, "Cortex-M7": on_m7}
     rows = []
-    with TemporaryDirectory() as name:
-        folder = Path(name)
-        write_c(cdcr.robots.three_sections(), folder, name="arm", overwrite=True)
-        for kind, count in ways.items():
-            missing = [one for one in PROGRAMS[kind] if shutil.which(one) is None]
-            if missing:
-                print(f"{kind} is left out: there is no {' and no '.join(missing)}")
-                continue
+    robot = cdcr.robots.three_sections()
+    for kind, count in ways.items():
+        missing = [one for one in PROGRAMS[kind] if shutil.which(one) is None]
+        if missing:
+            print(f"{kind} is left out: there is no {' and no '.join(missing)}")
+            continue
+        for what, (friction, told) in WHAT.items():
+            sections = [replace(one, cable_friction=friction) for one in robot.sections]
             for real in ("float", "double"):
-                step = (count(folder, real, 2 * STEPS) - count(folder, real, STEPS)) / STEPS
-                share = 100.0 * step * RATE / HZ
-                rows.append(
-                    [f"{kind}, {real}", f"{step:,.0f}", f"{share:.1f} to {2 * share:.1f} %"]
-                )
-    print(layout(["a step", "instructions", "of 400 MHz at 1 kHz, 1 to 2 cycles each"], rows))
+                with TemporaryDirectory() as name:
+                    folder, flags = Path(name), [f"-DARM_REAL={real}", *told]
+                    write_c(replace(robot, sections=sections), folder, name="arm")
+                    both = [count(folder, flags, steps) for steps in (STEPS, 2 * STEPS)]
+                once = (both[1] - both[0]) / STEPS
+                share = 100.0 * once * RATE / HZ
+                told_share = f"{share:.1f} to {2 * share:.1f} %"
+                rows.append([f"{kind}, {what}, {real}", f"{once:,.0f}", told_share])
+    print(layout(["what", "instructions", "of 400 MHz at 1 kHz, 1 to 2 cycles each"], rows))
 
 
 if __name__ == "__main__":

@@ -92,8 +92,15 @@ void check_section(const Model& model, Index section);
 /// not compute it again. To be asked for where no Python runs until its use is over.
 [[nodiscard]] Data& scratch(const Model& model);
 
+/// Makes the C library keep what matrices leave as they come and go, where it is glibc: it would
+/// hand pages back to the system and fetch them anew, which can cost half of what fills them.
+void keep_freed_memory();
+
 /// "[1, 0.5]" with the first few numbers, for a repr.
 [[nodiscard]] std::string short_text(const VectorXd& vector);
+
+/// An array after nobody can write to it any more.
+[[nodiscard]] py::array_t<double> read_only(py::array_t<double> array);
 
 /// A copy of an array of one dimension that `to_array` has made.
 [[nodiscard]] VectorXd to_vector(const py::handle& array);

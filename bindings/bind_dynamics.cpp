@@ -1,9 +1,10 @@
+#include <algorithm>
 #include <array>
 
 #include "bind.hpp"
 #include "cdcr/base_wrench.hpp"
 #include "cdcr/dynamics.hpp"
-#include "cdcr/linearization.hpp"
+#include "derivatives/linearization.hpp"
 #include "docs.hpp"
 #include "many_states.hpp"
 
@@ -12,14 +13,7 @@ namespace {
 
 namespace py = pybind11;
 using namespace py::literals;
-
-/// A matrix that this thread keeps: where large ones came and went with each call, the C library
-/// would hand their pages back to the system each time.
-MatrixXd& room(std::size_t number, Index num_rows, Index num_columns) {
-  thread_local std::array<MatrixXd, 4> matrices;
-  matrices[number].resize(num_rows, num_columns);
-  return matrices[number];
-}
+using detail::by_rows, detail::differentiate_motion;
 
 py::tuple linearize_states(const Model& self, const py::object& q, const py::object& qd,
                            const py::object& tension, const py::object& wrenches) {
@@ -27,17 +21,22 @@ py::tuple linearize_states(const Model& self, const py::object& q, const py::obj
   const Wrenches loads = read_wrenches(self, wrenches);
   const States states{read_bendings(self, q), read_rates(self, qd, "qd"),
                       read_tensions(self, tension)};
-  const Index num_states = 2 * self.num_coordinates(), num_cables = self.num_cables();
-  py::array_t<double> all_A = states.output({num_states, num_states});
-  py::array_t<double> all_B = states.output({num_states, num_cables});
-  double *a = all_A.mutable_data(), *b = all_B.mutable_data();
-  MatrixXd &A = room(0, num_states, num_states), &B = room(1, num_states, num_cables);
+  keep_freed_memory();
+  const Index d = self.num_coordinates(), num_cables = self.num_cables();
+  py::array_t<double> A = states.output({2 * d, 2 * d}), B = states.output({2 * d, num_cables});
+  double *a = A.mutable_data(), *b = B.mutable_data();
   states.each([&](Index i, const auto& x, const auto& xd, const auto& command) {
-    linearize(self, scratch(self), x, xd, command, loads, A, B);
-    Eigen::Map<RowMatrixXd>(a + i * A.size(), num_states, num_states) = A;
-    Eigen::Map<RowMatrixXd>(b + i * B.size(), num_states, num_cables) = B;
+    double *a_i = a + i * 4 * d * d, *b_i = b + i * 2 * d * num_cables;
+    Eigen::Map<RowMatrixXd> upper(a_i, d, 2 * d);  // d(q)/dt = qd
+    upper.setZero();
+    upper.rightCols(d).setIdentity();
+    std::fill_n(b_i, d * num_cables, 0.0);
+    a_i += 2 * d * d;
+    auto on_command = by_rows(b_i + d * num_cables, d, num_cables, num_cables);
+    differentiate_motion(self, scratch(self), x, xd, command, loads,
+                         {by_rows(a_i, d, d, 2 * d), by_rows(a_i, d, d, 2 * d, d), &on_command});
   });
-  return py::make_tuple(std::move(all_A), std::move(all_B));
+  return py::make_tuple(std::move(A), std::move(B));
 }
 
 py::array_t<double> accelerations(const Model& self, const py::object& q, const py::object& qd,
@@ -78,19 +77,19 @@ py::tuple differentiate_states(const Model& self, const py::object& q, const py:
                       read_tensions(self, tension)};
   const Index d = self.num_coordinates(), num_cables = self.num_cables();
   const auto num_wrenches = static_cast<Index>(loads.size());
+  keep_freed_memory();
   std::array<py::array_t<double>, 4> outputs{states.output({d, d}), states.output({d, d}),
                                              states.output({d, num_cables}),
                                              states.output({d, num_wrenches, 6})};
-  const std::array<MatrixXd*, 4> slopes{&room(0, d, d), &room(1, d, d), &room(2, d, num_cables),
-                                        &room(3, d, 6 * num_wrenches)};
   std::array<double*, 4> data{};
   for (std::size_t k = 0; k < data.size(); ++k) data[k] = outputs[k].mutable_data();
   states.each([&](Index i, const auto& x, const auto& xd, const auto& command) {
-    acceleration_derivatives(self, scratch(self), x, xd, command, loads, *slopes[0], *slopes[1],
-                             *slopes[2], *slopes[3]);
-    for (std::size_t k = 0; k < data.size(); ++k) {
-      Eigen::Map<RowMatrixXd>(data[k] + i * slopes[k]->size(), d, slopes[k]->cols()) = *slopes[k];
-    }
+    const auto part = [&](std::size_t k, Index width) {
+      return by_rows(data[k] + i * d * width, d, width, width);
+    };
+    auto on_command = part(2, num_cables), on_wrenches = part(3, 6 * num_wrenches);
+    differentiate_motion(self, scratch(self), x, xd, command, loads,
+                         {part(0, d), part(1, d), &on_command, &on_wrenches});
   });
   return py::make_tuple(outputs[0], outputs[1], outputs[2], outputs[3]);
 }

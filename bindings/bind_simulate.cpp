@@ -196,25 +196,26 @@ void bind_simulate(py::module_& m) {
 
   py::class_<Trajectory>(m, "Trajectory", "A run as the core returns it; see cdcr.Trajectory.")
       .def_property_readonly(
-          "t", [](const Trajectory& self) { return to_array(self.t); },
+          "t", [](const Trajectory& self) { return read_only(to_array(self.t)); },
           "Output times reached (N,) [s].")
       .def_property_readonly(
-          "q", [](const Trajectory& self) { return to_rows(self.q); },
+          "q", [](const Trajectory& self) { return read_only(to_rows(self.q)); },
           "Bending vectors (N, d) [rad].")
       .def_property_readonly(
-          "qd", [](const Trajectory& self) { return to_rows(self.qd); },
+          "qd", [](const Trajectory& self) { return read_only(to_rows(self.qd)); },
           "Their rates (N, d) [rad/s].")
       .def_property_readonly(
-          "tension", [](const Trajectory& self) { return to_rows(self.tension); },
+          "tension", [](const Trajectory& self) { return read_only(to_rows(self.tension)); },
           "Tensions at the base (N, num_cables) [N].")
       .def_property_readonly(
-          "command", [](const Trajectory& self) { return to_rows(self.command); },
+          "command", [](const Trajectory& self) { return read_only(to_rows(self.command)); },
           "What was asked of the cables (N, num_cables), [N] or [m].")
       .def_property_readonly(
-          "deflection", [](const Trajectory& self) { return to_rows(self.deflection); },
+          "deflection", [](const Trajectory& self) { return read_only(to_rows(self.deflection)); },
           "Of cables whose friction remembers (N, num_deflections) [m].")
       .def_property_readonly(
-          "sensitivities", [](const Trajectory& self) { return to_rows(self.sensitivities); },
+          "sensitivities",
+          [](const Trajectory& self) { return read_only(to_rows(self.sensitivities)); },
           "Derivatives of q [rad] and qd [rad/s], in rows (N, 2 d k), over SI units.")
       .def_property_readonly("slack_events", &slack_events,
                              "Time [s], cable and whether slack, in the order of time.")

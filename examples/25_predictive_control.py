@@ -35,21 +35,19 @@ print(cdcr.check_path(model, circle, max_tension=most, num_samples=61))
 # ---------------
 # Twenty steps of 20 ms ahead, two hundred times a second.
 
-predictive = cdcr.control.Mpc(model, max_tension=most, period=5e-3, step=0.02, substeps=2)
+
+class Timed(cdcr.control.Mpc):
+    def update(self, t, q, qd):
+        tension = super().update(t, q, qd)
+        took.append(self.diagnostics["duration"])
+        return tension
+
+
+predictive = Timed(model, max_tension=most, period=5e-3, step=0.02, substeps=2)
 plain = cdcr.TaskSpace(model, posture=start, damping=1e-3, max_tension=most)
 t = np.linspace(0.0, 3.5, 701)
 wanted = np.array([circle.evaluate(at)[0] for at in t])
-update, took = predictive.update, []
-runs, errors = {}, {}
-
-
-def timed(*now):
-    tension = update(*now)
-    took.append(predictive.diagnostics["duration"])
-    return tension
-
-
-predictive.update = timed
+took, runs, errors = [], {}, {}
 for name, controller in (("predictive", predictive), ("task space", plain)):
     controller.path = circle
     run = cdcr.simulate(model, start, np.zeros(6), t=t, controller=controller, method="rk4")

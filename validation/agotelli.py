@@ -1,6 +1,6 @@
 """A real robot of one section under tension, hanging: aGotelli/dataset_CR_dynamics.
 
-    python validation/agotelli.py FOLDER_OF_THE_REPOSITORY [--parts 6]
+    python validation/agotelli.py FOLDER_OF_THE_REPOSITORY [--parts 6] [--drag 0.003]
 
 Backbone of 0.48 m, four cables on a circle of 37.5 mm, five disks in motion capture. Its record
 is figshare 10.6084/m9.figshare.31990188; no licence travels with it, so nothing of it is here.
@@ -10,6 +10,9 @@ much and along which direction it is stiffer. To pulls along two axes: the share
 arrives. They predict pulls between the axes and the other releases. Driven motion needs more
 damping than a free swing, since the cables rub: with the share it is fitted once more, to one run
 along a line, and predicts the others. Where the disks' markers sit is taken from the robot at rest.
+
+--drag tells what releases would be with a drag of the air, which the model has not: on each disk a
+force against its speed and with its square, N for each (m/s)^2. Fits take the speeds measured.
 """
 
 from __future__ import annotations
@@ -21,7 +24,7 @@ from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
-from common import FloatArray, Row, amplitude, read_columns, rms, script, watch
+from common import FloatArray, Row, amplitude, mean, read_columns, rms, script, state_at, watch
 
 import cdcr
 from cdcr.identification import Identified, Motion, Poses
@@ -37,12 +40,13 @@ SHORT = 1.5  # of a motion that is fitted first [s]
 SECONDS = 12.0  # of a release that are compared
 HALF, STRETCHES = 0.353, (0.0, 3.0, 6.0, SECONDS)  # a half swing, and in which it fades [s]
 MOVING, FREE = 0.3, 2.5  # a tip faster than this [m/s] is on its way; cables are off it later [s]
+STRIDE, ROUNDS = 4, 3  # samples between those of a drag, and runs by which it is found
 MODES, AROUND = 4, 6  # in which a state is sought, and samples on either side of it
 EVERY = 0.05  # of a driven run, whose tensions change slowly [s]
 QUIET = 0.02  # tensions below are those of a slack cable [N]
 CABLES = "1_x", "2_y", "1_-x", "2_-y"
 UPRIGHT = np.array([-1.0, 1.0, -1.0])  # axes of the room, Z up, in those of the robot
-MODEL = "arcs in {} parts, stiffer along a direction"
+MODEL, AIR = "arcs in {} parts, stiffer along a direction", ", drag"
 FITTED = "tip_release-x_3", "tip_release+y_1"
 DRAWN = "plane_x_angle_150_speed_1"
 # Two springs along the robot, opposite each other and always taut, stiffen the plane they are in.
@@ -134,28 +138,52 @@ def state(
     t: FloatArray, places: FloatArray, begin: int, model: cdcr.Model, beside: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Return shape and rates at a time, in the first modes, from the disks a little around it."""
-    from scipy.optimize import least_squares  # type: ignore[import-untyped]
-
     slack = told(np.zeros(4))
     rest = model.equilibrium(slack)
     modes = model.modes(rest, slack).shape[:, :MODES]
     near = np.arange(begin - AROUND, begin + AROUND + 1)
-    since = t[near] - t[begin]
-    powers = since[:, None] ** np.arange(4)  # a cubic in time
-    ends = LENGTH / NUM_DISKS * np.arange(1, NUM_DISKS + 1)
-    at = [model.robot.locate(min(end, model.robot.length)) for end in ends]
 
-    def apart(x: FloatArray) -> FloatArray:
-        q = rest + powers @ x.reshape(4, -1) @ modes.T
-        poses = [model.pose(q, *place) for place in at]
+    def seen(q: FloatArray) -> FloatArray:
+        poses = [model.pose(q, *place) for place in ends(model.robot)]
         there = [place + turn @ marker for (turn, place), marker in zip(poses, beside, strict=True)]
-        return ((np.stack(there, axis=1) - places[near, 1:]) / 1e-3).ravel()
+        return np.stack(there, axis=1)
 
-    found = least_squares(apart, np.zeros(4 * modes.shape[1])).x.reshape(4, -1)
-    return rest + modes @ found[0], modes @ found[1]
+    return state_at(t[near] - t[begin], places[near, 1:], seen, rest, modes)
 
 
-def release(folder: Path, name: str, known: cdcr.Robot, beside: FloatArray) -> Motion:
+def ends(known: cdcr.Robot) -> list[tuple[int, float]]:
+    """Return section and fraction of disks 1 to 4."""
+    along = LENGTH / NUM_DISKS * np.arange(1.0, NUM_DISKS + 1.0)
+    return [known.locate(min(end, known.length)) for end in along]
+
+
+def drags(t: FloatArray, places: FloatArray, known: cdcr.Robot, drag: float) -> list[cdcr.Wrench]:
+    """Return the drag of the air on disks that go through these places (N, NUM_DISKS, 3)."""
+    t, places = t[::STRIDE], places[::STRIDE]
+    speed = np.gradient(places, t, axis=0)
+    force = -drag * np.linalg.norm(speed, axis=2, keepdims=True) * speed
+    return [
+        cdcr.Wrench(section=i, fraction=f, force=axis, profile=(t, force[:, disk, k]))
+        for disk, (i, f) in enumerate(ends(known))
+        for k, axis in enumerate(np.eye(3))
+    ]
+
+
+def in_air(motion: Motion, known: cdcr.Robot, drag: float) -> Motion:
+    """Return a release with the drag of the speeds that the robot itself has, found by runs."""
+    model, t = cdcr.Model(known), np.asarray(motion.t)
+    air: list[cdcr.Wrench] = []
+    for _ in range(ROUNDS if drag else 0):
+        command = np.asarray(motion.command)[0]
+        run = cdcr.simulate(model, *motion.start, t=t, command=command, wrenches=air)
+        places = np.stack([model.pose(run.q, *place)[1] for place in ends(known)], axis=1)
+        air = drags(t, places, known, drag)
+    return replace(motion, wrenches=air)
+
+
+def release(
+    folder: Path, name: str, known: cdcr.Robot, beside: FloatArray, drag: float = 0.0
+) -> Motion:
     """Return a free release, from when hand, string and cut cable are off it for sure."""
     t, places = disks(one_file(folder / name, "dataVicon*.csv"))
     tip = places[:, 4]
@@ -163,14 +191,19 @@ def release(folder: Path, name: str, known: cdcr.Robot, beside: FloatArray) -> M
     begin = int(np.argmax(t > t[np.argmax(speed > MOVING)] + FREE))
     chosen = (t >= t[begin]) & (t <= t[begin] + SECONDS)
     start = state(t, places, begin, cdcr.Model(replace(known, tool=np.eye(4))), beside)
-    slack = told(np.zeros(4))
-    return Motion(t[chosen] - t[begin], slack, tip=tip[chosen], start=start, name=name)
+    since, slack = t[chosen] - t[begin], told(np.zeros(4))
+    air = drags(since, places[chosen, 1:], known, drag) if drag else []
+    return Motion(since, slack, tip=tip[chosen], start=start, wrenches=air, name=name)
 
 
 def fading(motion: Motion) -> str:
-    """Return how fast swings of some sizes fade, as a sentence."""
+    """Return how fast swings of some sizes fade, and how often they come, as a sentence."""
     t, tip = np.asarray(motion.t), np.asarray(motion.tip)
-    away = np.linalg.norm((tip - tip.mean(axis=0))[:, :2], axis=1)
+    aside = (tip - tip.mean(axis=0))[:, :2]
+    away = np.linalg.norm(aside, axis=1)
+    along = aside @ np.linalg.svd(aside, full_matrices=False)[2][0]
+    up = np.flatnonzero((along[:-1] < 0.0) & (along[1:] >= 0.0))
+    through = t[up] - along[up] * (t[up + 1] - t[up]) / (along[up + 1] - along[up])
     count = int(t[-1] / HALF)
     middle = HALF * (np.arange(count) + 0.5)
     most = np.array([away[(t >= k * HALF) & (t < (k + 1) * HALF)].max() for k in range(count)])
@@ -179,7 +212,9 @@ def fading(motion: Motion) -> str:
         here = (middle >= low) & (middle < high)
         if here.sum() > 2:
             rate = -np.polyfit(middle[here], np.log(most[here]), 1)[0]
-            told.append(f"of {1e3 * most[here].mean():.0f} mm by {rate:.3f} 1/s")
+            turns = through[(through >= low) & (through < high)]
+            hertz = (len(turns) - 1) / (turns[-1] - turns[0]) if len(turns) > 1 else np.nan
+            told.append(f"of {1e3 * most[here].mean():.0f} mm by {rate:.3f} 1/s at {hertz:.4f} Hz")
     return f"{motion.name}: its swings fade, " + ", ".join(told)
 
 
@@ -217,18 +252,13 @@ def errors(found: Identified, motions: Sequence[Motion]) -> list[float]:
     return told
 
 
-def mean(values: Sequence[float]) -> float:
-    """Return the root mean square, NaN of nothing."""
-    return float(np.sqrt(np.mean(np.square(values)))) if values else np.nan
-
-
-def rows(folder: Path, parts: int) -> list[Row]:
+def rows(folder: Path, parts: int, drag: float = 0.0) -> list[Row]:
     """Return the rows of the table."""
-    home, model = folder / STATICS, MODEL.format(parts)
+    home, model = folder / STATICS, MODEL.format(parts) + (AIR if drag else "")
     beside = markers(home)
     known = seen_at(robot(parts), beside[-1])
     names = sorted(path.name for path in home.glob("*release*"))
-    motions = {name: release(home, name, known, beside) for name in names}
+    motions = {name: release(home, name, known, beside, drag) for name in names}
     print("\n".join(fading(one) for one in motions.values()), "\n")
     used = [motions.pop(name) for name in FITTED]
     every = sorted(path.name for path in home.glob("statics_*"))
@@ -239,7 +269,8 @@ def rows(folder: Path, parts: int) -> list[Row]:
         near = cdcr.identify([one.until(SHORT) for one in used], known, FREELY)
         free = cdcr.identify(used, near.robot, FREELY)
     print(free.report(), "\n")
-    size, swings, fitted = 2 * parts, root_mean_square(free), len(free.estimates) + 1
+    motions = {name: in_air(one, free.robot, drag) for name, one in motions.items()}
+    size, swings, fitted = 2 * parts, root_mean_square(free), len(free.estimates) + 1 + bool(drag)
     by_hand = [one for name, one in motions.items() if name.startswith("tip")]
     by_cable = [one for name, one in motions.items() if not name.startswith("tip")]
     table = [
@@ -291,8 +322,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=Path, help="of the repository")
     parser.add_argument("--parts", type=int, default=4, help="arcs that the section is cut into")
+    parser.add_argument("--drag", type=float, default=0.0, help="of a disk [N s^2/m^2]")
     given = parser.parse_args()
-    script(lambda: rows(given.folder, given.parts))
+    script(lambda: rows(given.folder, given.parts, given.drag))
 
 
 if __name__ == "__main__":

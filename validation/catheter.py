@@ -18,7 +18,7 @@ import json
 from pathlib import Path
 
 import numpy as np
-from common import FloatArray, Row, amplitude, rms, script, watch
+from common import FloatArray, Row, amplitude, mean, rms, script, watch
 
 import cdcr
 from cdcr.identification import Motion
@@ -128,11 +128,6 @@ def rows(folder: Path, file: str) -> list[Row]:
             len(found.estimates), mean(used), mean(error), mean(share), "amplitude", 2, spent[0],
         )
     ]  # fmt: skip
-
-
-def mean(values: list[float]) -> float:
-    """Return the root mean square."""
-    return float(np.sqrt(np.mean(np.square(values))))
 
 
 def main() -> None:

@@ -82,9 +82,35 @@ def rms(difference: FloatArray) -> float:
     return float(1e3 * np.sqrt(np.mean(np.sum(difference**2, axis=-1))))
 
 
+def mean(values: Sequence[float]) -> float:
+    """Return the root mean square, NaN of nothing."""
+    return float(np.sqrt(np.mean(np.square(values)))) if values else np.nan
+
+
 def amplitude(tip: FloatArray) -> float:
     """Return the largest distance of places (N, 3) [m] from their mean, in mm."""
     return float(1e3 * np.linalg.norm(tip - tip.mean(axis=0), axis=1).max())
+
+
+def state_at(
+    since: FloatArray, places: FloatArray, seen: Callable[[FloatArray], FloatArray],
+    rest: FloatArray, modes: FloatArray,
+) -> tuple[FloatArray, FloatArray]:  # fmt: skip
+    """Return shape and rates at a time, in modes (d, k) from rest, from places a little around it.
+
+    The modes go as cubics in the time `since` then (N,); `seen` gives the places that shapes (N, d)
+    would show [m].
+    """
+    from scipy.optimize import least_squares  # type: ignore[import-untyped]
+
+    powers = since[:, None] ** np.arange(4)
+
+    def apart(x: FloatArray) -> FloatArray:
+        off: FloatArray = (seen(rest + powers @ x.reshape(4, -1) @ modes.T) - places) / 1e-3
+        return off.ravel()
+
+    found = least_squares(apart, np.zeros(4 * modes.shape[1])).x.reshape(4, -1)
+    return rest + modes @ found[0], modes @ found[1]
 
 
 @contextmanager

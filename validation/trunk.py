@@ -1,4 +1,4 @@
-"""A trunk of three sections at rest: StanfordASL/trunk-stack, MIT.
+"""A trunk of three sections, at rest and let go by hand: StanfordASL/trunk-stack, MIT.
 
     python validation/trunk.py FOLDER_OF_THE_REPOSITORY [--train 5]
 
@@ -8,19 +8,25 @@ are fitted, the others predicted.
 
 Fitted, twelve numbers: how far a unit of command pulls and how the cables are wound, by section;
 where the base is and how it is tilted; stiffness of the cables beside that of the hose.
+
+Then it was pushed aside and let go, with loads of 200, 300 and 400 g. Two decays with the lightest
+give stiffness and damping of hose and cables together, and these all other decays. Their files have
+no times: samples are those of the motion capture, a hundred a second, for which the inputs of other
+runs were made (stack/main/scripts/control_inputs_sampling.py).
 """
 
 from __future__ import annotations
 
 import argparse
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from common import FloatArray, Row, read_columns, rms, script, watch
+from common import FloatArray, Row, amplitude, mean, read_columns, rms, script, state_at, watch
 
 import cdcr
-from cdcr.identification import Poses
+from cdcr.identification import Motion, Poses
 
 STEADY = "stack/main/data/trajectories/steady_state"
 LENGTHS = 0.107, 0.098, 0.119  # between the disks where nothing is pulled [m]
@@ -34,6 +40,17 @@ PARAMETERS = dict.fromkeys([
     "sections[0].cable_rotation", "sections[1].cable_rotation", "sections[2].cable_rotation",
     "base position", "base tilt", "cables.stiffness",
 ])  # fmt: skip
+
+DECAYS = "stack/main/data/trajectories/dynamic/dc_motor_archive"
+STEP = 0.01  # between samples [s]
+MOVING, FREE, SECONDS = (
+    0.3,
+    0.1,
+    2.0,
+)  # speed of the tip let go [m/s], off hands later, compared [s]
+AROUND = 4  # samples on either side of where a state is sought
+FITTED = 1, 4  # which decays of the first file
+FREELY = dict.fromkeys(["sections[*].bending_stiffness", "sections[*].damping"])
 
 
 def turned(degrees: float) -> float:
@@ -83,8 +100,78 @@ def ours(places: FloatArray) -> FloatArray:
     return np.stack([places[..., 0], places[..., 2], -places[..., 1]], axis=-1)
 
 
+def hose(payload: float, places: FloatArray) -> cdcr.Robot:
+    """Return the trunk with a load [kg], not pulled, above where its disks hang (..., 3)."""
+    known = robot()
+    sections = [
+        replace(one, cable_stiffness=0.0, bending_stiffness=0.1, damping=0.1)
+        for one in known.sections
+    ]
+    x, y, _ = places.reshape(-1, 3).mean(axis=0)
+    return replace(known, sections=sections, base_position=(x, y, 0.0), payload=payload)
+
+
+def decays(file: Path) -> list[FloatArray]:
+    """Return where the disks went each time that the trunk was let go (N, 3, 3) [m]."""
+    table = read_columns(file, ["ID", *(f"{axis}{k}" for k in (1, 2, 3) for axis in "xyz")])
+    numbers, places = table[:, 0], ours(table[:, 1:].reshape(-1, 3, 3))
+    return [places[numbers == number] for number in np.unique(numbers)]
+
+
+def decay(places: FloatArray, known: cdcr.Robot, name: str) -> Motion:
+    """Return the motion from when hands are off the trunk for sure."""
+    speed = np.linalg.norm(np.gradient(places[:, 2], STEP, axis=0), axis=1)
+    begin = int(np.argmax(speed > MOVING)) + round(FREE / STEP)
+    model, near = cdcr.Model(known), np.arange(-AROUND, AROUND + 1)
+    d = model.num_coordinates
+
+    def seen(q: FloatArray) -> FloatArray:
+        return np.stack([model.pose(q, i, 1.0)[1] for i in range(3)], axis=1)
+
+    start = state_at(STEP * near, places[begin + near], seen, np.zeros(d), np.eye(d))
+    there = places[begin : begin + round(SECONDS / STEP)]
+    t, still = STEP * np.arange(len(there)), np.zeros(known.num_cables)
+    markers = {(i, 1.0): there[:, i] for i in range(3)}
+    return Motion(t, still, markers=markers, start=start, name=name)
+
+
+def let_go(home: Path) -> list[Row]:
+    """Return the row of decays, where there are files of them."""
+    pattern = re.compile(r"observations_manual_decay_(\d+)g\w*\.csv")
+    files = sorted((int(found[1]), one) for one in home.glob("*.csv")
+                   if (found := pattern.match(one.name)))  # fmt: skip
+    if not files:
+        return []
+    hung = np.stack([places[-1] for places in decays(files[0][1])])
+    motions = {
+        (grams, file.name, k): decay(places, hose(grams / 1e3, hung), f"{file.stem}, {k + 1}")
+        for grams, file in files
+        for k, places in enumerate(decays(file))
+    }
+    first, file = files[0]
+    used = [motions.pop((first, file.name, k)) for k in FITTED]
+    with watch() as spent:
+        found = cdcr.identify(used, hose(first / 1e3, hung), FREELY)
+    print(found.report(), "\n")
+    errors, shares = [], []
+    for (grams, _, _), one in motions.items():
+        loaded = cdcr.Model(replace(found.robot, payload=grams / 1e3))
+        t, tip = np.asarray(one.t), np.asarray((one.markers or {})[2, 1.0])
+        run = cdcr.simulate(loaded, *one.start, t=t, command=np.zeros(loaded.num_cables))
+        errors.append(rms(run.tip - tip))
+        shares.append(100.0 * errors[-1] / amplitude(tip))
+        print(f"{one.name}: off by {errors[-1]:.1f} mm RMS, {shares[-1]:.1f} %")
+    fitted = [rms(one.values) for one in found.residuals if one.channel == "marker 3"]
+    return [
+        Row(
+            f"trunk, let go by hand ({len(errors)} predicted)", "arcs", len(found.estimates),
+            mean(fitted), mean(errors), mean(shares), "amplitude", 6, spent[0],
+        )
+    ]  # fmt: skip
+
+
 def rows(folder: Path, train: int) -> list[Row]:
-    """Return the row of the table, for the last disk."""
+    """Return the rows of the table, for the last disk."""
     home = folder / STEADY
     pattern = re.compile(r"observations_circle_seed(\d+)\.csv")
     seeds = sorted(
@@ -102,7 +189,8 @@ def rows(folder: Path, train: int) -> list[Row]:
             f"trunk, at rest ({len(seeds) - train} files predicted)", "arcs, cables as springs",
             len(found.estimates), rms(found.residuals[2].values), held_out,
             held_out / (10.0 * sum(LENGTHS)), "length", 6, spent[0],
-        )
+        ),
+        *let_go(folder / DECAYS),
     ]  # fmt: skip
 
 

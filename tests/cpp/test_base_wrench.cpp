@@ -272,6 +272,35 @@ TEST_CASE("a push on the tip is found from what the base feels, its pull along t
   check(UnscentedKalman(model, options));
 }
 
+TEST_CASE("force and moment are heard at one state: which comes first changes nothing") {
+  const Model model(upright(3));
+  const VectorXd zero = VectorXd::Zero(6), start = VectorXd::Constant(6, 0.1);
+  const VectorXd command = VectorXd::Constant(9, 2.0);
+  VectorXd wrench(6), q(6), qd(6), first(12);
+  base_wrench(model, start, zero, zero, {}, wrench);
+  for (const bool moment_first : {false, true}) {
+    KalmanOptions options;
+    options.deviation = 0.1;
+    options.rate_deviation = 1.0;
+    options.sensors.resize(2);
+    options.sensors[0].noise = options.sensors[1].noise = 0.01;
+    options.sensors[moment_first ? 1 : 0].kind = Sensor::Kind::base_force;
+    options.sensors[moment_first ? 0 : 1].kind = Sensor::Kind::base_moment;
+    ExtendedKalman filter(model, options);
+    filter.reset(zero, zero, command);
+    std::vector<Measurement> told{{wrench.head<3>(), true}, {wrench.tail<3>(), true}};
+    if (moment_first) std::swap(told[0], told[1]);
+    for (int k = 0; k < 3; ++k) {
+      REQUIRE(filter.update(1e-3 * k, told, command, q, qd) == Status::ok);
+    }
+    VectorXd found(12);
+    found << q, qd;
+    if (moment_first) CHECK(residual(found, first) <= 1e-9);
+    first = found;
+    CHECK(found.norm() > 0.1);
+  }
+}
+
 TEST_SUITE_END();
 
 }  // namespace

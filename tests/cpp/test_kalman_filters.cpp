@@ -165,8 +165,8 @@ Consistency consistency(const Model& model, const KalmanOptions& options, int pe
 }
 
 TEST_CASE("innovations are as large as the filters expect, and errors") {
-  // CDCR_TEST_COUNT=1000: 200 seeds of 400 periods.
-  const bool all = test_count() >= 1000;
+  // CDCR_TEST_COUNT=100: 200 seeds of 400 periods.
+  const bool all = test_count() >= 100;
   const int seeds = all ? 200 : 12, periods = all ? 400 : 60;
   const Model model(upright(2));
   KalmanOptions options;

@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -45,12 +46,27 @@ def driven_by_length() -> cdcr.Robot:
     return dataclasses.replace(robot, sections=(robot.sections[0], *sections))
 
 
+def rubbing() -> cdcr.Robot:
+    """Cables that rub in the holes, and two of the robot's own that do so at the entry too."""
+    robot = turned(cdcr.robots.three_sections())
+    sections = [dataclasses.replace(one, cable_friction=0.3) for one in robot.sections]
+    entry: Any = {"entry_friction": 0.05, "sheath_friction": 0.2, "viscosity": 2.0}
+    cable = cdcr.Cable(end_section=1, radius=0.01, angle=0.5, friction=0.1)
+    rubs = dataclasses.replace(cable, **entry)
+    drive: Any = {"stiffness": 2e3, "damping": 5.0, "pretension": 3.0}
+    driven = dataclasses.replace(rubs, end_section=2, angle=2.5, friction=0.0, **drive)
+    return dataclasses.replace(
+        robot, sections=tuple(sections), cables=(*robot.cables, rubs, driven), sliding_speed=0.02
+    )
+
+
 ROBOTS = {
     "one section": cdcr.robots.amouri2020(),
     "one section with a payload": cdcr.robots.amouri2020(gravity=(1, 2, -9.81), payload=0.1),
     "three sections": cdcr.robots.three_sections(),
     "three sections, turned": turned(cdcr.robots.three_sections()),
     "driven by length": driven_by_length(),
+    "with friction": rubbing(),
     "eight sections": cdcr.robots.three_sections().subdivide([3, 3, 2]),
 }
 
@@ -179,8 +195,25 @@ def test_refusals(tmp_path: Path) -> None:
             "curvature",
         ),
         (
-            dataclasses.replace(arm, sections=(dataclasses.replace(section, cable_friction=0.1),)),
-            "rub",
+            dataclasses.replace(
+                arm,
+                sections=(dataclasses.replace(section, cable_friction=0.1),),
+                presliding_stiffness=1e4,
+            ),
+            "friction without memory, presliding_stiffness = 0; got 10000 N/m",
+        ),
+        (
+            dataclasses.replace(arm, sections=(dataclasses.replace(section, cable_friction=5.0),)),
+            "friction times angle up to 40; cable 1 may have 47",
+        ),
+        (
+            dataclasses.replace(
+                arm,
+                cables=(
+                    cdcr.Cable(radius=0.01, angle=0.0, end_section=0, stiffness=1e3, backlash=1e-4),
+                ),
+            ),
+            "without backlash, which has memory; cable 4 has 0.0001 m",
         ),
         (
             dataclasses.replace(

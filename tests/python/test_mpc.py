@@ -160,6 +160,13 @@ def test_refused_robots_and_references() -> None:
     controller = cdcr.control.Mpc(ARM, max_tension=5.0)
     with pytest.raises(ValueError, match=r"^reference must have shape \(3,\), got \(2,\)"):
         controller.reference = [0.1, 0.2]
-    controller.path = cdcr.ReferencePath.constant([0.1, 0.2])
     with pytest.raises(ValueError, match=r"^path must be of the tip, 3 numbers, got 2"):
-        controller.update(0.0, [0.0] * 6, [0.0] * 6)
+        controller.path = cdcr.ReferencePath.constant([0.1, 0.2])
+    with pytest.raises(TypeError, match=r"^path must be a cdcr\.ReferencePath, got int"):
+        controller.path = 3  # type: ignore[assignment]
+    with pytest.raises(
+        AttributeError,
+        match=r"^Mpc has no attribute 'reference_tip' that can be set\. Did you mean 'reference'\?",
+    ):
+        controller.reference_tip = [0.1, 0.2, 0.5]
+    assert controller.path is None

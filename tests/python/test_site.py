@@ -125,6 +125,11 @@ def test_every_header_is_in_the_reference() -> None:
     assert sorted(shown) == sorted(headers)
 
 
+def test_every_status_is_told_of() -> None:
+    page = (DOCS / "howto" / "embed.md").read_text()
+    assert [name for name in cdcr.Status.__members__ if f"`{name}`" not in page] == []
+
+
 def test_no_comment_of_a_header_reads_as_a_quotation() -> None:
     """As one does that begins with >: Doxygen makes a quotation of it, which breaks the site."""
     headers = sorted((ROOT / "cpp" / "include" / "cdcr").glob("*.hpp"))

@@ -94,6 +94,22 @@ def test_it_finds_the_robot_that_made_the_files(
         assert float(line.split()[3]) == pytest.approx(value, rel=0.02), line
 
 
+def test_drag_takes_power_with_the_cube_of_the_speed() -> None:
+    t, rate = np.linspace(0.0, 1.0, 101), np.array([[0.1, 0.2, 0.0], [0.0, -0.3, 0.4]])
+    places = np.zeros((101, agotelli.NUM_DISKS, 3))
+    places[:, 2:] = t[:, None, None] * rate
+    forces = np.zeros(3), np.zeros(3)
+    for wrench in agotelli.drags(t, places, agotelli.robot(2), 3e-3):
+        disk = round(4.0 * (wrench.section + wrench.fraction) / 2.0) - 1
+        if disk >= 2:
+            forces[disk - 2][:] += wrench.at(0.5).force
+        else:
+            assert not np.any(wrench.at(0.5).force)
+    for force, speed in zip(forces, rate, strict=True):
+        assert force @ speed == pytest.approx(-3e-3 * np.linalg.norm(speed) ** 3)
+        np.testing.assert_allclose(np.cross(force, speed), 0.0, atol=1e-15)
+
+
 def test_files_are_refused_by_name(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError, match=r"there is no file dataVicon\*\.csv in"):
         agotelli.rows(tmp_path, parts=1)

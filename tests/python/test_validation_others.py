@@ -16,12 +16,18 @@ from cdcr.base.arrays import FloatArray
 from validation_scripts import catheter, trunk, write
 
 GAIN, DAMPING, RATE = 0.8, 2e-5, 0.005  # what made the files; of the catheter's file [s]
+DECAY = 1.0  # [mm]: states at the start are found from a cubic over some samples
 NEAR = 0.1  # [mm]: of fits that begin elsewhere and end where a step is small
 
 
 def refused(call: Callable[[], object], sentence: str) -> None:
     with pytest.raises((ValueError, FileNotFoundError), match=re.escape(sentence)):
         call()
+
+
+def y_up(places: list[FloatArray]) -> list[FloatArray]:
+    """Return places (N, 3) with Z down in the frame of the trunk's files."""
+    return [np.column_stack([one[:, 0], -one[:, 2], one[:, 1]]) for one in places]
 
 
 def trunk_files(home: Path, seed: int) -> Path:
@@ -33,7 +39,7 @@ def trunk_files(home: Path, seed: int) -> Path:
     commands = model.rest_command() - GAIN * (trunk.UNIT * np.stack(pull, 1) + trunk.SLACK)
     q = np.array([model.equilibrium(one) for one in commands])
     places = [model.pose(q, i, 1.0)[1] for i in range(3)]
-    theirs = [np.column_stack([one[:, 0], -one[:, 2], one[:, 1]]) for one in places]  # Y up
+    theirs = y_up(places)
     rows = np.arange(4)
     write(home / f"control_inputs_circle_seed{seed}.csv", ["ID", *(f"u{k + 1}" for k in range(6))],
           np.column_stack([rows, told]))  # fmt: skip
@@ -54,6 +60,28 @@ def test_trunk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     refused(lambda: trunk.rows(tmp_path, train=1), f"{file}: the column ID must be that of contr")
     file.write_text(good.replace("z3", "w3"))
     refused(lambda: trunk.rows(tmp_path, train=1), f"{file}, line 1: there is no column 'z3'")
+
+
+def test_trunk_let_go(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    hangs = np.array([[0.1, 0.12, 0.1], [0.1, 0.12, 0.2], [0.1, 0.12, 0.3]])
+    header = ["ID", *(f"{axis}{k + 1}" for k in range(3) for axis in "xyz")]
+    held, t = np.zeros(30), np.arange(0.0, 4.0, trunk.STEP)
+    for grams in (200, 300):
+        known = trunk.hose(grams / 1e3, hangs)
+        sections = [replace(one, bending_stiffness=0.12, damping=0.15) for one in known.sections]
+        model = cdcr.Model(replace(known, sections=sections))
+        rows = []
+        for k, aside in enumerate([(0.4, 0.2), (-0.3, 0.5), (0.5, -0.4)]):
+            run = cdcr.simulate(model, np.tile(aside, 3), np.zeros(6), t=t)
+            q = np.concatenate([np.tile(run.q[:1], (len(held), 1)), run.q])
+            places = y_up([model.pose(q, i, 1.0)[1] for i in range(3)])
+            rows.append(np.column_stack([np.full(len(q), k), *places]))
+        write(tmp_path / f"observations_manual_decay_{grams}g.csv", header, np.concatenate(rows))
+    monkeypatch.setattr(trunk, "FITTED", (0, 1))
+    (row,) = trunk.let_go(tmp_path)
+    assert row.source == "trunk, let go by hand (4 predicted)"
+    assert max(row.used, row.held_out) < DECAY, row
+    assert trunk.let_go(tmp_path / "elsewhere") == []
 
 
 def catheter_file(folder: Path, sequences: int = 2, size: int = 41) -> Path:

@@ -15,7 +15,7 @@ pytest.importorskip("viser", reason="the view is served by viser, extra view")
 
 from rich.console import Console
 
-from cdcr.cli.view import _find
+from cdcr.cli.view import Shown, _find
 from cdcr.runs.loop import LoopRun
 from cdcr.view import Session
 from cdcr.view.drawing import Drawing
@@ -75,7 +75,9 @@ def test_what_is_no_motion_of_the_robot_is_refused(run: LoopRun) -> None:
         Session(ROBOT, run=run.trajectory, estimate=run.told_q)  # type: ignore[arg-type]
 
 
-def test_a_scenario_with_an_estimator_shows_it(tmp_path: Path) -> None:
+@pytest.fixture
+def shown(tmp_path: Path) -> Shown:
+    """A scenario whose filter begins where the robot is not."""
     file = tmp_path / "told.toml"
     file.write_text(
         'robot = "amouri2020"\nt_end = 0.02\n[output]\nnum_samples = 3\n'
@@ -83,10 +85,59 @@ def test_a_scenario_with_an_estimator_shows_it(tmp_path: Path) -> None:
         '[loop]\n[[loop.sensors]]\nkind = "lengths"\nnoise = 1e-4\n'
         '[loop.estimator]\ntype = "extended-kalman"\nstart = [0.1, 0.0]\n'
     )
-    shown = _find(str(file), Console(stderr=True), robot_alone=False)
+    return _find(str(file), Console(stderr=True), robot_alone=False)
+
+
+def test_a_scenario_with_an_estimator_shows_it(shown: Shown) -> None:
     assert shown.run is not None
     assert shown.estimate is not None
     assert shown.reference is not None
     np.testing.assert_array_equal(shown.reference.q, [[0.2, 0.1]] * 3)
     assert shown.estimate.q.shape == shown.run.q.shape
     assert np.abs(shown.estimate.q[0] - shown.run.q[0]).max() > 1e-3
+
+
+def test_live_the_loop_goes_on_with_its_estimate_until_a_person_steers(shown: Shown) -> None:
+    session = Session(
+        shown.robot,
+        run=shown.run,
+        reference=shown.reference,
+        estimate=shown.estimate,
+        loop=shown.loop,
+    )
+    session.go_live()
+    live = session.live
+    assert live is not None
+    assert live.steered
+
+    def off() -> float:
+        moment = session.moment()
+        assert moment.estimate is not None
+        assert errors(session.model, moment)[1].startswith("estimate: tip ")
+        return float(np.abs(moment.estimate - moment.q).max())
+
+    session.live_for(0.002)
+    assert off() > 1e-3
+    session.live_for(1.5)
+    assert 0.0 < off() < 5e-4  # of noise
+    np.testing.assert_allclose(live.q, [0.2, 0.1], rtol=0, atol=5e-3)  # the controller goes on
+    assert session.command.max() > 0.0
+
+    session.pull_to(0, 1.0, tuple(live.model.tip(live.q)[1] + [0.0, 0.1, 0.0]))
+    session.live_for(0.5)
+    assert np.abs(live.q - [0.2, 0.1]).max() > 0.02
+    assert off() > 5e-4  # the filter knows of no pull
+    session.let_go()
+
+    live.steer(0, 8.0)
+    assert not live.steered
+    assert session.command[0] == 8.0
+    session.live_for(0.5)
+    np.testing.assert_array_equal(live.tension, live.command)
+    assert live.q[0] > 0.25  # cable 1 bends it towards x
+    live.change(payload=0.02)
+    session.live_for(0.1)
+    assert live.command[0] == 8.0
+    session.restart()
+    assert session.live is not None
+    assert session.live.steered

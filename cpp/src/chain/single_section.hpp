@@ -41,7 +41,7 @@ template <class S>
   const S p = x * xd + y * yd;
   const S w = xd * xd + yd * yd;
   const S on_qd = 2.0 * da * p + section.damping;
-  const S on_q = db * p * p + (b - da) * w + section.stiffness;
+  const S on_q = (db * (p * p) + section.stiffness) + (b - da) * w;
   h_x = on_qd * xd + on_q * x;
   h_y = on_qd * yd + on_q * y;
   if (section.has_gravity) add_weight<S>(section, x, y, x * x + y * y, h_x, h_y);

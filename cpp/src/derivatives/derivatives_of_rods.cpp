@@ -1,4 +1,4 @@
-#include "derivatives/differentiate_motion.hpp"
+#include "derivatives/differentiate_base.hpp"
 #include "section/rod_body.hpp"
 
 namespace cdcr::detail {

@@ -4,7 +4,6 @@
 #include "derivatives/motion_derivatives.hpp"
 #include "derivatives/rod_rates.hpp"
 #include "derivatives/weight_hessian.hpp"
-#include "section/width.hpp"
 
 // The functions of MotionDerivatives, for the two files that make them of their kind of section.
 // NOLINTBEGIN(readability-identifier-naming): letters of the equations
@@ -23,6 +22,13 @@ template <class Vectorm>
 template <class Columns>
 [[nodiscard]] Quad dot(const Columns& columns, Index c, const Vector3<Quad>& v) {
   return columns(0, c) * v[0] + columns(1, c) * v[1] + columns(2, c) * v[2];
+}
+/// to + a x r, in registers: what Eigen makes of it is not.
+inline void add_cross(Vector3<Quad>& to, const Vector3<Quad>& a, const Vector3d& r) {
+  const Quad x = a[0], y = a[1], z = a[2];
+  to[0] += y * r[2] - z * r[1];
+  to[1] += z * r[0] - x * r[2];
+  to[2] += x * r[1] - y * r[0];
 }
 [[nodiscard]] inline Vector3<Quad> slopes_of(const Vector3<Dual>& v) {
   return {v[0].slopes, v[1].slopes, v[2].slopes};
@@ -56,9 +62,9 @@ void MotionDerivatives<Kind>::update(const Chain& chain, const ChainState<Sectio
     mass_.factorize();
   });
   inverse_motion(chain, state, nullptr, qdd.data());
-  for (Index i = 0; i < qdd.size(); ++i) qdd[i] = force[i] - qdd[i];
-  mass_.solve(qdd.data());
   with_fma<double>([&] {
+    for (Index i = 0; i < qdd.size(); ++i) qdd[i] = force[i] - qdd[i];
+    mass_.solve(qdd.data());
     accelerate(chain, state, qd);
     differentiate_inwards(chain, state, q, qd);
     differentiate_outwards(chain, state);
@@ -103,7 +109,6 @@ void MotionDerivatives<Kind>::add_up_mass(const Chain& chain, const ChainState<S
     shift(outboard, section.r);
     add_section(outboard, chain.sections[i].mass, section);
   }
-  M.triangularView<Eigen::StrictlyLower>() = M.transpose();
 }
 
 /// Accelerations of all bases and tips.
@@ -131,16 +136,19 @@ void MotionDerivatives<Kind>::accelerate(const Chain& chain, const ChainState<Se
 template <template <class> class Kind>
 void MotionDerivatives<Kind>::differentiate_inwards(const Chain& chain,
                                                     const ChainState<Section>& state,
-                                                    const double* q, const double* qd) {
+                                                    const double* q, const double* qd, bool base) {
   Outboard outboard(chain.payload, state.tip, bodies_[chain.num_sections() - 1].tip_alpha,
                     bodies_[chain.num_sections() - 1].tip_a);
   for (Index i = chain.num_sections() - 1; i >= 0; --i) {
     const Section& section = state.sections[i];
     carry_loads(chain, section, i);
     Matrix3d J_own = Matrix3d::Zero();
-    if (i == 0) return differentiate_section<false>(chain, section, i, q, qd, outboard, J_own);
+    if (i == 0 && !base) {
+      return differentiate_section<false>(chain, section, i, q, qd, outboard, J_own);
+    }
     set_gyros(section, outboard, i, chain.first[i], size_of(chain, i));
     differentiate_section<true>(chain, section, i, q, qd, outboard, J_own);
+    if (i == 0) return;
     outboard.shift(section.r, bodies_[i].moving);
     outboard.add(chain.sections[i].mass, section, part_of<Vectorm>(chain, i, qd),
                  part_of<Vectorm>(chain, i, qdd.data()), bodies_[i].alpha, bodies_[i].a, J_own);
@@ -150,14 +158,14 @@ void MotionDerivatives<Kind>::differentiate_inwards(const Chain& chain,
 /// Rows of a section for the lanes of those beyond its tip, whose loads move to its base.
 template <template <class> class Kind>
 void MotionDerivatives<Kind>::carry_loads(const Chain& chain, const Section& section, Index i) {
-  const Vector3<Quad> r = in_lanes(section.r);
+  const Vector3d back = -section.r;
   for (Index g = lanes.first_quad(i + 1); g < lanes.num_state_quads(); ++g) {
     Load& load = loads_[g];
     for (Index c = 0; c < size_of(chain, i); ++c) {
       rows[(chain.first[i] + c) * lanes.width() + g] =
           -(dot(section.J_omega, c, load.T) + dot(section.J_v, c, load.F));
     }
-    load.T += r.cross(load.F);
+    add_cross(load.T, load.F, back);
   }
 }
 
@@ -313,15 +321,15 @@ template <template <class> class Kind>
 void MotionDerivatives<Kind>::differentiate_outwards(const Chain& chain,
                                                      const ChainState<Section>& state) {
   for (Index i = 1; i < chain.num_sections(); ++i) {
-    const Vector3<Quad> r = in_lanes(state.sections[i].r),
-                        moving = in_lanes(2.0 * bodies_[i].moving);
+    const Vector3d r = state.sections[i].r, moving = 2.0 * bodies_[i].moving;
     for (Index g = 0; g < lanes.first_quad(i); ++g) {
       Motion& motion = motions_[g];
       for (Index c = chain.first[i]; c < chain.first[i + 1]; ++c) {
         rows[c * lanes.width() + g] =
             -(dot(pushes_, c, motion.b) + dot(twists_, c, motion.e) + dot(gyros_, c, motion.w));
       }
-      motion.b += motion.e.cross(r) + motion.w.cross(moving);
+      add_cross(motion.b, motion.e, r);
+      add_cross(motion.b, motion.w, moving);
     }
   }
 }

@@ -10,6 +10,7 @@
 #include "derivatives/dual.hpp"
 #include "derivatives/lane_map.hpp"
 #include "derivatives/outboard.hpp"
+#include "section/width.hpp"
 
 // NOLINTBEGIN(readability-identifier-naming): letters of the equations
 
@@ -34,17 +35,23 @@ class MotionDerivatives {
   /// constant qdd, with zeros for commands. `state` is that of q and qd.
   void update(const Chain& chain, const ChainState<Section>& state, const double* q,
               const double* qd, const double* force) noexcept;
+  /// Derivatives of the force and the moment of inertia and weight on the base, at accelerations,
+  /// with respect to q, qd and qdd, (6, 3d), cpp/base-wrench.md eq. (124). Rows are lost.
+  void differentiate_base(const Chain& chain, const ChainState<Section>& state, const double* q,
+                          const double* qd, const double* accelerations, MatrixRef slopes) noexcept;
   /// Multiplies by M^-1 the first `width` quads of all rows.
   void solve(Index width) noexcept;
 
   /// Multiplies a vector by M^-1.
-  void solve(double* x) const noexcept { mass_.solve(x); }
+  void solve(double* x) const noexcept {
+    with_fma<double>([&] { mass_.solve(x); });
+  }
   /// Sets all rows to zero.
   void clear() noexcept { std::fill(rows.begin(), rows.end(), Quad(0.0)); }
 
-  /// What stands in a lane of a row.
-  [[nodiscard]] double operator()(Index row, Index lane) const noexcept {
-    return rows[row * lanes.width() + lane / Quad::count][static_cast<int>(lane % Quad::count)];
+  /// What stands in the lanes of a row.
+  [[nodiscard]] const double* row(Index i) const noexcept {
+    return reinterpret_cast<const double*>(rows.data() + i * lanes.width());
   }
 
   LaneMap lanes;
@@ -88,7 +95,7 @@ class MotionDerivatives {
   void add_up_mass(const Chain& chain, const ChainState<Section>& state);
   void accelerate(const Chain& chain, const ChainState<Section>& state, const double* qd);
   void differentiate_inwards(const Chain& chain, const ChainState<Section>& state, const double* q,
-                             const double* qd);
+                             const double* qd, bool base = false);
   void carry_loads(const Chain& chain, const Section& section, Index i);
   void set_gyros(const Section& section, const Outboard& outboard, Index i, Index first,
                  Index size);

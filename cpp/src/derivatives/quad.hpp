@@ -17,6 +17,12 @@ struct alignas(32) Quad {                                  // as packs are where
   Quad(double value) : all{value, value, value, value} {}  // NOLINT(google-explicit-constructor)
   /// By reference, since without AVX there is no register to pass one in.
   explicit Quad(const Native& values) : all(values) {}
+  // As one number: of a struct GCC moves halves, and waits where the whole is read after them.
+  Quad(const Quad& b) : all(b.all) {}
+  Quad& operator=(const Quad& b) {
+    all = b.all;  // NOLINT(bugprone-unhandled-self-assignment,cert-oop54-cpp): no harm done
+    return *this;
+  }
 
   double& operator[](int lane) { return reinterpret_cast<double*>(&all)[lane]; }
   double operator[](int lane) const { return reinterpret_cast<const double*>(&all)[lane]; }

@@ -61,9 +61,8 @@ class KeptState {
 class KeptChain {
  public:
   explicit KeptChain(const Model& model) {
-    const Chain& chain = chain_of(model);
-    if (chain.has_rods()) rods_.emplace(chain);
-    if (!chain.has_rods()) arcs_.emplace(chain);
+    if (model.has_rods()) rods_.emplace(chain_of(model));
+    if (!model.has_rods()) arcs_.emplace(chain_of(model));
   }
 
   /// f(chain, state) at a position, or at a position and a velocity.
@@ -86,9 +85,8 @@ class KeptChain {
 class Data::Kept : public detail::KeptChain {
  public:
   explicit Kept(const Model& model) : KeptChain(model), force_duals(model) {
-    const detail::Chain& chain = detail::chain_of(model);
-    if (chain.has_rods()) of_rods_.emplace(chain, model.num_cables());
-    if (!chain.has_rods()) of_arcs_.emplace(chain, model.num_cables());
+    if (model.has_rods()) of_rods_.emplace(detail::chain_of(model), model.num_cables());
+    if (!model.has_rods()) of_arcs_.emplace(detail::chain_of(model), model.num_cables());
   }
 
   /// f(chain, state, derivatives).

@@ -1,9 +1,11 @@
 #include "estimation/augmented_motion.hpp"
 
+#include "cdcr/base_wrench.hpp"
 #include "cdcr/dynamics.hpp"
 #include "cdcr/kinematics.hpp"
 #include "cdcr/linearization.hpp"
 #include "cdcr/total_force.hpp"
+#include "loads/base_wrench.hpp"
 
 namespace cdcr::detail {
 
@@ -33,6 +35,9 @@ AugmentedMotion::AugmentedMotion(const Model& model, const std::vector<Model>& v
 void AugmentedMotion::make_room_for_base_wrench() {
   if (!base_slopes_.empty()) return;
   for (const Model& one : models_) base_slopes_.emplace_back(one);
+  felt_.x = VectorXd::Zero(size());
+  felt_.wrench = VectorXd::Zero(6);
+  felt_.slopes = MatrixXd::Zero(6, size());
   base_change_ = MatrixXd::Zero(6, 3 * d_);
   change_ = MatrixXd::Zero(d_, size());
 }
@@ -132,43 +137,51 @@ void AugmentedMotion::slopes(const VectorXd& x, const VectorXd& command, MatrixX
   llt_.solveInPlace(out);
 }
 
+/// on_base_: what the base feels of one model, which is added with its weight.
+void AugmentedMotion::add_base_wrench(std::size_t k, const ConstVectorRef& x,
+                                      VectorRef out) noexcept {
+  cdcr::base_wrench(models_[k], x.head(d_), x.segment(d_, d_), qdd_, force_, on_base_);
+  out += weight(k, x.tail(num_shares())) * on_base_;
+}
+
 void AugmentedMotion::base_wrench(const VectorXd& x, const VectorXd& command,
                                   VectorRef out) noexcept {
   accelerate(x, command, qdd_);
   out.setZero();
-  for (std::size_t k = 0; k < models_.size(); ++k) {
-    cdcr::base_wrench(models_[k], x.head(d_), x.segment(d_, d_), qdd_, force_, on_base_);
-    out += weight(k, x.tail(num_shares())) * on_base_;
-  }
+  for (std::size_t k = 0; k < models_.size(); ++k) add_base_wrench(k, x, out);
 }
 
-void AugmentedMotion::base_wrench_slopes(const VectorXd& x, const VectorXd& command,
-                                         MatrixXd& out) noexcept {
+const FeltBase& AugmentedMotion::felt_base(const VectorXd& x, const VectorXd& command) noexcept {
+  if (felt_.known) return felt_;
   const auto q = x.head(d_), qd = x.segment(d_, d_);
+  MatrixXd& H = felt_.slopes;
+  felt_.known = true;
+  felt_.x = x;
   slopes(x, command, change_);
   accelerate(x, command, qdd_);
-  out.setZero();
+  felt_.wrench.setZero();
+  H.setZero();
   for (std::size_t k = 0; k < models_.size(); ++k) {
     base_slopes_[k].update(models_[k], q, qd, qdd_, base_change_);
     add_wrench_slopes(models_[k], q, force_, base_change_.leftCols(d_));
     base_change_ *= weight(k, x.tail(num_shares()));
-    out.leftCols(2 * d_) += base_change_.leftCols(2 * d_);
-    out.noalias() += base_change_.rightCols(d_) * change_;
-    if (models_.size() == 1) break;
-    cdcr::base_wrench(models_[k], q, qd, qdd_, force_, on_base_);
+    H.leftCols(2 * d_) += base_change_.leftCols(2 * d_);
+    H.noalias() += base_change_.rightCols(d_) * change_;
+    add_base_wrench(k, x, felt_.wrench);
     if (k == 0) {
-      out.rightCols(num_shares()).colwise() -= on_base_;
+      H.rightCols(num_shares()).colwise() -= on_base_;
     } else {
-      out.col(out.cols() - num_shares() + static_cast<Index>(k) - 1) += on_base_;
+      H.col(H.cols() - num_shares() + static_cast<Index>(k) - 1) += on_base_;
     }
   }
-  if (force_.empty()) return;
+  if (force_.empty()) return felt_;
   const Vector3d arm =
       pose(model(), q, force_[0].section, force_[0].fraction).p - model().robot().base_position;
   for (Index axis = 0; axis < 3; ++axis) {
-    out(axis, 2 * d_ + axis) += 1.0;
-    out.col(2 * d_ + axis).tail<3>() += arm.cross(Vector3d::Unit(axis));
+    H(axis, 2 * d_ + axis) += 1.0;
+    H.col(2 * d_ + axis).tail<3>() += arm.cross(Vector3d::Unit(axis));
   }
+  return felt_;
 }
 
 }  // namespace cdcr::detail

@@ -6,10 +6,17 @@
 
 #include "cdcr/model.hpp"
 #include "cdcr/wrench.hpp"
+#include "derivatives/base_slopes.hpp"
 #include "integration/rk4.hpp"
-#include "loads/base_wrench.hpp"
 
 namespace cdcr::detail {
+
+/// What the base feels at a state x, (6), and how that changes with x, (6, size).
+struct FeltBase {
+  VectorXd x, wrench;
+  MatrixXd slopes;
+  bool known = false;
+};
 
 /// How the state that filters estimate moves: x = (q, qd, f, s), a force f at a place (3) and
 /// shares s of variants, those of the two that there are, which stay; cpp/estimation.md eqs. (94),
@@ -33,11 +40,14 @@ class AugmentedMotion {
 
   /// What the base feels (6): eq. (123) of all models at the acceleration that they have together.
   void base_wrench(const VectorXd& x, const VectorXd& command, VectorRef out) noexcept;
-  /// How that changes with x (6, size), eq. (124), once there is room for it.
-  void base_wrench_slopes(const VectorXd& x, const VectorXd& command, MatrixXd& out) noexcept;
+  /// The same and how it changes with x, eq. (124), once there is room for it: at the first x that
+  /// is asked for since forget_base(), so that sensors of force and of moment share it.
+  const FeltBase& felt_base(const VectorXd& x, const VectorXd& command) noexcept;
+  void forget_base() noexcept { felt_.known = false; }
   void make_room_for_base_wrench();
 
  private:
+  void add_base_wrench(std::size_t k, const ConstVectorRef& x, VectorRef out) noexcept;
   [[nodiscard]] double weight(std::size_t k, const ConstVectorRef& shares) const noexcept;
   void set_mass(const ConstVectorRef& q, const ConstVectorRef& shares) noexcept;
   void set_unbalanced(std::size_t k, const ConstVectorRef& q, const ConstVectorRef& qd,
@@ -54,7 +64,8 @@ class AugmentedMotion {
   MatrixXd M_, own_, A_;
   Eigen::LLT<MatrixXd> llt_;
   VectorXd on_base_;  // of one model (6)
-  std::vector<BaseWrenchSlopes> base_slopes_;
+  FeltBase felt_;
+  std::vector<BaseSlopes> base_slopes_;
   MatrixXd base_change_, change_;  // (6, 3d), (d, size)
 };
 

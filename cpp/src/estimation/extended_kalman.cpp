@@ -35,11 +35,10 @@ void ExtendedKalman::correct(std::size_t sensor, const ConstVectorRef& told,
   one.update(x_, command);
   detail::find_error(one.sensor().kind, told, one.value(), error_.head(size));
   const double noise = one.sensor().noise * one.sensor().noise;
-  from_ = x_;
   double sum = 0.0;
   for (Index i = 0; i < size; ++i) {
     const auto h = one.slopes().row(i).transpose();
-    const double innovation = error_[i] - h.dot(x_ - from_);
+    const double innovation = error_[i] - h.dot(x_ - one.point());
     Ph_.noalias() = P_ * h;
     const double spread = h.dot(Ph_) + noise;
     gain_ = Ph_ / spread;

@@ -224,6 +224,7 @@ Status KalmanFilter::advance(const std::vector<Measurement>& told,
   }
   p.given = p.commands.columns.col(p.commands.at(std::max(then, 0LL)));
   if (then > 0) predict(p.given);
+  p.motion.forget_base();
   for (std::size_t i = 0; then >= 0 && i < told.size(); ++i) {
     Parts::Waiting& one = p.waiting[i];
     const Index at = one.at(now + 1);  // the oldest

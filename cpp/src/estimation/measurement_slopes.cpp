@@ -19,16 +19,15 @@ MeasurementSlopes::MeasurementSlopes(AugmentedMotion& motion, const Sensor& sens
   value_ = error_ = VectorXd::Zero(size);
   error_.setConstant(sensor.bias);
   near_ = VectorXd::Zero(d);
+  point_ = VectorXd::Zero(motion.size());
+  on_base_ = VectorXd::Zero(6);
   slopes_ = MatrixXd::Zero(size, motion.size());
   J_ = MatrixXd::Zero(6, d);
   B_ = change_ = model().actuation_matrix();
   if (sensor.kind == Sensor::Kind::coordinates) slopes_.leftCols(d).setIdentity();
   if (sensor.kind == Sensor::Kind::rates) slopes_.middleCols(d, d).setIdentity();
   if (sensor.kind == Sensor::Kind::curvature) set_curvature_slopes();
-  if (!sensor.feels_base()) return;
-  motion.make_room_for_base_wrench();
-  on_base_ = VectorXd::Zero(6);
-  base_slopes_ = MatrixXd::Zero(6, motion.size());
+  if (sensor.feels_base()) motion.make_room_for_base_wrench();
 }
 
 void MeasurementSlopes::set_curvature_slopes() noexcept {
@@ -73,15 +72,27 @@ void MeasurementSlopes::set_cable_slopes(const ConstVectorRef& q, const ConstVec
   }
 }
 
-void MeasurementSlopes::update_value(const VectorXd& x, const VectorXd& command) noexcept {
+/// With on_base_ as it is.
+void MeasurementSlopes::set_value(const VectorXd& x, const VectorXd& command) noexcept {
   const Index d = model().num_coordinates();
-  if (sensor_.feels_base()) motion_->base_wrench(x, command, on_base_);
   measure(model(), sensor_, x.head(d), x.segment(d, d), command, on_base_, value_);
   add_error(sensor_.kind, error_, value_);
 }
 
+void MeasurementSlopes::update_value(const VectorXd& x, const VectorXd& command) noexcept {
+  if (sensor_.feels_base()) motion_->base_wrench(x, command, on_base_);
+  set_value(x, command);
+}
+
 void MeasurementSlopes::update(const VectorXd& x, const VectorXd& command) noexcept {
-  update_value(x, command);
+  point_ = x;
+  if (sensor_.feels_base()) {
+    const FeltBase& felt = motion_->felt_base(x, command);
+    point_ = felt.x;
+    on_base_ = felt.wrench;
+    slopes_ = felt.slopes.middleRows<3>(sensor_.kind == Sensor::Kind::base_force ? 0 : 3);
+  }
+  set_value(point_, command);
   const Index d = model().num_coordinates();
   const auto q = x.head(d);
   switch (sensor_.kind) {
@@ -98,13 +109,8 @@ void MeasurementSlopes::update(const VectorXd& x, const VectorXd& command) noexc
       slopes_.leftCols(d).noalias() = R.transpose() * J_.bottomRows<3>();
       return;
     }
-    case Sensor::Kind::base_force:
-    case Sensor::Kind::base_moment:
-      motion_->base_wrench_slopes(x, command, base_slopes_);
-      slopes_ = base_slopes_.middleRows<3>(sensor_.kind == Sensor::Kind::base_force ? 0 : 3);
-      return;
     default:
-      return;  // constant
+      return;  // constant, or of the base
   }
 }
 

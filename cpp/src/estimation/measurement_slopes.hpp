@@ -12,12 +12,14 @@ class MeasurementSlopes {
  public:
   MeasurementSlopes(AugmentedMotion& motion, const Sensor& sensor);
 
-  /// At x under commands: value() without noise and, of the errors of detail::find_error,
-  /// slopes() on x (size, size of x).
+  /// At x under commands, or where the base was felt first, cf. AugmentedMotion::felt_base():
+  /// value() without noise and, of the errors of detail::find_error, slopes() on x (size, size of
+  /// x).
   void update(const VectorXd& x, const VectorXd& command) noexcept;
   /// The value alone.
   void update_value(const VectorXd& x, const VectorXd& command) noexcept;
   [[nodiscard]] const Sensor& sensor() const noexcept { return sensor_; }
+  [[nodiscard]] const VectorXd& point() const noexcept { return point_; }  ///< that x
   [[nodiscard]] const VectorXd& value() const noexcept { return value_; }
   [[nodiscard]] const MatrixXd& slopes() const noexcept { return slopes_; }
 
@@ -26,11 +28,12 @@ class MeasurementSlopes {
   void set_cable_slopes(const ConstVectorRef& q, const ConstVectorRef& qd,
                         const ConstVectorRef& command) noexcept;
   void set_curvature_slopes() noexcept;
+  void set_value(const VectorXd& x, const VectorXd& command) noexcept;
 
   AugmentedMotion* motion_;
   Sensor sensor_;
-  VectorXd value_, near_, error_, on_base_;
-  MatrixXd slopes_, J_, B_, change_, base_slopes_;
+  VectorXd point_, value_, near_, error_, on_base_;
+  MatrixXd slopes_, J_, B_, change_;
 };
 
 }  // namespace cdcr::detail

@@ -50,7 +50,8 @@ Owner<N_Vector> make_vector(Index size, SUNContext context) {
 }
 
 Owner<SUNMatrix> make_matrix(Index size, SUNContext context) {
-  return own(SUNDenseMatrix(size, size, context));
+  const auto n = static_cast<sunindextype>(size);
+  return own(SUNDenseMatrix(n, n, context));
 }
 
 Eigen::Map<VectorXd> view(const Owner<N_Vector>& v) {

@@ -1,6 +1,7 @@
 #include "integration/dop853.hpp"
 
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "integration/dop853_coefficients.hpp"
@@ -19,6 +20,15 @@ double sum_of(const double* slopes, Index n) {
   // NOLINTNEXTLINE(readability-redundant-parentheses): none are there
   for (const dop853::Term& term : terms) sum += term.weight * slopes[term.slope * n];
   return sum;
+}
+
+/// y + h times such a sum. The last slope is the latest: all else is ready before it comes.
+template <const auto& terms>
+double moved_by(double y, double h, const double* slopes, Index n) {
+  constexpr std::size_t count = std::size(terms) - 1;
+  double sum = 0.0;
+  for (std::size_t k = 0; k < count; ++k) sum += terms[k].weight * slopes[terms[k].slope * n];
+  return (y + h * sum) + (h * terms[count].weight) * slopes[terms[count].slope * n];
 }
 
 template <int N>
@@ -49,37 +59,37 @@ void Dop853::prepare_interpolation(double h) {
 template <int N>
 void Dop853::make_stages_of(double h) {
   const Index n = count_of<N>(y_);
-  const auto argument = [&](const auto& sum) {
-    for (Index i = 0; i < n; ++i) trial_[i] = y_[i] + h * sum(slopes_.data() + i, n);
+  const auto argument = [&](const auto& moved) {
+    for (Index i = 0; i < n; ++i) trial_[i] = moved(y_[i], h, slopes_.data() + i, n);
   };
   const auto slope = [&](int k) {
     derivative(t_ + dop853::share[k] * h, trial_.data(), slopes_.col(k).data());
   };
   slopes_.col(0) = slope_;
-  argument(sum_of<dop853::state_1>);
+  argument(moved_by<dop853::state_1>);
   slope(1);
-  argument(sum_of<dop853::state_2>);
+  argument(moved_by<dop853::state_2>);
   slope(2);
-  argument(sum_of<dop853::state_3>);
+  argument(moved_by<dop853::state_3>);
   slope(3);
-  argument(sum_of<dop853::state_4>);
+  argument(moved_by<dop853::state_4>);
   slope(4);
-  argument(sum_of<dop853::state_5>);
+  argument(moved_by<dop853::state_5>);
   slope(5);
-  argument(sum_of<dop853::state_6>);
+  argument(moved_by<dop853::state_6>);
   slope(6);
-  argument(sum_of<dop853::state_7>);
+  argument(moved_by<dop853::state_7>);
   slope(7);
-  argument(sum_of<dop853::state_8>);
+  argument(moved_by<dop853::state_8>);
   slope(8);
-  argument(sum_of<dop853::state_9>);
+  argument(moved_by<dop853::state_9>);
   slope(9);
-  argument(sum_of<dop853::state_10>);
+  argument(moved_by<dop853::state_10>);
   slope(10);
-  argument(sum_of<dop853::state_11>);
+  argument(moved_by<dop853::state_11>);
   slope(11);
   last_argument_.swap(trial_);
-  argument(sum_of<dop853::state_12>);
+  argument(moved_by<dop853::state_12>);
   slope(12);
   new_slope_ = slopes_.col(12);
 }
@@ -120,14 +130,14 @@ bool Dop853::is_held_by_stability() const noexcept {
 template <int N>
 void Dop853::prepare_interpolation_of(double h) {
   const Index n = count_of<N>(y_);
-  const auto slope = [&](const auto& sum, int k) {
+  const auto slope = [&](const auto& moved, int k) {
     auto at = dense_.col(0);  // scratch, until it is set below
-    for (Index i = 0; i < n; ++i) at[i] = y_before_[i] + h * sum(slopes_.data() + i, n);
+    for (Index i = 0; i < n; ++i) at[i] = moved(y_before_[i], h, slopes_.data() + i, n);
     derivative(t_before_ + dop853::share[k] * h, at.data(), slopes_.col(k).data());
   };
-  slope(sum_of<dop853::state_13>, 13);
-  slope(sum_of<dop853::state_14>, 14);
-  slope(sum_of<dop853::state_15>, 15);
+  slope(moved_by<dop853::state_13>, 13);
+  slope(moved_by<dop853::state_14>, 14);
+  slope(moved_by<dop853::state_15>, 15);
   dense_.col(0) = y_ - y_before_;
   dense_.col(1) = h * slope_before_ - dense_.col(0);
   dense_.col(2) = 2.0 * dense_.col(0) - h * (slope_ + slope_before_);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/LU>
+
 #include "integration/small_lu.hpp"
 #include "integration/sundials_handles.hpp"
 
@@ -43,6 +45,10 @@ class HalfNewton {
     const Eigen::Map<const MatrixXd> A(SM_DATA_D(matrix), m + rest, m + rest);
     step_ = -A(0, m);
     coupling_ = A.bottomLeftCorner(rest, m);
+    if (rest == 2) {
+      pair_inverse_ = (A.bottomRightCorner<2, 2>() + step_ * coupling_).inverse();
+      return 0;
+    }
     lu_.matrix = A.bottomRightCorner(rest, rest);
     lu_.matrix.leftCols(m) += step_ * coupling_;
     lu_.factorise();
@@ -51,6 +57,7 @@ class HalfNewton {
 
   int solve(const double* b, double* x) const noexcept {
     const Index m = coupling_.cols(), rest = coupling_.rows();
+    if (rest == 2) return solve_pair(b, x);
     const Eigen::Map<const VectorXd> lower(b + m, rest);
     Eigen::Map<VectorXd> rates(x + m, rest);
     rates = lower;
@@ -60,7 +67,20 @@ class HalfNewton {
     return 0;
   }
 
+  /// Of one section, whose two coordinates no deflections follow.
+  int solve_pair(const double* b, double* x) const noexcept {
+    const Eigen::Map<const Eigen::Matrix2d> coupling(coupling_.data());
+    const Eigen::Vector2d above(b), below(b + 2);
+    const Eigen::Vector2d rates = pair_inverse_ * (below - coupling * above);
+    for (Index i = 0; i < 2; ++i) {
+      x[i] = above[i] + step_ * rates[i];
+      x[2 + i] = rates[i];
+    }
+    return 0;
+  }
+
   SmallLu lu_;
+  Eigen::Matrix2d pair_inverse_;
   MatrixXd coupling_;  // A_21
   double step_ = 0.0;  // g
 };

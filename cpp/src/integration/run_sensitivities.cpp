@@ -20,11 +20,14 @@ namespace {
 
 // Of h^2 dqdd/dq + h dqdd/dqd: a step over which the equations do not change anything.
 constexpr double still = 1e-4;
+// Tolerance from which on three stages are as good as the run.
+constexpr double coarse = 2e-6;
 
-int stages_for(Method method) {
+// Five stages where the run's steps are long for three, which cost little more than half.
+int stages_for(Method method, const Options& options) {
   const bool high =
       method == Method::dop853 || method == Method::adams || method == Method::automatic;
-  return high ? 5 : 3;
+  return high && Tolerances(options, method).rtol < coarse ? 5 : 3;
 }
 
 bool has_fixed_steps(Method method) {
@@ -41,7 +44,7 @@ RunSensitivities::RunSensitivities(RobotOde& ode, const Sensitivities& asked, do
       columns_(asked.columns(ode.model())),
       first_command_((asked.q0 ? d_ : 0) + (asked.qd0 ? d_ : 0)),
       first_parameter_(first_command_ + (asked.command ? ode.model().num_cables() : 0)),
-      method_(Collocation::radau(stages_for(method))),
+      method_(Collocation::radau(stages_for(method, options))),
       data_(ode.model()),
       room_(ode.model()),
       largest_error_(has_fixed_steps(method) ? std::numeric_limits<double>::infinity()

@@ -88,42 +88,6 @@ void base_wrench(const Model& model, const ConstVectorRef& q, const ConstVectorR
 
 namespace detail {
 
-BaseWrenchSlopes::BaseWrenchSlopes(const Model& model)
-    : motion_(static_cast<std::size_t>(3 * model.num_coordinates())) {
-  if (chain_of(model).has_rods()) {
-    section_.emplace<1>(1);
-  } else {
-    section_.emplace<0>(1);
-  }
-}
-
-void BaseWrenchSlopes::update(const Model& model, const ConstVectorRef& q, const ConstVectorRef& qd,
-                              const ConstVectorRef& qdd, MatrixRef slopes) noexcept {
-  const Index d = model.num_coordinates(), size = 3 * d;
-  assert(of_coordinates(model, q, qd, qdd) && has_size(slopes, 6, size));
-  for (Index i = 0; i < d; ++i) {
-    motion_[i] = Dual(q[i]);
-    motion_[d + i] = Dual(qd[i]);
-    motion_[2 * d + i] = Dual(qdd[i]);
-  }
-  for (Index first = 0; first < size; first += Quad::count) {
-    const int count = static_cast<int>(std::min<Index>(Quad::count, size - first));
-    for (int lane = 0; lane < count; ++lane) motion_[first + lane].slopes[lane] = 1.0;
-    std::array<Dual, 6> wrench;
-    wrench.fill(Dual(0.0));
-    const auto take = [&](auto& section) {
-      take_inertia(chain_of(model), section.front(), motion_.data(), motion_.data() + d,
-                   motion_.data() + 2 * d, wrench.data());
-    };
-    if (auto* arc = std::get_if<0>(&section_)) take(*arc);
-    if (auto* rod = std::get_if<1>(&section_)) take(*rod);
-    for (int lane = 0; lane < count; ++lane) {
-      for (int c = 0; c < 6; ++c) slopes(c, first + lane) = wrench[c].slopes[lane];
-      motion_[first + lane].slopes[lane] = 0.0;
-    }
-  }
-}
-
 void add_wrench_slopes(const Model& model, const ConstVectorRef& q, const Wrenches& wrenches,
                        MatrixRef slopes) noexcept {
   assert(of_coordinates(model, q) && has_size(slopes, 6, model.num_coordinates()));

@@ -13,6 +13,7 @@ import typer
 from rich.console import Console
 
 from cdcr import robots, scenarios
+from cdcr._core import Controller, TrackingController
 from cdcr.base.check import nearest
 from cdcr.base.extras import require
 from cdcr.cli import complete
@@ -28,7 +29,9 @@ from cdcr.cli.run import (
 )
 from cdcr.files.new_file import check_files
 from cdcr.files.toml import read_toml
+from cdcr.model.model import Model
 from cdcr.robot.robot import Robot
+from cdcr.runs.loop import Loop
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios import Scenario
 from cdcr.scenarios.file.loop import ClosedLoop
@@ -37,6 +40,7 @@ from cdcr.scenarios.file.tracking import TrackedMotion
 if TYPE_CHECKING:
     from cdcr.plotting.geometry import Motion
     from cdcr.view import View
+    from cdcr.view.live_loop import LoopMaker
 
 commands = typer.Typer()
 
@@ -52,6 +56,7 @@ class Shown:
     run: Trajectory | None = None
     reference: Motion | None = None
     estimate: Motion | None = None
+    loop: LoopMaker | None = None
 
 
 def prepare(
@@ -83,6 +88,7 @@ def prepare(
             run=shown.run,
             reference=beside,
             estimate=shown.estimate,
+            loop=shown.loop,
             speed=speed,
         )
         if live:
@@ -129,6 +135,7 @@ def _scenario(scenario: Scenario, console: Console, robot_alone: bool) -> Shown:
     source = scenario.input_source
     reference: Motion | None = None
     estimate: Motion | None = None
+    loop: LoopMaker | None = None
     with DelayedBar(console, scenario.name, scenario.t_end) as bar, mistakes():
         if isinstance(source, ClosedLoop):
             model = scenario.model
@@ -137,6 +144,7 @@ def _scenario(scenario: Scenario, console: Console, robot_alone: bool) -> Shown:
             run = found.trajectory
             reference = source.controller.reference(np.asarray(run.t))
             estimate = None if source.estimator is None else found.told
+            loop = _on_and_on(source, model)
         else:
             run = scenario.simulate(progress=_to(bar))
     if not run.success:
@@ -149,7 +157,17 @@ def _scenario(scenario: Scenario, console: Console, robot_alone: bool) -> Shown:
         run=run,
         reference=reference,
         estimate=estimate,
+        loop=loop,
     )
+
+
+def _on_and_on(source: ClosedLoop, model: Model) -> LoopMaker:
+    """Return what makes the loop of a scenario around the robot that is simulated live."""
+
+    def made(robot: Robot, around: Callable[[TrackingController], Controller]) -> Loop:
+        return source.make(model, Model(robot, model.formulation), around)
+
+    return made
 
 
 def _to(bar: DelayedBar) -> Callable[[float], None]:

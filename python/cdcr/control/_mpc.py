@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray, finite
-from cdcr.base.check import Check
+from cdcr.base.check import Check, nearest, require_kind
 from cdcr.base.keywords import by_keyword
 from cdcr.control._programme import BoxProgramme
 from cdcr.model.model import Model
@@ -19,6 +19,7 @@ from cdcr.model.steps import AnyDynamics, Steps
 
 FIRST = 10  # quadratic programmes at most where there is no plan to go on from
 PARTS = ("linearize", "condense", "solve")  # of an update
+ATTRIBUTES = ("reference", "path", "plan", "diagnostics", "model", "horizon")
 SETTLED = 1e-3  # change of tensions that ends these, of the largest [N]
 
 
@@ -147,9 +148,17 @@ class Mpc(_core.Controller):
         self._rows = np.zeros((self.horizon, 3 + d, columns))
         self._squares = np.zeros((columns, columns))
         self._P = np.zeros((columns - 1, columns - 1))
-        self.path: _core.ReferencePath | None = None
+        self._path: _core.ReferencePath | None = None
         self._point = model.tip(np.zeros(d))[1]
         self.reset()
+
+    def __setattr__(self, name: str, value: object) -> None:
+        """Refuse a misspelt attribute; a class of a user's own may have more."""
+        if type(self) is Mpc and not name.startswith("_") and name not in ATTRIBUTES:
+            raise AttributeError(
+                f"Mpc has no attribute {name!r} that can be set.{nearest(name, ATTRIBUTES)}"
+            )
+        super().__setattr__(name, value)
 
     @property
     def reference(self) -> FloatArray:
@@ -161,7 +170,20 @@ class Mpc(_core.Controller):
         point = finite(value, "reference")
         if point.shape != (3,):
             raise ValueError(f"reference must have shape (3,), got {point.shape}")
-        self._point, self.path = point, None
+        self._point, self._path = point, None
+
+    @property
+    def path(self) -> _core.ReferencePath | None:
+        """Motion of the tip to follow, or None."""
+        return self._path
+
+    @path.setter
+    def path(self, value: _core.ReferencePath | None) -> None:
+        if value is not None:
+            require_kind("path", value, _core.ReferencePath)
+            if value.size != 3:
+                raise ValueError(f"path must be of the tip, 3 numbers, got {value.size}")
+        self._path = value
 
     def reset(self) -> None:
         """Forget the plan; called before each run.
@@ -229,11 +251,9 @@ class Mpc(_core.Controller):
 
     def _wanted(self, t: float) -> FloatArray:
         ahead = t + self._steps.period * np.arange(1, self.horizon + 1)
-        if self.path is None:
+        if self._path is None:
             return np.tile(self._point, (self.horizon, 1))
-        if self.path.size != 3:
-            raise ValueError(f"path must be of the tip, 3 numbers, got {self.path.size}")
-        return np.array([self.path.evaluate(at)[0] for at in ahead])
+        return np.array([self._path.evaluate(at)[0] for at in ahead])
 
     def _mend(self, t: float, now: FloatArray) -> bool:
         """Take the plan to the solution of the quadratic programme about it, if there is one."""

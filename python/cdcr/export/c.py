@@ -15,19 +15,23 @@ from cdcr.base.arrays import FloatArray
 from cdcr.base.check import Check, count, entry, format_value, require_kind
 from cdcr.files.new_file import file_path, new_files
 from cdcr.model.model import Model
+from cdcr.robot.cable import Cable
 from cdcr.robot.robot import Robot
 
 # What the powers left out may add, beside the largest value of a function in a piece.
 _TAIL = {"powers": 1e-17, "float_powers": 3e-9}
+# The template of what a cable does, without friction or with it.
+PULL, PLAIN, CAPSTAN = "pull", "plain.c", "capstan.c"
+MOST_DECAY = 40.0  # friction times angle that capstan.c reckons with
 # What the files' names end in, and the templates that each is made of.
 _PARTS = {
     ".h": ("robot.h",),
-    ".c": ("vectors.c", "chain.c", "robot.c"),
+    ".c": ("vectors.c", PULL, "chain.c", "robot.c"),
     "_derivatives.c": ("derivatives_head.c", "derivatives.c"),
 }
 _CASADI = {"_casadi.c": ("casadi.c",)}
 # acados compiles one file alone.
-_ALONE = ("acados_head.c", "robot.h", "vectors.c", "chain.c", "derivatives.c", "acados.c")
+_ALONE = ("acados_head.c", "robot.h", "vectors.c", PULL, "chain.c", "derivatives.c", "acados.c")
 _ACADOS = {"_acados.c": _ALONE}
 MOST_STEPS = 1000  # in an interval of acados
 _IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
@@ -52,7 +56,7 @@ def write_c(
     Parameters
     ----------
     robot : Robot
-        Of constant curvature, with straight cables without friction.
+        Of constant curvature, with straight cables, whose friction has no memory.
     folder : str or path
         Where NAME.h, NAME.c and NAME_derivatives.c go; it is made where there is none.
     name : str, default "robot"
@@ -119,16 +123,16 @@ def c_texts(
     check.done()
     if limit > _core.max_bending:
         raise ValueError(f"max_bending must be at most 3 pi rad, got {max_bending:g}")
-    _refuse_others(robot)
+    _refuse_others(robot, limit)
     model = Model(robot)
     _core.Simulator(model)  # refuses a robot without inertia
 
     arcs, shapes = model._tables()
     pieces = min(math.ceil(limit**2 / math.pi**2), len(arcs))
     arcs, shapes = arcs[:pieces], [table[:pieces] for table in shapes]
-    parts = f"{count(len(robot.sections), 'section')} and {count(robot.num_cables, 'cable')}"
+    what = f"{count(len(robot.sections), 'section')} and {count(robot.num_cables, 'cable')}"
     values: dict[str, object] = {
-        "about": f"Cable-driven continuum robot of {parts}.",
+        "about": f"Cable-driven continuum robot of {what}.",
         "version": _core.__version__,
         "name": name,
         "NAME": name.upper(),
@@ -142,18 +146,23 @@ def c_texts(
         "steps": count(stages, "step"),
         **{key: _powers_needed([arcs, *shapes], tail) for key, tail in _TAIL.items()},
     }
-    values["tables"] = "\n".join(_constants(robot, model, arcs, shapes, limit))
+    tables = [*_constants(robot, model, arcs, shapes, limit)]
+    if model.has_friction:
+        tables += _constants_of_friction(robot)
+    values["tables"] = "\n".join(tables)
+    pull = CAPSTAN if model.has_friction else PLAIN
     template = files("cdcr.export") / "c_template"
     wanted = _PARTS | (_CASADI if casadi else {}) | ({} if acados is None else _ACADOS)
     found = {}
     for end, names in wanted.items():
-        source = "\n".join((template / part).read_text(encoding="utf-8") for part in names)
+        parts = [pull if part == PULL else part for part in names]
+        source = "\n".join((template / part).read_text(encoding="utf-8") for part in parts)
         text = _filled(source, values)
         found[name + end] = text.replace(f'#include "{name}.h"\n', "") if end in _ACADOS else text
     return found
 
 
-def _refuse_others(robot: Robot) -> None:
+def _refuse_others(robot: Robot, max_bending: float) -> None:
     for i, section in enumerate(robot.sections):
         if section.is_rod:
             raise ValueError(
@@ -166,8 +175,31 @@ def _refuse_others(robot: Robot) -> None:
                 "C can be made with straight cables that begin at the base; "
                 f"{entry('cables', j)} does not run so"
             )
-    if Model(robot).has_friction:
-        raise ValueError("C can be made of cables without friction; cables of this robot rub")
+    for j, cable in enumerate(robot.all_cables):
+        if cable.backlash > 0.0:
+            raise ValueError(
+                "C can be made without backlash, which has memory; "
+                f"cable {j + 1} has {cable.backlash:g} m of it"
+            )
+        friction = _friction(robot, cable)
+        most = max(max(friction) * max_bending, cable.sheath_friction)
+        if most > MOST_DECAY:
+            raise ValueError(
+                f"C can be made with friction times angle up to {MOST_DECAY:g}; "
+                f"cable {j + 1} may have {most:.3g}"
+            )
+    if robot.presliding_stiffness > 0.0 and Model(robot).has_friction:
+        raise ValueError(
+            "C can be made of friction without memory, presliding_stiffness = 0; "
+            f"got {robot.presliding_stiffness:g} N/m"
+        )
+
+
+def _friction(robot: Robot, cable: Cable) -> list[float]:
+    """Return the coefficient of each section that a cable passes."""
+    passed = robot.sections[: cable.end_section + 1]
+    own = cable.friction
+    return [section.cable_friction if own is None else own for section in passed]
 
 
 def _powers_needed(tables: Sequence[FloatArray], tail: float) -> int:
@@ -223,7 +255,24 @@ def _constants(
     straight = model.cable_lengths(np.zeros(model.num_coordinates))
     yield _array("STRAIGHT", straight if cables else [0.0])
     yield _array("CABLE_STIFFNESS", [cable.stiffness for cable in cables] or [0.0])
+    yield _array("CABLE_PRETENSION", [cable.pretension for cable in cables] or [0.0])
     yield _array("CABLE_DAMPING", [cable.damping for cable in cables] or [0.0])
+
+
+def _constants_of_friction(robot: Robot) -> Iterator[str]:
+    """Yield what cables rub with, as C."""
+    cables = robot.all_cables
+    friction = np.zeros((len(cables), len(robot.sections)))
+    for j, cable in enumerate(cables):
+        friction[j, : cable.end_section + 1] = _friction(robot, cable)
+    ends = ", ".join(str(cable.end_section + 1) for cable in cables)
+    yield "/* Of each cable: sections that it passes, its friction there, and at the entry. */"
+    yield f"static const unsigned char SECTIONS_OF[] = {{{ends}}};"
+    yield _array("FRICTION", friction)
+    yield _array("ENTRY", [cable.entry_friction for cable in cables])
+    yield _array("SHEATH", [cable.sheath_friction for cable in cables])
+    yield _array("VISCOSITY", [cable.viscosity for cable in cables])
+    yield _scalar("SLIDING_SPEED", robot.sliding_speed)
 
 
 def _scalar(name: str, value: float) -> str:

@@ -16,11 +16,11 @@ from cdcr.identification.data import Data, UnsolvedError
 from cdcr.identification.parameter import unknowns_of
 from cdcr.identification.problem import Problem
 from cdcr.identification.result import Identified
+from cdcr.identification.search import search
 from cdcr.identification.setup import Place, plain_setup
 from cdcr.robot.robot import Robot
 
 LOSSES = ("linear", "soft_l1", "huber", "cauchy")
-LOSS_SCALE = 2.0  # deviations beyond which a robust loss counts less
 ROUNDS = 3  # in which the noise of channels is found
 SETTLED = 0.02  # relative change of a noise that needs no further round
 SPREAD = 3.0  # sizes of an unknown within which other starts are drawn, where there are no bounds
@@ -127,7 +127,7 @@ def fit(
     costs = []
     begin = np.zeros(len(problem.unknowns)) if near is None else problem.counted(near)
     for start in [begin, *_drawn(problem, starts - 1, seed)]:
-        solution = _search(problem, start, options, optimise)
+        solution = search(problem, start, options, optimise)
         if solution is None:
             continue
         costs.append(float(solution.cost))
@@ -197,33 +197,6 @@ def _drawn(problem: Problem, number: int, seed: int) -> list[FloatArray]:
     return found
 
 
-def _search(problem: Problem, start: FloatArray, options: dict[str, Any], optimise: Any) -> Any:
-    """Return what least squares find from a start, None where the model has no answer there."""
-    problem.forget()
-    inside = np.clip(start, problem.low, problem.high)
-    first = problem.residuals(inside)
-    if not np.isfinite(first).all():
-        return None
-    scaled = options
-    if options["loss"] != "linear":
-        scaled = options | {"f_scale": LOSS_SCALE * _spread(first, problem)}
-    # Counted from one: the first step of SciPy's is as long as the start is large.
-    found = optimise(
-        lambda y: problem.residuals(y - 1.0), inside + 1.0,
-        jac=lambda y: problem.jacobian(y - 1.0), bounds=(problem.low + 1.0, problem.high + 1.0),
-        x_scale="jac", method="trf", xtol=1e-9, ftol=1e-10, gtol=1e-10, **scaled,
-    )  # fmt: skip
-    found.x = found.x - 1.0
-    return found
-
-
-def _spread(residuals: FloatArray, problem: Problem) -> float:
-    """Return the size of residuals, one where all noise is given."""
-    known = all(channel.noise is not None for one in problem.data for channel in one.channels)
-    middle = float(np.median(np.abs(residuals)))
-    return 1.0 if known or not middle else 1.4826 * middle
-
-
 def _with_noise(
     problem: Problem, solution: Any, options: dict[str, Any], optimise: Any, loss: str
 ) -> Any:
@@ -246,9 +219,9 @@ def _with_noise(
         if change < SETTLED:
             break
         if alone:
-            solution = _rescaled(problem, solution)
+            solution = _rescaled(solution, problem.noise[0][0])
             break
-        found = _search(problem, solution.x, options, optimise)
+        found = search(problem, solution.x, options, optimise)
         solution = solution if found is None else found
     return solution
 
@@ -273,10 +246,10 @@ def _find_noise(
     return largest
 
 
-def _rescaled(problem: Problem, solution: Any) -> Any:
-    """Return a solution with residuals and derivatives counted in the noise found."""
-    fun, jac = problem.residuals(solution.x), problem.jacobian(solution.x)
-    solution.fun, solution.jac, solution.cost = fun, jac, 0.5 * float(fun @ fun)
+def _rescaled(solution: Any, level: float) -> Any:
+    """Return a solution found with a noise of one, counted in the noise of its only channel."""
+    solution.fun, solution.jac = solution.fun / level, solution.jac / level
+    solution.cost /= level**2
     return solution
 
 

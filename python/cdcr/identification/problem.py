@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any, TypeVar
 
 import numpy as np
 
 from cdcr.base.arrays import FloatArray
+from cdcr.base.processes import usable
 from cdcr.identification.data import Data, Side, UnsolvedError
 from cdcr.identification.parameter import Unknown, put_all
 from cdcr.identification.setup import Plain, Setup, setup_of
 
+T = TypeVar("T")
 STEP = 1e-4  # of the size of an unknown, to either side: errors of 1e-8, of runs 1e-4
 
 
@@ -52,15 +55,20 @@ class Problem:
         if self._kept is None or not np.array_equal(self._kept[0], x):
             self.evaluations += 1
             setup = self.setup(x, self._kept[1] if self._kept else None)
-            states = [
-                one._solve(setup, near) for one, near in zip(self.data, self._near, strict=True)
-            ]
-            answers = [
-                one._answers(setup, state) for one, state in zip(self.data, states, strict=True)
-            ]
+            _ = setup.model  # once, before threads ask for it
+            states = self._each(lambda one, near: one._solve(setup, near), self._near)
+            answers = self._each(lambda one, state: one._answers(setup, state), states)
             self._kept = x.copy(), setup, states, answers
             self._near = states
         return self._kept[1:]
+
+    def _each(self, do: Callable[[Data, Any], T], beside: Sequence[Any]) -> list[T]:
+        """Return what is done for each of the data, several side by side: runs need no Python."""
+        threads = min(len(self.data), usable())
+        if threads == 1:
+            return list(map(do, self.data, beside))
+        with ThreadPoolExecutor(threads) as pool:
+            return list(pool.map(do, self.data, beside))
 
     def forget(self) -> None:
         """Begin elsewhere: states found so far are no help there."""
@@ -76,6 +84,11 @@ class Problem:
         except (UnsolvedError, ValueError):
             return np.full(self.num_residuals, np.nan)
         return np.concatenate([*self.parts(answers), self._priors(x)])
+
+    @property
+    def noise_is_given(self) -> bool:
+        """Whether the noise of every channel was given."""
+        return all(channel.noise is not None for one in self.data for channel in one.channels)
 
     @property
     def num_residuals(self) -> int:
@@ -105,8 +118,8 @@ class Problem:
         setup, states, _ = self.answers(x)
         sides = [self._side(x, k, setup) for k in range(x.size)]
         blocks = []
-        for one, state, levels in zip(self.data, states, self.noise, strict=True):
-            slopes = one._slopes(setup, state, sides)
+        every = self._each(lambda one, state: one._slopes(setup, state, sides), states)
+        for one, slopes, levels in zip(self.data, every, self.noise, strict=True):
             for channel, slope, noise in zip(one.channels, slopes, levels, strict=True):
                 blocks.append(slope[np.isfinite(channel.values)] / noise)
         rows = [k for k, one in enumerate(self.unknowns) if one.prior is not None]
@@ -120,10 +133,11 @@ class Problem:
 
     def _side(self, x: FloatArray, k: int, setup: Setup) -> Side:
         """Return laboratories on either side in one unknown, both within its bounds."""
-        up, down = min(STEP, self.high[k] - x[k]), min(STEP, x[k] - self.low[k])
-        if up < STEP / 2:  # at the upper bound: one below, taken for the one above
+        # Half of the way to a bound at most: no robot may have what lies there.
+        up, down = min(STEP, 0.5 * (self.high[k] - x[k])), min(STEP, 0.5 * (x[k] - self.low[k]))
+        if up < STEP / 4:  # at the upper bound: one below, taken for the one above
             up, down = -STEP, 0.0
-        elif down < STEP / 2:
+        elif down < STEP / 4:
             down = 0.0
         above = self.setup(_moved(x, k, up), setup)
         below = self.setup(_moved(x, k, -down), setup) if down else setup

@@ -13,6 +13,13 @@ UNTOLD = 1.0  # deviation of a direction, in sizes of its parameters, that tells
 SHARE = 0.3  # of a direction that a parameter must have to be named
 
 
+def told_part(jacobian: FloatArray, residuals: FloatArray) -> FloatArray:
+    """Return the part of residuals that a change of the parameters makes up for."""
+    sides, values, _ = np.linalg.svd(jacobian, full_matrices=False)
+    found: FloatArray = residuals @ sides[:, values > LOST * max(values[0], 1e-300)]
+    return found
+
+
 @dataclass(frozen=True, eq=False)
 class Uncertainty:
     """What the derivatives of residuals say, in sizes of the parameters.

@@ -87,6 +87,9 @@ def _about_angle(name: str, angle: float, in_degrees: str) -> Iterator[str]:
 
 def ask_about_commands(robot: Robot, command: FloatArray) -> None:
     """Warn of commands (..., num_cables) to cables driven by length that may be tensions."""
+    springs = [one.cable_stiffness for one in robot.sections]
+    if not any(springs) and not any(cable.stiffness for cable in robot.cables):
+        return
     ends = list(accumulate((section.length for section in robot.sections), initial=0.0))
     drives = [
         *(

@@ -18,6 +18,7 @@ from cdcr.files.number_csv import RUN_TIME, Layout, read_numbers
 from cdcr.model.model import Model
 
 Interpolation = Literal["linear", "previous"]
+NO_TIMES = np.empty(0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,7 +177,8 @@ def command_input(
     model: Model, command: Command, break_points: Sequence[float] = (), name: str = "tension"
 ) -> _core.TensionInput:
     """Turn what a user gives as command or tension into the core's input; messages say `name`."""
-    breaks = finite(break_points, "break_points")
+    none = isinstance(break_points, tuple) and not break_points
+    breaks = NO_TIMES if none else finite(break_points, "break_points")
     if breaks.ndim != 1:
         got = format_value(break_points)
         raise ValueError(f"break_points must be a sequence of times, got {got}")

@@ -101,13 +101,11 @@ class Trajectory(Pictures, ReadOnlyArrays):
 
     @classmethod
     def _of_core(cls, **given: Any) -> Trajectory:
-        """Return a run of arrays that the core made, which fit together and are nobody else's."""
+        """Return a run of the core's arrays, which fit together and nobody can write to."""
         if len(given["t"]) == 0:
             return cls(**given)  # refuses it
         run = cls.__new__(cls)
-        mappings = ("channels", "sensitivities", "rate_sensitivities")
-        made: dict[str, Any] = {name: {} for name in mappings}  # as fields make them
-        run.__setstate__(made | given)
+        run.__dict__.update(given, channels={})
         return run
 
     def __len__(self) -> int:

@@ -89,6 +89,10 @@ class LiveRobot:
         Where it starts and how fast; by default at rest, without tension.
     command : (num_cables,) array, optional
         Of the cables [N], [m] where driven by length.
+    start : float
+        When it begins [s].
+    added_damping : float, optional
+        Share of critical damping; unless given, some where the robot has none at all.
     """
 
     def __init__(
@@ -99,11 +103,13 @@ class LiveRobot:
         q: FloatArray | None = None,
         qd: FloatArray | None = None,
         command: FloatArray | None = None,
+        start: float = 0.0,
+        added_damping: float | None = None,
     ) -> None:
         self.robot, self._given, self._formulation = robot, robot, formulation
         self.pull: Pull | None = None
-        self.time, self.message = 0.0, ""
-        self.added_damping = first_damping(robot)
+        self.time, self.message = start, ""
+        self.added_damping = first_damping(robot) if added_damping is None else added_damping
         self.model = LiveModel(robot, formulation)
         self.command = np.array(self.model.rest_command() if command is None else command)
         self._taken = self.command.copy()  # the last command that was none to refuse
@@ -118,10 +124,24 @@ class LiveRobot:
         return self.model.cable_tensions(self.q, self.qd, self.command)
 
     @property
+    def steered(self) -> bool:
+        """Whether a controller moves the cables, and no person."""
+        return False
+
+    @property
+    def told(self) -> FloatArray | None:
+        """State that a controller is told (d,), where there is one."""
+        return None
+
+    @property
     def pull_stiffness(self) -> float:
         """Stiffness of a spring that bends the robot well where it is pulled [N/m]."""
         bending = 1.0 / sum(1.0 / section.stiffness for section in self.robot.sections)
         return 6.0 * bending / self.robot.length**2
+
+    def steer(self, cable: int, value: float) -> None:
+        """Set the command of a cable, by its index [N], [m] where driven by length."""
+        self.command[cable] = value
 
     def change(
         self,

@@ -58,7 +58,7 @@ class Panel:
         """Tell the time, what was simulated over real time, and pictures a second."""
         session = self._session
         live = session.live
-        state = "simulated" if live is not None else "played"
+        state = "played" if live is None else "in its loop" if live.steered else "simulated"
         words = f"{rate:.2f} × real time" if session.playing else "paused"
         if live is not None and live.message:
             words += f", {live.message}: ask less of the cables, or Restart"
@@ -79,7 +79,7 @@ class Panel:
         self._play.label = "Pause" if session.playing else "Play"
         if self._back is not None:
             self._back.visible = live is not None
-        if live is None:
+        if live is None or live.steered:
             self._set_commands()
 
     def tell_end(self, failure: str) -> None:
@@ -179,7 +179,7 @@ class Panel:
     def _command(self, cable: int, value: float) -> None:
         self._session.go_live()
         assert self._session.live is not None
-        self._session.live.command[cable] = value
+        self._session.live.steer(cable, value)
         if not self._session.playing:
             self._session.play()
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -12,6 +13,7 @@ from cdcr.base.arrays import FloatArray
 from cdcr.base.check import Check, count, format_value
 from cdcr.plotting.geometry import Motion, states_at
 from cdcr.view.live import LiveModel, LiveRobot, Pull, command_ranges, first_damping, round_up
+from cdcr.view.live_loop import LiveLoop, LoopMaker
 from cdcr.view.markers import Markers
 
 if TYPE_CHECKING:
@@ -54,6 +56,8 @@ class Session:
         What was taken for its state, likewise.
     markers : optional
         What was measured, shown beside it; as `Markers` takes it.
+    loop : callable, optional
+        Makes the closed loop of the run, which then goes on where the robot is simulated from it.
     speed : float, default 1
         Time simulated or played over real time.
     """
@@ -67,6 +71,7 @@ class Session:
         reference: Motion | None = None,
         estimate: Motion | None = None,
         markers: Any = None,
+        loop: LoopMaker | None = None,
         speed: float = 1.0,
     ) -> None:
         check = Check()
@@ -76,7 +81,7 @@ class Session:
         self.markers = None if markers is None else Markers(markers)
         self.playing, self.time = True, 0.0 if run is None else float(run.t[0])
         self.refusal = ""  # of what was asked last
-        self._robot, self._formulation = robot, formulation
+        self._robot, self._formulation, self._loop = robot, formulation, loop
         self._still = LiveModel(robot, formulation)
         self._require_motion("reference", reference)
         self._require_motion("estimate", estimate)
@@ -115,7 +120,9 @@ class Session:
     @property
     def added_damping(self) -> float:
         """Share of critical damping that is added where the robot is simulated."""
-        return first_damping(self._robot) if self.live is None else self.live.added_damping
+        if self.live is not None:
+            return self.live.added_damping
+        return first_damping(self._robot) if self._loop is None else 0.0
 
     @property
     def command(self) -> FloatArray:
@@ -194,12 +201,10 @@ class Session:
         """Simulate from what is shown of the run."""
         if self.live is not None or self.run is None:
             return
-        run = self.run
-        moment, rate = self.moment(), _rates_at(run, self.time)
-        self.live = LiveRobot(
-            self._robot, self._formulation, q=moment.q, qd=rate, command=self.command
-        )
-        self.live.time = self.time
+        q, rate = self.moment().q, _rates_at(self.run, self.time)
+        state: Any = {"q": q, "qd": rate, "command": self.command, "start": self.time}
+        kind = LiveRobot if self._loop is None else partial(LiveLoop, self._loop)
+        self.live = kind(self._robot, self._formulation, **state)
         self._kept.clear()
         self._keep()
         self.playing = True
@@ -286,12 +291,11 @@ class Session:
 
     def trail(self) -> FloatArray:
         """Return where the tip was lately (TRAIL_POINTS, 3), oldest first [m]."""
-        start = max(self.span[0], self.time - TRAIL)
-        times = np.linspace(start, self.time, TRAIL_POINTS)
+        times = np.linspace(max(self.span[0], self.time - TRAIL), self.time, TRAIL_POINTS)
         if self.live is None:
             assert self.run is not None
             return self.model.tips(states_at(self.run, times))
-        kept = [m for m in self._kept if start <= m.time <= self.time] or [self.moment()]
+        kept = [m for m in self._kept if times[0] <= m.time <= self.time] or [self.moment()]
         chosen = np.rint(np.linspace(0, len(kept) - 1, TRAIL_POINTS)).astype(int)
         return self.model.tips(np.array([kept[k].q for k in chosen]))
 
@@ -299,7 +303,9 @@ class Session:
     def _latest(self) -> Moment:
         assert self.live is not None
         live = self.live
-        return Moment(live.time, live.q, live.tension, *self._beside(live.time))
+        found = Moment(live.time, live.q, live.tension, *self._beside(live.time))
+        unknown = self.estimate is None or live.told is None
+        return found if unknown else found._replace(estimate=live.told)
 
     def _keep(self) -> None:
         self._kept.append(self._latest)

@@ -246,7 +246,7 @@ static void eliminate(int i, const real q[], const real force[], section* s, art
   }
 }
 
-/* Q = B F, with F of (36) where a cable is driven by length. */
+/* Of all cables, with F of (36) where one is driven by length. */
 static void cable_force(const real q[], const real qd[], const real command[], real force[]) {
   int j, k;
   for (k = 0; k < COORDINATES; ++k) force[k] = 0;
@@ -258,10 +258,10 @@ static void cable_force(const real q[], const real qd[], const real command[], r
         stretch -= ACTUATION[j][k] * q[k];
         rate -= ACTUATION[j][k] * qd[k];
       }
-      tension = CABLE_STIFFNESS[j] * stretch + CABLE_DAMPING[j] * rate;
+      tension = CABLE_STIFFNESS[j] * stretch + CABLE_PRETENSION[j] + CABLE_DAMPING[j] * rate;
       if (!((number)tension > 0)) tension = 0;
     }
-    for (k = 0; k < COORDINATES; ++k) force[k] += ACTUATION[j][k] * tension;
+    pull(j, q, qd, tension, force);
   }
 }
 

@@ -4,7 +4,7 @@ typedef union {
   real number;
 } pair;
 
-static const pair STEP = {{0, (number)(sizeof(number) < sizeof(double) ? 1e-10 : 1e-20)}};
+static const pair STEP = {{0, (number)(sizeof(number) < sizeof(double) ? 1e-13 : 1e-20)}};
 
 static number slope(real found) {
   pair both;

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from cdcr._core import Controller, TrackingController
 from cdcr.base.arrays import FloatArray
 from cdcr.files.toml import refuse, schema_errors
 from cdcr.model.model import Model
@@ -33,14 +35,22 @@ class ClosedLoop:
     estimator: EstimatorMaker | None = None
     integrates = True
 
-    def make(self, model: Model) -> Loop:
-        """Return the loop."""
+    def make(
+        self,
+        model: Model,
+        plant: Model | None = None,
+        around: Callable[[TrackingController], Controller] = lambda controller: controller,
+    ) -> Loop:
+        """Return the loop: of another robot than is reckoned with, where a plant is given.
+
+        What `around` makes of the controller stands in its place.
+        """
         estimator = None
         if self.estimator is not None:
-            around = self.options["sensors"], self.options["actuators"]
-            estimator = self.estimator(model, *around)
-        controller = self.controller(model)
-        return Loop(model, controller, step=self.step, estimator=estimator, **self.options)
+            known = self.options["sensors"], self.options["actuators"]
+            estimator = self.estimator(model, *known)
+        controller = around(self.controller(model))
+        return Loop(plant or model, controller, step=self.step, estimator=estimator, **self.options)
 
     def run(
         self,
