@@ -130,7 +130,7 @@ class Cholesky {
   static bool is_zero(const Quad* row) noexcept {
     auto differs = row[0].all != Quad::Native{};
     for (int c = 1; c < count; ++c) differs |= row[c].all != Quad::Native{};
-    return (differs[0] | differs[1] | differs[2] | differs[3]) == 0;
+    return differs[0] == 0 && differs[1] == 0 && differs[2] == 0 && differs[3] == 0;
   }
 
   std::vector<double> inverse_;  // of the diagonal of W

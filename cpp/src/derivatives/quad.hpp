@@ -8,6 +8,7 @@ namespace cdcr::detail {
 
 /// Four doubles that are worked on at once, by one instruction where the processor has it. A scalar
 /// to Eigen.
+// NOLINTNEXTLINE(cppcoreguidelines-special-member-functions): the rest are the compiler's
 struct alignas(32) Quad {                                  // as packs are where there is AVX
   typedef double Native __attribute__((vector_size(32)));  // NOLINT(modernize-use-using)
   static constexpr int count = 4;

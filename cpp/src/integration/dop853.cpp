@@ -13,11 +13,11 @@ namespace {
 // robot that swings: at the same error these take an eighth fewer evaluations.
 constexpr double beta = 0.04, safety = 0.8;
 
+// NOLINTBEGIN(readability-redundant-parentheses): none are there
 /// A weighted sum of slopes, which lie n apart: of one state.
 template <const auto& terms>
 double sum_of(const double* slopes, Index n) {
   double sum = 0.0;
-  // NOLINTNEXTLINE(readability-redundant-parentheses): none are there
   for (const dop853::Term& term : terms) sum += term.weight * slopes[term.slope * n];
   return sum;
 }
@@ -30,6 +30,7 @@ double moved_by(double y, double h, const double* slopes, Index n) {
   for (std::size_t k = 0; k < count; ++k) sum += terms[k].weight * slopes[terms[k].slope * n];
   return (y + h * sum) + (h * terms[count].weight) * slopes[terms[count].slope * n];
 }
+// NOLINTEND(readability-redundant-parentheses)
 
 template <int N>
 constexpr Index count_of(const VectorXd& y) {
