@@ -111,11 +111,9 @@ class PolynomialTable {
   /// By halves of halves (Estrin's scheme), since whoever asks waits for the answer.
   static void read_four(const double* c, double t, Values& values) noexcept {
     const double u = t * t, v = u * u;
-    const auto two = [&](std::ptrdiff_t k) -> Values {
-      return Row(c + 4 * k) + t * Row(c + 4 * k + 4);
-    };
-    const auto four = [&](std::ptrdiff_t k) -> Values { return two(k) + u * two(k + 2); };
-    const auto eight = [&](std::ptrdiff_t k) -> Values { return four(k) + v * four(k + 4); };
+    const auto two = [&](int k) -> Values { return Row(c + 4 * k) + t * Row(c + 4 * k + 4); };
+    const auto four = [&](int k) -> Values { return two(k) + u * two(k + 2); };
+    const auto eight = [&](int k) -> Values { return four(k) + v * four(k + 4); };
     values = eight(0) + (v * v) * eight(8);
   }
 
