@@ -54,8 +54,8 @@ void CableCurvature::finish(MatrixRef K) {
         const StrainKind a = rod_.strain_of[c], b = rod_.strain_of[j];
         const auto& of_pair = sums_[std::max(a, b)][std::min(a, b)];
         Pair sum(0.0);
-        for (int p = 0; p < num_packs; ++p) {
-          sum += L::load(&P_c[p * L::count]) * L::load(&P_j[p * L::count]) * of_pair[p];
+        for (int p = 0, k = 0; p < num_packs; ++p, k += L::count) {
+          sum += L::load(P_c + k) * L::load(P_j + k) * of_pair[p];
         }
         K(c, j) += L::total(sum);
       }

@@ -25,10 +25,12 @@ template <class Columns>
 }
 /// to + a x r, in registers: what Eigen makes of it is not.
 inline void add_cross(Vector3<Quad>& to, const Vector3<Quad>& a, const Vector3d& r) {
-  const Quad x = a[0], y = a[1], z = a[2];
-  to[0] += y * r[2] - z * r[1];
-  to[1] += z * r[0] - x * r[2];
-  to[2] += x * r[1] - y * r[0];
+  const Quad x = a[1] * r[2] - a[2] * r[1];
+  const Quad y = a[2] * r[0] - a[0] * r[2];
+  const Quad z = a[0] * r[1] - a[1] * r[0];
+  to[0] += x;
+  to[1] += y;
+  to[2] += z;
 }
 [[nodiscard]] inline Vector3<Quad> slopes_of(const Vector3<Dual>& v) {
   return {v[0].slopes, v[1].slopes, v[2].slopes};

@@ -34,7 +34,7 @@ bool has_lengths(const Model& model) {
 /// The columns of a loop, in the order in which LoopLog::end writes them.
 class Columns {
  public:
-  explicit Columns(const Loop& loop) : loop_(loop), model_(loop.plant().model()) {
+  explicit Columns(const Loop& loop) : model_(loop.plant().model()) {
     add("t", "s", "");
     add_state("", "state");
     const std::string command = has_lengths(model_) ? "N or m" : "N";
@@ -82,7 +82,6 @@ class Columns {
     add("measured", "1", "estimate");
   }
 
-  const Loop& loop_;
   const Model& model_;
   std::vector<LogColumn> columns_;
 };

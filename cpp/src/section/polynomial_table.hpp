@@ -111,10 +111,10 @@ class PolynomialTable {
   /// By halves of halves (Estrin's scheme), since whoever asks waits for the answer.
   static void read_four(const double* c, double t, Values& values) noexcept {
     const double u = t * t, v = u * u;
-    const auto two = [&](int k) -> Values { return Row(c + 4 * k) + t * Row(c + 4 * k + 4); };
-    const auto four = [&](int k) -> Values { return two(k) + u * two(k + 2); };
-    const auto eight = [&](int k) -> Values { return four(k) + v * four(k + 4); };
-    values = eight(0) + (v * v) * eight(8);
+    const auto two = [&](int at) -> Values { return Row(c + at) + t * Row(c + at + 4); };
+    const auto four = [&](int at) -> Values { return two(at) + u * two(at + 8); };
+    const auto eight = [&](int at) -> Values { return four(at) + v * four(at + 16); };
+    values = eight(0) + (v * v) * eight(32);
   }
 
   /// Even and odd powers apart: two short dependency chains in place of one long one.

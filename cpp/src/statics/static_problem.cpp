@@ -41,7 +41,8 @@ void add_path_curvature(const Model& model, const ConstVectorRef& q, const F& pu
     CableCurvature sum(*chain.sections[k].rod, q.data() + at);
     for (Index j = 0; j < model.num_cables(); ++j) {
       const RodCable* cable = path_of(model, j).in(k);
-      const double pull = cable == nullptr ? 0.0 : pull_of(j);
+      if (cable == nullptr) continue;
+      const double pull = pull_of(j);
       if (pull != 0.0) sum.add(*cable, pull, K.block(at, at, size, size));
     }
     sum.finish(K.block(at, at, size, size));
