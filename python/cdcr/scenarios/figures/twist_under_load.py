@@ -35,7 +35,7 @@ def plot(scenario: Scenario, run: None) -> StyledFigure:
         twist = np.rad2deg(study.twist(answers["rod"]))
         turned.plot(study.LOADS, twist, color=BLACK, linestyle="--")
         name_point(
-            turned, "twist of the rod", (study.LOADS[-1], twist[-1]), (0, -10), ha="right", va="top"
+            turned, "twist of the rod", (study.LOADS[-1], twist[-1]), (0, -24), ha="right", va="top"
         )
         moved.set_ylabel("tip moved sideways [mm]")
         turned.set_ylabel("tip turned [deg]")
