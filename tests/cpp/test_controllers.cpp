@@ -19,8 +19,6 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 namespace tolerance {
-/// A handful of operations.
-constexpr double rounding = 1e-12;
 /// Commands held for 0.1 ms, their middle reckoned with, against commands that never rest.
 constexpr double held = 1e-5;
 /// The same of rods, whose backbone swings beside its cables within a period.

@@ -13,8 +13,6 @@
 namespace cdcr::test {
 namespace {
 
-constexpr double step = 1e-3;
-
 TEST_SUITE_BEGIN("momentum_observer");
 
 TEST_CASE("what it tells of a moving robot is the force behind a lag of first order") {
