@@ -56,6 +56,7 @@ void require_finite_modes(const Modes& modes) {
 Eigen::VectorXcd eigenvalues_of(MatrixXd A) {
   const Index m = A.rows() / 2;
   const double scale = std::sqrt(A.bottomLeftCorner(m, m).norm() + 1e-300);
+  if (!std::isfinite(scale)) return VectorXd::Constant(2 * m, scale);  // to be refused
   A.topRightCorner(m, m) *= scale;
   A.bottomLeftCorner(m, m) /= scale;
   Eigen::VectorXcd values = detail::eigenvalues(A);
