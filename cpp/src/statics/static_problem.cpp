@@ -30,16 +30,16 @@ double moment_of(const Model& model, const Wrenches& wrenches) {
   return sum + mass * (length + chain.payload.position.norm()) * chain.gravity.norm();
 }
 
-/// Adds to the lower half of K the second derivatives of the lengths of cables through rods, times
-/// pull_of(cable).
+/// Adds to the lower half of K the second derivatives of the lengths of some cables through rods,
+/// times pull_of(cable).
 template <class F>
-void add_path_curvature(const Model& model, const ConstVectorRef& q, const F& pull_of,
-                        MatrixRef K) {
+void add_path_curvature(const Model& model, const ConstVectorRef& q, Index first, Index count,
+                        const F& pull_of, MatrixRef K) {
   const Chain& chain = chain_of(model);
   for (Index k = 0; k < chain.num_sections(); ++k) {
     const Index at = chain.first[k], size = chain.first[k + 1] - at;
     CableCurvature sum(*chain.sections[k].rod, q.data() + at);
-    for (Index j = 0; j < model.num_cables(); ++j) {
+    for (Index j = first; j < first + count; ++j) {
       const RodCable* cable = path_of(model, j).in(k);
       if (cable == nullptr) continue;
       const double pull = pull_of(j);
@@ -53,15 +53,15 @@ void add_path_curvature(const Model& model, const ConstVectorRef& q, const F& pu
 /// -dl/dq, which changes with the shape, and a spring pulls more where it is longer.
 void add_path_stiffness(const Model& model, const ConstVectorRef& q, const ConstVectorRef& command,
                         MatrixRef K) noexcept {
-  add_path_curvature(
-      model, q, [&](Index j) { return is_length_driven(model, j) ? 0.0 : command[j]; }, K);
+  const auto tension = [&](Index j) { return is_length_driven(model, j) ? 0.0 : command[j]; };
+  add_path_curvature(model, q, 0, model.num_cables(), tension, K);
   for (Index j = 0; j < model.num_cables(); ++j) {
     if (!is_length_driven(model, j)) continue;
     const CableSlope<double> slope(chain_of(model), path_of(model, j), q.data());
     const double longer = slope.length - (command[j] + model.slack_offset()[j]);
     if (!(longer > 0.0)) continue;
     const double stiffness = model.cables()[static_cast<std::size_t>(j)].stiffness;
-    add_path_curvature(model, q, [&](Index i) { return i == j ? stiffness * longer : 0.0; }, K);
+    add_path_curvature(model, q, j, 1, [&](Index /*j*/) { return stiffness * longer; }, K);
     for (Index i = 0; i < q.size(); ++i) {
       for (Index k = i; k < q.size(); ++k) {
         K(k, i) += slope.column[k] * stiffness * slope.column[i];
