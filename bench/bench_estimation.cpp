@@ -14,26 +14,16 @@ Model arms(int sections) {
   return Model(robot);
 }
 
-KalmanOptions options() {
-  KalmanOptions options;
-  options.sensors.resize(2);
-  options.sensors[0].kind = Sensor::Kind::lengths;
-  options.sensors[0].noise = 1e-4;
-  options.sensors[1].kind = Sensor::Kind::tip;
-  options.sensors[1].noise = 1e-3;
-  return options;
+Sensor sensor(Sensor::Kind kind, double noise) {
+  Sensor sensor;
+  sensor.kind = kind;
+  sensor.noise = noise;
+  return sensor;
 }
 
-/// From lengths and from what the base feels.
-KalmanOptions of_base() {
+KalmanOptions hears(std::vector<Sensor> sensors) {
   KalmanOptions options;
-  options.sensors.resize(3);
-  options.sensors[0].kind = Sensor::Kind::lengths;
-  options.sensors[0].noise = 1e-4;
-  options.sensors[1].kind = Sensor::Kind::base_force;
-  options.sensors[1].noise = 0.02;
-  options.sensors[2].kind = Sensor::Kind::base_moment;
-  options.sensors[2].noise = 0.01;
+  options.sensors = std::move(sensors);
   return options;
 }
 
@@ -64,11 +54,15 @@ void measure(const Harness& harness, const std::string& name, const Model& model
 int main(int argc, char** argv) {
   using namespace cdcr;
   const bench::Harness harness(argc, argv);
+  using Kind = Sensor::Kind;
+  const Sensor lengths = bench::sensor(Kind::lengths, 1e-4);
+  const KalmanOptions options = bench::hears({lengths, bench::sensor(Kind::tip, 1e-3)});
+  const KalmanOptions base = bench::hears(
+      {lengths, bench::sensor(Kind::base_force, 0.02), bench::sensor(Kind::base_moment, 0.01)});
   for (const int sections : {1, 3, 8}) {
     const Model model = bench::arms(sections);
     const std::string of =
         ", " + std::to_string(sections) + (sections > 1 ? " sections" : " section");
-    const KalmanOptions options = bench::options(), base = bench::of_base();
     ExtendedKalman extended(model, options);
     bench::measure(harness, "ExtendedKalman.update" + of, model, options.sensors, extended);
     KalmanOptions more = options;
