@@ -221,6 +221,11 @@ TEST_CASE("out of reach, it names the cables at their limits") {
   const Allocation large = allocate(model, Eigen::Vector2d(1e300, 1e300), {});
   CHECK(large.feasible);
   CHECK(large.distance <= tolerance::closed * 1e300);
+  // A force that asks for more than the largest double.
+  const double most = std::numeric_limits<double>::max();
+  const Allocation beyond = allocate(model, Eigen::Vector2d(-most, -1.0), {});
+  CHECK(!beyond.feasible);
+  CHECK(beyond.tension.allFinite());
 
   // One cable free: cables 0 and 1 pull alike, and only cable 0 may.
   const Allocation alone = allocate(model, radius * Eigen::Vector2d(1.0, 1.0), {0.0, 4.0, {0}});

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "allocation/check_limits.hpp"
 #include "base/arguments.hpp"
@@ -287,14 +288,18 @@ bool Allocator::solve(const ConstVectorRef& force) noexcept {
   high_ = upper_ / unit_;
   Q_ = force / unit_ / scale_;
   if (!solve_in_closed_form()) search();
-  const bool feasible = is_met();
+  bool feasible = is_met();
+  constexpr double most = std::numeric_limits<double>::max();
   for (Index j = 0; j < F_.size(); ++j) {
     tension_[j] = place_[j] == Place::lower   ? lower_[j]
                   : place_[j] == Place::upper ? upper_[j]
                                               : F_[j] * unit_;
+    if (std::abs(tension_[j]) <= most) continue;
+    tension_[j] = std::copysign(most, tension_[j]);  // a force of short arms may ask for more
+    feasible = false;
   }
   force_ = unit_ * (scale_ * (Q_ - rest_));
-  return feasible && tension_.allFinite();
+  return feasible;
 }
 
 }  // namespace cdcr
