@@ -22,7 +22,11 @@ void answer_in_lanes(const Model& model, Quantity quantity, Index count, Argumen
     std::vector<P> force(static_cast<std::size_t>(d));
     detail::in_packs<width.value, P>(count, arguments, {{out, size}}, [&](const P* in, P* found) {
       if (quantity != Quantity::acceleration) return lanes.answer(quantity, in, found);
-      detail::actuation_force(model, in + 2 * d, force.data());
+      if constexpr (closed.value) {
+        detail::single_actuation_force(model, in + 2 * d, force.data());
+      } else {
+        detail::actuation_force(model, in + 2 * d, force.data());
+      }
       lanes.accelerate(in, in + d, force.data(), found);
     });
   });

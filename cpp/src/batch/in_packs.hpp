@@ -21,11 +21,29 @@ struct Answer {
   Index size;
 };
 
-/// f(size), of the coordinates of one section as a constant.
+/// f(size), as a constant where it is that of vectors of one section: coordinates, cables.
 template <class F>
 void with_size(Index size, const F& f) {
   if (size == 2) return f(std::integral_constant<Index, 2>());
+  if (size == 3) return f(std::integral_constant<Index, 3>());
+  if (size == 4) return f(std::integral_constant<Index, 4>());
   f(size);
+}
+
+/// The arguments of a pack of states from `first` on, state(lane) of them in each lane.
+template <class P, class State>
+[[gnu::always_inline]] inline void gather(std::initializer_list<Argument> arguments, Index first,
+                                          const State& state, P* to) {
+  for (const Argument& argument : arguments) {
+    const Index apart = argument.rows.apart;
+    const double* rows = argument.rows.data + first * apart;
+    with_size(argument.size, [&](auto size) {
+      for (Index i = 0; i < size; ++i) {
+        to[i] = P::of_lanes([&](Index lane) { return rows[state(lane) * apart + i]; });
+      }
+    });
+    to += argument.size;
+  }
 }
 
 /// f(in, out) of packs of states in registers of W: all arguments of a pack one after another, and
@@ -40,16 +58,11 @@ void in_packs(Index count, std::initializer_list<Argument> arguments,
   P *in = room.data(), *out = in + num_in;
   in_lanes_of(std::integral_constant<int, W>(), [&](auto /*width*/) {
     for (Index first = 0; first < count; first += P::size) {
-      P* to = in;
-      for (const Argument& argument : arguments) {
-        with_size(argument.size, [&](auto size) {
-          for (int lane = 0; lane < P::size; ++lane) {  // the last again where there are too few
-            const Index state = std::min(first + lane, count - 1);
-            const double* from = argument.rows.data + state * argument.rows.apart;
-            for (Index i = 0; i < size; ++i) set_lane(to[i], lane, from[i]);
-          }
-        });
-        to += argument.size;
+      const Index last = count - 1 - first;
+      if (last >= P::size - 1) {
+        gather(arguments, first, [](Index lane) { return lane; }, in);
+      } else {  // the last again where there are too few
+        gather(arguments, first, [last](Index lane) { return std::min(lane, last); }, in);
       }
       f(static_cast<const P*>(in), out);
       const P* from = out;

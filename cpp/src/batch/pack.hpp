@@ -28,6 +28,16 @@ struct alignas(8 * W) Pack {
   // NOLINTNEXTLINE(google-explicit-constructor)
   [[gnu::always_inline]] Pack(double value) : lanes(value - Native{}) {}
   [[gnu::always_inline]] explicit Pack(const Native& values) : lanes(values) {}
+  /// f(lane) in each: in a register at once, since one read after lanes were written waits for all.
+  template <class F>
+  [[gnu::always_inline]] static Pack of_lanes(const F& f) {
+    if constexpr (W == 2) {
+      return Pack(Native{f(0), f(1)});
+    } else {
+      static_assert(W == 4);
+      return Pack(Native{f(0), f(1), f(2), f(3)});
+    }
+  }
 
   [[gnu::always_inline]] Pack& operator+=(const Pack& b) {
     lanes += b.lanes;
@@ -76,6 +86,10 @@ struct Twin {
   // NOLINTNEXTLINE(google-explicit-constructor)
   [[gnu::always_inline]] Twin(double value) : a(value), b(value) {}
   [[gnu::always_inline]] Twin(const Pack<W>& first, const Pack<W>& second) : a(first), b(second) {}
+  template <class F>
+  [[gnu::always_inline]] static Twin of_lanes(const F& f) {
+    return Twin(Pack<W>::of_lanes(f), Pack<W>::of_lanes([&](Index lane) { return f(W + lane); }));
+  }
   [[gnu::always_inline]] Twin(const Twin& t) : a(t.a), b(t.b) {}
   [[gnu::always_inline]] Twin& operator=(const Twin& t) {
     a = t.a;

@@ -176,10 +176,10 @@ void actuation_force(const Model& model, const S* tension, S* force) {
 }
 
 /// Q = B F of one section, whose sums stay in registers.
-inline void single_actuation_force(const Model& model, const double* tension,
-                                   double* force) noexcept {
+template <class S>
+void single_actuation_force(const Model& model, const S* tension, S* force) noexcept {
   const double* B = model.actuation_matrix().data();
-  double x = 0.0, y = 0.0;
+  S x(0.0), y(0.0);
   for (Index j = 0; j < model.num_cables(); ++j) {
     x += B[2 * j] * tension[j];
     y += B[2 * j + 1] * tension[j];
