@@ -1,5 +1,7 @@
 // Questions a planner asks: where the robot rests, and which tensions give a force.
+#include <cmath>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "harness.hpp"
@@ -79,6 +81,30 @@ void measure_sections(const Harness& harness) {
               [&](long /*i*/) { keep(search.solve(force)); });
 }
 
+/// A thousand poses on a smooth way, with friction in the holes: a millisecond is a microsecond
+/// each.
+void measure_slow_ways(const Harness& harness) {
+  for (const double friction : {0.0, 0.1, 0.3}) {
+    Robot robot = arm(3);
+    for (Section& section : robot.sections) section.cable_friction = friction;
+    const Model model(robot);
+    RowMatrixXd commands(1000, model.num_cables());
+    for (Index i = 0; i < commands.rows(); ++i) {
+      for (Index j = 0; j < commands.cols(); ++j) {
+        const double turns = static_cast<double>((1 + j % 3) * i) / 1000.0;
+        commands(i, j) = 2.0 + 2.0 * std::sin(2.0 * M_PI * turns + static_cast<double>(j));
+      }
+    }
+    const std::string name = "quasi_static, three sections, 1000 poses, friction ";
+    harness.run(
+        {name + (friction == 0.0  ? "0"
+                 : friction < 0.2 ? "0.1"
+                                  : "0.3"),
+         "ms", 1, 50},
+        [] {}, [&](long /*i*/) { keep(quasi_static(model, commands)); });
+  }
+}
+
 void measure(const Harness& harness) {
   const Model free(robot(false)), heavy(robot(true)), four(four_cable_robot());
   const VectorXd tension = Eigen::Vector3d(5.0, 1.0, 0.0);
@@ -100,6 +126,7 @@ void measure(const Harness& harness) {
   harness.run({"Allocator.solve, 4 cables", "ns", 100}, nothing,
               [&](long /*i*/) { keep(four_cables.solve(force)); });
   measure_sections(harness);
+  measure_slow_ways(harness);
 }
 
 }  // namespace

@@ -210,6 +210,29 @@ TEST_CASE("what cannot be followed is said") {
   CHECK(run.message.find("Stopped before sample 3 of 3 (not_converged)") == 0);
 }
 
+TEST_CASE("a pose takes few steps of Newton's method, whatever sticks and slides") {
+  // Some five. They would be twice as many without what friction does with the turns.
+  for (const double stiffness : {0.0, 5e3}) {
+    CAPTURE(stiffness);
+    Robot robot = parts_with_cables(3, stiffness, 0.0);
+    robot.gravity = {0.0, 0.0, 9.81};
+    for (Section& section : robot.sections) section.cable_friction = 0.2;
+    const Model model(robot);
+    const VectorXd straight = rest_command_of(model);
+    RowMatrixXd commands(500, model.num_cables());
+    for (Index i = 0; i < commands.rows(); ++i) {
+      for (Index j = 0; j < model.num_cables(); ++j) {
+        const double wave = 1.0 + std::sin(0.0251 * static_cast<double>((1 + j % 3) * i + 50 * j));
+        commands(i, j) = straight[j] + (stiffness > 0.0 ? -1e-3 : 2.0) * wave;
+      }
+    }
+    const QuasiStatic run = quasi_static(model, commands);
+    REQUIRE(run.status == Status::ok);
+    MESSAGE(run.iterations, " steps for ", commands.rows(), " poses");
+    CHECK(run.iterations <= 7 * commands.rows());
+  }
+}
+
 TEST_SUITE_END();
 
 }  // namespace

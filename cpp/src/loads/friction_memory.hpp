@@ -44,6 +44,12 @@ struct CapstanFactors {
       mean_out = (growth - 1.0) / turn;
     }
   }
+
+  /// How much the mean falls with the section's own turn, over how much with one before it.
+  [[nodiscard]] S own_share(const S& turn, bool in) const {
+    if (turn < 1e-3) return in ? S(0.5 - turn / 12.0) : S(0.5 + turn / 12.0);
+    return in ? S((1.0 - decay / mean_in) / turn) : S((growth / mean_out - 1.0) / turn);
+  }
 };
 
 /// The mean tensions of a cable in its sections, at full sliding either way and at a friction in

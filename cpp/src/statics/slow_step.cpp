@@ -1,5 +1,6 @@
 #include "statics/slow_step.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "cdcr/dynamics.hpp"
@@ -14,6 +15,10 @@ namespace {
 constexpr int max_iterations = 40;
 // Steps after which the curvature of the energy is computed anew.
 constexpr int keep_curvature = 3;
+// Out of balance over its size, from where one more step most likely ends the search.
+constexpr double nearly = 1e-7;
+// How much of a change of commands may differ from the last for the robot to go on as before.
+constexpr double smooth_way = 0.2;
 // Places looked at along a step, and the share of the slope that may remain.
 constexpr int max_searches = 6;
 constexpr double kept_slope = 0.8;
@@ -24,7 +29,7 @@ constexpr double longest_step = 0.5;
 // Stiffness of a cable that sticks, over that of the robot which it bends, where none is given.
 constexpr double sticks_by = 2e2;
 // Out of balance over the size of the forces in it: rounding, with a margin.
-constexpr double smooth = 2e-15, sticky = 2e-15;
+constexpr double smooth = 1e-14, sticky = 2e-15;
 
 }  // namespace
 
@@ -38,17 +43,22 @@ SlowStep::SlowStep(const Model& model, const Wrenches& wrenches)
     }
     if (m > 0) stick_ = sticks_by * model.stiffness().maxCoeff() / (nearest * nearest);
   }
-  q_ = trial_ = moved_ = moved_from_ = r_ = step_ = size_ = VectorXd::Zero(d);
-  command_ = deflection_ = tension_ = friction_ = end_tension_ = new_deflection_ =
-      VectorXd::Zero(m);
+  q_ = trial_ = moved_ = moved_from_ = r_ = step_ = size_ = change_ = VectorXd::Zero(d);
+  command_ = command_at_rest_ = command_change_ = deflection_ = tension_ = friction_ =
+      end_tension_ = new_deflection_ = VectorXd::Zero(m);
   sliding_.assign(static_cast<std::size_t>(m), Sliding::sticks);
+  before_ = sliding_;
   H_ = K_ = MatrixXd::Zero(d, d);
+  changes_ = MatrixXd::Zero(d, model.num_sections() + 2);
+  turned_.resize(static_cast<std::size_t>(model.num_sections()));
   lu_ = Eigen::PartialPivLU<MatrixXd>(d);
 }
 
 void SlowStep::reset(const VectorXd& q, const VectorXd& deflection) {
   q_ = q;
   deflection_ = deflection;
+  change_.setZero();
+  command_change_.setZero();
 }
 
 /// Of the backbone, its weight and wrenches; of rods that of cables that slide freely too.
@@ -81,13 +91,15 @@ void SlowStep::balance(const VectorXd& q, Wanted wanted) noexcept {
 void SlowStep::add_cable(CableGeometry<double>& at, Index j, const VectorXd& q,
                          Wanted wanted) noexcept {
   const Cable& cable = model_.cables()[static_cast<std::size_t>(j)];
-  double tension = command_[j], lever = 0.0;
-  const Index last = model_.first_coordinate(at.last() + 1);
-  for (Index i = 0; i < last; ++i) lever = std::fmax(lever, std::abs(at.column()[i]));
+  double tension = command_[j];
+  const auto lever = [&] {
+    const Index size = model_.first_coordinate(at.last() + 1);
+    return Eigen::Map<const VectorXd>(at.column(), size).lpNorm<Eigen::Infinity>();
+  };
   if (cable.length_driven()) {
     tension =
         std::fmax(0.0, cable.stiffness * (at.length() - command_[j] - model_.slack_offset()[j]));
-    size_.array() += cable.stiffness * at.length() * lever;
+    size_.array() += cable.stiffness * at.length() * lever();
   }
   FrictionProfile<double> profile(tension, cable.entry_friction, model_.sheath_decay()[j],
                                   at.factors(), at.first(), at.last());
@@ -108,7 +120,8 @@ void SlowStep::add_cable(CableGeometry<double>& at, Index j, const VectorXd& q,
     if (asked <= -profile.most_out()) way = Sliding::paid_out;
     profile.set_friction(friction);
     if (way == Sliding::sticks) {
-      sticking_ = std::fmax(sticking_, stick_ * lever * lever * q.lpNorm<Eigen::Infinity>());
+      const double arm = lever();
+      sticking_ = std::fmax(sticking_, stick_ * arm * arm * q.lpNorm<Eigen::Infinity>());
     }
   }
   for (int k = at.first(); k <= at.last(); ++k) {
@@ -125,8 +138,8 @@ void SlowStep::add_cable(CableGeometry<double>& at, Index j, const VectorXd& q,
   new_deflection_[j] = profile.most_out() > 0.0 ? friction / stick_ : 0.0;
   sliding_[static_cast<std::size_t>(j)] = way;
   if (wanted == Wanted::force) return;
-  if (wanted == Wanted::free && way == Sliding::sticks) {
-    way = friction < 0.0 ? Sliding::paid_out : Sliding::pulled_in;
+  if (wanted == Wanted::as_before && way == Sliding::sticks) {
+    way = before_[static_cast<std::size_t>(j)];
   }
   add_stiffness(at, j, q, profile, cable.length_driven() && tension > 0.0, way);
 }
@@ -139,47 +152,91 @@ void SlowStep::add_stiffness(const CableGeometry<double>& at, Index j, const Vec
   const double* b = at.column();
   const Index begin = model_.first_coordinate(at.first()),
               end = model_.first_coordinate(at.last() + 1);
-  const bool sticks = way == Sliding::sticks && profile.most_out() > 0.0;
+  if (way == Sliding::sticks && profile.most_out() > 0.0) {
+    return add_stuck_stiffness(at, j, q, taut && !model_.has_rods());
+  }
   const double F = tension_[j];
   double through = 1.0;  // d(mean tension)/dF, relative
-  if (!sticks && F > 0.0 && profile.most_out() > 0.0) {
+  if (F > 0.0 && profile.most_out() > 0.0) {
     const double e = cable.entry_friction;
     const bool in = way == Sliding::pulled_in;
     through = in ? (F > e ? F / (F - e) : 0.0) : F / (F + e);
   }
   for (int k = at.first(); k <= at.last(); ++k) {
-    const double mean = profile.mean(k), share = profile.share(k);
-    const double on_F = taut && !model_.has_rods()
-                            ? cable.stiffness * (sticks    ? 1.0
-                                                 : F > 0.0 ? through * mean / F
-                                                           : 1.0)
-                            : 0.0;
+    const double mean = profile.mean(k);
+    const double on_F =
+        taut && !model_.has_rods() ? cable.stiffness * (F > 0.0 ? through * mean / F : 1.0) : 0.0;
     for (Index i = model_.first_coordinate(k); i < model_.first_coordinate(k + 1); ++i) {
       for (Index l = begin; l < end; ++l) K_(i, l) += b[i] * on_F * b[l];
     }
-    if (sticks) {
-      for (int other = at.first(); other <= at.last(); ++other) {
-        const double both = stick_ * share * profile.share(other);
-        for (Index l = model_.first_coordinate(other); l < model_.first_coordinate(other + 1);
-             ++l) {
-          for (Index i = model_.first_coordinate(k); i < model_.first_coordinate(k + 1); ++i) {
-            K_(i, l) += b[i] * both * b[l];
-          }
-        }
-      }
-      continue;
-    }
     if (model_.has_rods() || !(profile.most_out() > 0.0)) continue;
-    // Turns: what lies before and half of the section's own, of a tension that falls evenly.
-    const double sign = way == Sliding::pulled_in ? 1.0 : -1.0;
+    // By the turns before, and by its own about half as much.
+    const bool in = way == Sliding::pulled_in;
     for (int other = at.first(); other <= k; ++other) {
       const double mu = model_.friction()(other, j), turn = at.turn(other);
       if (!(mu > 0.0 && turn > 0.0)) continue;
-      const double falls = sign * mu * mean * (other == k ? 0.5 : 1.0) / turn;
+      const double share = other == k ? at.factors()[k].own_share(mu * turn, in) : 1.0;
+      const double falls = (in ? mu : -mu) * mean * share / turn;
       const Index first = model_.first_coordinate(other);
       for (Index l = first; l < first + 2; ++l) {
         for (Index i = model_.first_coordinate(k); i < model_.first_coordinate(k + 1); ++i) {
           K_(i, l) += b[i] * falls * q[l];
+        }
+      }
+    }
+  }
+}
+
+/// The same of a cable that sticks, whose friction depends on the way slid, tension and turns.
+void SlowStep::add_stuck_stiffness(const CableGeometry<double>& at, Index j, const VectorXd& q,
+                                   bool by_tension) noexcept {
+  const Cable& cable = model_.cables()[static_cast<std::size_t>(j)];
+  const double* b = at.column();
+  const int first = at.first(), last = at.last();
+  const Index begin = model_.first_coordinate(first), end = model_.first_coordinate(last + 1);
+  // How these change with q: the way slid at constant shares, the tension, each turn.
+  const Index way = 0, tension = by_tension ? 1 : -1, first_turn = by_tension ? 2 : 1;
+  const Index count = model_.has_rods() ? first_turn : first_turn + last - first + 1;
+  changes_.setZero();
+  FrictionProfile<double> before(tension_[j], cable.entry_friction, model_.sheath_decay()[j],
+                                 at.factors(), first, last);
+  const double spring = stick_ * deflection_[j];
+  before.set_friction(limited(spring, before.most_in(), before.most_out()));
+  for (int k = first; k <= last; ++k) {
+    const double turn = at.turn(k);
+    for (Index l = model_.first_coordinate(k); l < model_.first_coordinate(k + 1); ++l) {
+      changes_(l, way) = before.share(k) * b[l];
+      if (by_tension) changes_(l, tension) = -cable.stiffness * b[l];
+      if (!model_.has_rods() && turn > 0.0) changes_(l, first_turn + k - first) = q[l] / turn;
+    }
+  }
+  for (Index from = 0; from < count; from += Dual::width) {
+    const auto number = [from](double value, Index which, double slope = 1.0) {
+      Dual x(value);
+      if (which >= from && which < from + Dual::width) {
+        x.slopes[static_cast<int>(which - from)] = slope;
+      }
+      return x;
+    };
+    for (int k = first; k <= last; ++k) {
+      const double mu = model_.friction()(k, j);
+      turned_[static_cast<std::size_t>(k)] =
+          CapstanFactors<Dual>(number(mu * at.turn(k), first_turn + k - first, mu));
+    }
+    FrictionProfile<Dual> profile(number(tension_[j], tension), cable.entry_friction,
+                                  model_.sheath_decay()[j], turned_.data(), first, last);
+    profile.set_friction(limited(Dual(spring), profile.most_in(), profile.most_out()));
+    Dual slid = number(0.0, way);
+    for (int k = first; k <= last; ++k) slid += profile.share(k) * at.pulled_in(k, moved_.data());
+    profile.set_friction(stick_ * (deflection_[j] + slid));
+    for (int k = first; k <= last; ++k) {
+      const Dual mean = profile.mean(k);
+      for (Index c = from; c < std::min<Index>(count, from + Dual::width); ++c) {
+        const double slope = mean.slopes[static_cast<int>(c - from)];
+        for (Index l = begin; l < end; ++l) {
+          for (Index i = model_.first_coordinate(k); i < model_.first_coordinate(k + 1); ++i) {
+            K_(i, l) -= b[i] * slope * changes_(l, c);
+          }
         }
       }
     }
@@ -215,11 +272,23 @@ void SlowStep::search_along_step() noexcept {
   }
 }
 
+/// Whether commands change much as they did in the last step.
+bool SlowStep::goes_on() const noexcept {
+  double bend = 0.0, most = 0.0;
+  for (Index j = 0; j < command_.size(); ++j) {
+    const double now = command_[j] - command_at_rest_[j];
+    bend = std::fmax(bend, std::abs(now - command_change_[j]));
+    most = std::fmax(most, std::abs(now));
+  }
+  return bend <= smooth_way * most;
+}
+
 bool SlowStep::step(const VectorXd& command, const VectorXd* near) noexcept {
   command_ = command;
   trial_ = near == nullptr ? q_ : *near;
+  if (near == nullptr && goes_on()) trial_ += change_;
   set_curvature(trial_);
-  balance(trial_, near == nullptr ? Wanted::free : Wanted::held);
+  balance(trial_, near == nullptr ? Wanted::as_before : Wanted::held);
   double out = r_.lpNorm<Eigen::Infinity>();
   int stalled = 0;
   for (int i = 0; i < max_iterations && out > tolerance(); ++i) {
@@ -230,7 +299,14 @@ bool SlowStep::step(const VectorXd& command, const VectorXd* near) noexcept {
     if (!(longest < HUGE_VAL)) return false;
     if (longest > longest_step) step_ *= longest_step / longest;
     if (i > 0 && i % keep_curvature == 0) set_curvature(trial_);
-    search_along_step();
+    const bool last = out < nearly * size_.maxCoeff();
+    if (last) {
+      trial_ -= step_;
+      balance(trial_, Wanted::force);
+      if (r_.lpNorm<Eigen::Infinity>() > tolerance()) balance(trial_, Wanted::held);
+    } else {
+      search_along_step();
+    }
     const double now = r_.lpNorm<Eigen::Infinity>();
     // Rounding, of cables that stick above all, lets it come no nearer.
     stalled = now < 0.5 * out ? 0 : stalled + 1;
@@ -240,8 +316,12 @@ bool SlowStep::step(const VectorXd& command, const VectorXd* near) noexcept {
   if (!(out <= stalled_by * tolerance()) || !(largest_bending(model_, trial_) <= max_bending)) {
     return false;
   }
+  command_change_ = command_ - command_at_rest_;
+  command_at_rest_ = command_;
+  change_ = trial_ - q_;
   q_ = trial_;
   deflection_ = new_deflection_;
+  before_ = sliding_;
   return true;
 }
 

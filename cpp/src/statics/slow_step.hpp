@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 
 #include "cdcr/quasi_static.hpp"
+#include "derivatives/dual.hpp"
 #include "loads/friction_memory.hpp"
 
 namespace cdcr::detail {
@@ -31,12 +32,15 @@ class SlowStep {
 
  private:
   /// The force out of balance at q, and whether its derivative is wanted too: with cables that
-  /// stick held, or let go as if they slid.
-  enum class Wanted { force, held, free };
+  /// stick held, or going on as before.
+  enum class Wanted { force, held, as_before };
   void balance(const VectorXd& q, Wanted wanted) noexcept;
   void add_cable(CableGeometry<double>& at, Index j, const VectorXd& q, Wanted wanted) noexcept;
   void add_stiffness(const CableGeometry<double>& at, Index j, const VectorXd& q,
                      const FrictionProfile<double>& profile, bool taut, Sliding way) noexcept;
+  void add_stuck_stiffness(const CableGeometry<double>& at, Index j, const VectorXd& q,
+                           bool by_tension) noexcept;
+  [[nodiscard]] bool goes_on() const noexcept;
   void search_along_step() noexcept;
   void set_curvature(const VectorXd& q) noexcept;
   [[nodiscard]] double tolerance() const noexcept;
@@ -46,9 +50,11 @@ class SlowStep {
   Data data_;
   double stick_;  // stiffness of a cable that sticks [N/m]
   VectorXd command_, q_, deflection_, trial_, moved_, moved_from_, r_, step_, size_;
+  VectorXd change_, command_at_rest_, command_change_;  // of the last step
   VectorXd tension_, friction_, end_tension_, new_deflection_;
-  std::vector<Sliding> sliding_;
-  MatrixXd H_, K_;
+  std::vector<Sliding> sliding_, before_;  // before: at the last rest
+  MatrixXd H_, K_, changes_;
+  std::vector<CapstanFactors<Dual>> turned_;
   Eigen::PartialPivLU<MatrixXd> lu_;
   double sticking_ = 0.0;  // size of what cables that stick may miss by rounding [N m]
   long iterations_ = 0;
