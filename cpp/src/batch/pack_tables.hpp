@@ -30,27 +30,32 @@ template <int W>
   return all != 0;
 }
 
-/// values[f] = sum_k c(k, f) t^k; even and odd powers apart, for short chains of dependency.
+/// values[f] = sum_k c(k, f) t^k of `count` functions, whose sums stay in registers; even and odd
+/// powers apart, for short chains of dependency.
+template <int count, int W, class Coefficient>
+[[gnu::always_inline]] inline void sum_some(const Pack<W>& t, const Pack<W>& u,
+                                            const Coefficient& c, int first, Pack<W>* values) {
+  Pack<W> odd[count], even[count];
+  for (int f = 0; f < count; ++f) {
+    odd[f] = c(num_powers - 1, first + f);
+    even[f] = c(num_powers - 2, first + f);
+  }
+  for (int k = num_powers - 3; k > 0; k -= 2) {
+    for (int f = 0; f < count; ++f) {
+      odd[f] = odd[f] * u + c(k, first + f);
+      even[f] = even[f] * u + c(k - 1, first + f);
+    }
+  }
+  for (int f = 0; f < count; ++f) values[first + f] = even[f] + t * odd[f];
+}
 template <int N, int W, class Coefficient>
 [[gnu::always_inline]] inline void sum_powers(const Pack<W>& t, const Coefficient& c,
                                               Pack<W>* values) {
-  constexpr int together = 4;  // functions, whose sums stay in registers
+  constexpr int together = 4;
   const Pack<W> u = t * t;
-  for (int first = 0; first < N; first += together) {
-    const int count = N - first < together ? N - first : together;
-    Pack<W> odd[together], even[together];
-    for (int f = 0; f < count; ++f) {
-      odd[f] = c(num_powers - 1, first + f);
-      even[f] = c(num_powers - 2, first + f);
-    }
-    for (int k = num_powers - 3; k > 0; k -= 2) {
-      for (int f = 0; f < count; ++f) {
-        odd[f] = odd[f] * u + c(k, first + f);
-        even[f] = even[f] * u + c(k - 1, first + f);
-      }
-    }
-    for (int f = 0; f < count; ++f) values[first + f] = even[f] + t * odd[f];
-  }
+  int first = 0;
+  for (; first + together <= N; first += together) sum_some<together>(t, u, c, first, values);
+  if constexpr (N % together > 0) sum_some<N % together>(t, u, c, first, values);
 }
 
 /// The piece of each lane by itself; NaN beyond the largest bending angle.
