@@ -34,7 +34,7 @@ Status EmbeddedPair::restart(double t, const VectorXd& y, double t_stop) {
   stop_ = t_stop;
   y_ = y_before_ = y;
   h_before_ = 0.0;
-  last_error_ = 1e-4;
+  last_log_error_ = least_log_error;
   const Status status = ode_.check(y_.data());
   if (status != Status::ok) return status;
   derivative(t_, y_.data(), slope_.data());
@@ -89,11 +89,12 @@ Status EmbeddedPair::step() {
     const Status status = ode_.check(trial_.data());
     if (status != Status::ok) return status;
 
-    const double wanted = control_.safety * std::pow(std::max(error, 1e-16), -control_.exponent) *
-                          std::pow(last_error_, control_.beta);
+    const double log_error = std::log(std::max(error, 1e-16));
+    const double wanted =
+        control_.safety * std::exp(control_.beta * last_log_error_ - control_.exponent * log_error);
     const double growth =
         std::clamp(wanted, control_.largest_cut, rejected ? 1.0 : control_.largest_growth);
-    last_error_ = std::max(error, 1e-4);
+    last_log_error_ = std::max(log_error, least_log_error);
     h_ = h * growth;
     t_before_ = t_;
     h_before_ = h;

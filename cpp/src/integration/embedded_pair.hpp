@@ -63,7 +63,9 @@ class EmbeddedPair : public Integrator {
   Control control_;
   double stop_ = 0.0, h_ = 0.0;  // h_: the next step wanted
   double h_before_ = 0.0;        // the last step made
-  double last_error_ = 1e-4;     // of the step before, for the PI controller
+  // ln of the error of the step before, for the PI controller, at least of one of 1e-4.
+  static constexpr double least_log_error = -9.210340371976182;
+  double last_log_error_ = least_log_error;
   bool dense_ready_ = false;
   Stats stats_;
 };

@@ -42,9 +42,11 @@ void check_motions(const Motions& motions) {
           motions.q0.cols(), " and ", motions.qd0.rows(), " x ", motions.qd0.cols());
   for (Index i = 0; i < count; ++i) {
     const VectorXd q = motions.q0.row(i);
-    require(q.allFinite(), nth("q0", i), " must be finite");
-    require(motions.qd0.row(i).allFinite(), nth("qd0", i), " must be finite");
-    detail::require_bending(nth("q0", i).c_str(), motions.model(i), q);
+    const Model& model = motions.model(i);
+    if (!q.allFinite()) detail::refuse(nth("q0", i), " must be finite");
+    if (!motions.qd0.row(i).allFinite()) detail::refuse(nth("qd0", i), " must be finite");
+    if (check_shape(model, q) == Status::ok) continue;
+    detail::require_bending(nth("q0", i).c_str(), model, q);
   }
   require(motions.controllers.empty() || static_cast<Index>(motions.controllers.size()) == count,
           "controllers must be one for each of the ", count, " motions, got ",
