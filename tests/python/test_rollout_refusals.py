@@ -66,6 +66,11 @@ REFUSED: list[tuple[dict[str, Any], type[Exception], str]] = [
     ({"model": []}, TypeError, "or a sequence of them, got no one"),
     ({"command": np.ones((3, 3))}, ValueError, "5 of q0, 5 of qd0, 3 of command"),
     ({"steps": 2**40}, ValueError, "a whole number >= 0, at most 2147483647, got 1099511627776"),
+    (
+        {"parameters": {"gravity.z": np.ones(N), "gravity.3": np.ones(N)}},
+        ValueError,
+        "parameters 'gravity.z' and 'gravity.3' lead to the same number: give one of them",
+    ),
     ({"parameters": {3: np.ones(N)}}, TypeError, "parameters must be paths, such as 'sections.1"),
     (
         {"parameters": {"sections.1.num_disks": np.full(N, 3.5)}},

@@ -11,7 +11,7 @@ from cdcr import _core
 from cdcr.base.arrays import FloatArray, finite, read_only
 from cdcr.model.model import Model
 from cdcr.robot.cable import Cable
-from cdcr.robot.numbers import find, paths, put, refuse_unknown
+from cdcr.robot.numbers import Place, find, paths, put, refuse_shared, refuse_unknown
 from cdcr.robot.plain import core_robot, plain_robot
 from cdcr.robot.robot import Robot
 from cdcr.robot.section import Section
@@ -41,6 +41,7 @@ class Variation:
             got = type(parameters).__name__
             raise TypeError(f"parameters must be a mapping of paths to arrays, got {got}")
         table = plain_robot(model.robot)
+        found: dict[str, list[Place]] = {}
         for path, given in parameters.items():
             if not isinstance(path, str):
                 raise TypeError(
@@ -55,6 +56,8 @@ class Variation:
             if any(isinstance(thing[key], int) for thing, key in places):
                 _refuse_fractions(path, values)
             self.values[path] = read_only(values)
+            found[path] = places
+        refuse_shared(found)
         sizes = {path: len(values) for path, values in self.values.items()}
         if len(set(sizes.values())) > 1:
             told = ", ".join(f"{size} of {path}" for path, size in sizes.items())
