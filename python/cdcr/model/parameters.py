@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import fields
 from typing import Any
 
@@ -37,7 +37,8 @@ class ParameterSets:
         TypeError
             For what is no path.
         """
-        names = (asked,) if isinstance(asked, str) else tuple(asked)
+        several = isinstance(asked, Iterable) and not isinstance(asked, str)
+        names = tuple(asked) if several else (asked,)
         for name in names:
             if not isinstance(name, str):
                 raise TypeError(
