@@ -192,7 +192,7 @@ def test_refusals(path: Any, sentence: str) -> None:
 def test_what_is_no_path(path: Any) -> None:
     """A number is none, alone and among others."""
     model = cdcr.Model(cdcr.robots.amouri2020())
-    with pytest.raises(TypeError, match="parameters must be paths, such as .*, got (1|None)"):
+    with pytest.raises(TypeError, match=r"parameters must be paths, such as .*, got (1|None)"):
         model.equilibrium_derivatives([0.1, 0.0], [1.0, 0.0, 0.0], path)
 
 

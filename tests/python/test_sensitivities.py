@@ -201,5 +201,5 @@ def test_refusals(asked: Any, options: dict[str, Any], sentence: str) -> None:
 def test_what_is_no_name(asked: Any) -> None:
     """Nothing and numbers are none."""
     model = cdcr.Model(ARM)
-    with pytest.raises(TypeError, match="sensitivities must be names, such as 'q0'.*, got"):
+    with pytest.raises(TypeError, match=r"sensitivities must be names, such as 'q0'.*, got"):
         cdcr.simulate(model, np.zeros(6), np.zeros(6), t=[0.0, 0.1], sensitivities=asked)

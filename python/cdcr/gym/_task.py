@@ -268,6 +268,8 @@ class Task:
 
     def _checked(self, options: Mapping[str, Any]) -> dict[str, FloatArray]:
         """Return the options of `reset`, or refuse them."""
+        if not isinstance(options, Mapping):
+            raise TypeError(f"options must be a mapping, got {type(options).__name__}")
         size = self.model.num_coordinates
         shapes = {"q": (size,), "qd": (size,)} | ({} if self.moving else {"target": (3,)})
         given = {}
@@ -278,4 +280,6 @@ class Task:
                 raise ValueError(
                     f"options[{name!r}] must have shape {shapes[name]}, got {given[name].shape}"
                 )
+        if "q" in given:
+            self.model.tips(given["q"])  # refuses what bends too far, before anything has changed
         return given

@@ -139,8 +139,10 @@ class RobotVectorEnv(VectorEnv[Observation, NDArray[np.float32], NDArray[Any]]):
         seeds: list[int | None]
         if seed is None or isinstance(seed, (int, np.integer)):
             seeds = [None if seed is None else seed + i for i in range(self.num_envs)]
-        else:
+        elif isinstance(seed, (Sequence, np.ndarray)) and not isinstance(seed, (str, bytes)):
             seeds = list(seed)
+        else:
+            raise TypeError(f"seed must be a whole number or one of each robot, got {seed!r}")
         if len(seeds) != self.num_envs:
             raise ValueError(f"seed must be one number or {self.num_envs}, got {len(seeds)}")
         for i, one in enumerate(seeds):
