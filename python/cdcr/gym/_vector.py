@@ -137,10 +137,11 @@ class RobotVectorEnv(VectorEnv[Observation, NDArray[np.float32], NDArray[Any]]):
             Observations and infos.
         """
         seeds: list[int | None]
+        several: Any = seed  # of any kind, as users may give
         if seed is None or isinstance(seed, (int, np.integer)):
             seeds = [None if seed is None else seed + i for i in range(self.num_envs)]
-        elif isinstance(seed, (Sequence, np.ndarray)) and not isinstance(seed, (str, bytes)):
-            seeds = list(seed)
+        elif isinstance(several, (Sequence, np.ndarray)) and not isinstance(several, (str, bytes)):
+            seeds = list(several)
         else:
             raise TypeError(f"seed must be a whole number or one of each robot, got {seed!r}")
         if len(seeds) != self.num_envs:

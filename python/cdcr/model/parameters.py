@@ -37,8 +37,8 @@ class ParameterSets:
         TypeError
             For what is no path.
         """
-        several = isinstance(asked, Iterable) and not isinstance(asked, str)
-        names = tuple(asked) if several else (asked,)
+        one: Any = asked  # of any kind, as users may give
+        names = tuple(one) if isinstance(one, Iterable) and not isinstance(one, str) else (one,)
         for name in names:
             if not isinstance(name, str):
                 raise TypeError(
