@@ -166,6 +166,9 @@ def test_it_is_that_of_sensitivities() -> None:
         ({"tension": np.ones((10, 9))}, r"must have shape \(9,\) or \(300, 9\), got \(10, 9\)"),
         ({"step": -1.0}, "period must be|step must be"),
         ({"parameters": "mass"}, "there is no parameter 'mass'"),
+        ({"cost": lambda m: 1.0}, "cost must return a number and a mapping of its derivatives"),
+        ({"cost": lambda m: (m.q, {})}, "cost must return a number and a mapping of its deriv"),
+        ({"cost": lambda m: (np.nan, {})}, "cost must be finite, got nan"),
         ({"cost": lambda m: (0.0, {"p": m.q})}, "derivatives by 'q', 'qd', 'tip', got 'p'"),
         ({"cost": lambda m: (0.0, {"q": m.q[1:]})}, r"by q must have shape \(31, 6\)"),
         (

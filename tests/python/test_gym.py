@@ -97,6 +97,22 @@ def test_the_vector_environment_is_that_many_environments(task: str) -> None:
     assert over == [2, 2, 2]
 
 
+@pytest.mark.parametrize("kind", ["sticking cables", "drives with play"])
+def test_a_vector_environment_remembers(kind: str) -> None:
+    robot = cdcr.robots.amouri2020(damping=0.05)
+    if kind == "sticking cables":
+        section = replace(robot.sections[0], cable_friction=0.3)
+        robot, action = replace(robot, sections=(section,), presliding_stiffness=1e4), "tension"
+    else:
+        section = replace(robot.sections[0], cable_stiffness=2e4, cable_backlash=1e-3)
+        robot, action = replace(robot, sections=(section,)), "length"
+    envs, env = RobotVectorEnv(2, robot=robot, action=action), RobotEnv(robot=robot, action=action)
+    envs.reset(seed=4)
+    env.reset(seed=5)
+    for actions in np.random.default_rng(0).uniform(-1.0, 1.0, (10, 2, 3)).astype(np.float32):
+        np.testing.assert_array_equal(envs.step(actions)[0][1], env.step(actions[1])[0])
+
+
 def test_gymnasium_makes_them_by_name() -> None:
     env = gymnasium.make("cdcr/TrackThreeSections-v0", action="length")
     assert isinstance(env.unwrapped, RobotEnv)

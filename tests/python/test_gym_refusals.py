@@ -92,3 +92,25 @@ def test_actions_and_ranges_that_are_none() -> None:
         env.step(np.zeros(2, dtype=np.float32))
     with pytest.raises(ValueError, match=r"randomization must be a mapping .*, got \[1\] \(list\)"):
         RobotEnv(randomization=[1])  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("given", "kind", "told"),
+    [
+        ({"seed": 1.5}, TypeError, r"seed must be a whole number or one of each robot, got 1\.5"),
+        ({"seed": "ab"}, TypeError, "seed must be a whole number or one of each robot, got 'ab'"),
+        ({"seed": [1]}, ValueError, "seed must be one number or 2, got 1"),
+        ({"options": 3}, TypeError, "options must be a mapping, got int"),
+        ({"options": {"q": [9.5, 0.0]}}, ValueError, "must bend each section by at most 3 pi"),
+    ],
+)
+def test_a_refused_reset_changes_nothing(
+    given: dict[str, Any], kind: type[Exception], told: str
+) -> None:
+    envs, others = RobotVectorEnv(2), RobotVectorEnv(2)
+    for one in (envs, others):
+        one.reset(seed=1)
+    with pytest.raises(kind, match=told):
+        envs.reset(**given)
+    still = np.zeros((2, 3), dtype=np.float32)
+    np.testing.assert_array_equal(envs.step(still)[0], others.step(still)[0])

@@ -188,11 +188,12 @@ def test_refusals(path: Any, sentence: str) -> None:
         model.parameter_derivatives([0.1, 0.0], [0.0, 0.0], [1.0, 0.0, 0.0], path)
 
 
-def test_what_is_no_path() -> None:
-    """A number is none."""
+@pytest.mark.parametrize("path", [[1], 1, None])
+def test_what_is_no_path(path: Any) -> None:
+    """A number is none, alone and among others."""
     model = cdcr.Model(cdcr.robots.amouri2020())
-    with pytest.raises(TypeError, match="parameters must be paths"):
-        model.equilibrium_derivatives([0.1, 0.0], [1.0, 0.0, 0.0], [1])  # type: ignore[list-item]
+    with pytest.raises(TypeError, match=r"parameters must be paths, such as .*, got (1|None)"):
+        model.equilibrium_derivatives([0.1, 0.0], [1.0, 0.0, 0.0], path)
 
 
 def test_angles_of_cables() -> None:

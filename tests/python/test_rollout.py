@@ -198,10 +198,61 @@ def test_the_bits_do_not_depend_on_threads() -> None:
     np.testing.assert_array_equal(one.qd, four.qd)
 
 
-def test_no_motions_are_a_rollout() -> None:
+@pytest.mark.parametrize(
+    "given",
+    [{}, {"controller": pull_back}, {"parameters": {"payload": []}}, {"tension": PULLS[:0]}],
+)
+def test_no_motions_are_a_rollout(given: dict[str, Any]) -> None:
     none = np.zeros((0, 2))
-    assert cdcr.rollout(MODEL, none, none, **RUN).q.shape == (0, 21, 2)
-    assert cdcr.rollout(MODEL, Q0, QD0, step=STEP, steps=0).q.shape == (N, 1, 2)
+    runs = cdcr.rollout(MODEL, none, none, **given, **RUN)
+    assert runs.q.shape == (0, 21, 2)
+    assert len(list(runs)) == 0
+    pytest.importorskip("xarray")
+    assert runs.to_xarray().q.shape == (0, 21, 1, 2)
+
+
+@pytest.mark.parametrize("tension", [None, PULLS[:, 0], PULLS[:, :0]])
+def test_no_steps_are_a_rollout(tension: Any) -> None:
+    runs = cdcr.rollout(MODEL, Q0, QD0, tension, step=STEP, steps=0)
+    assert (runs.q.shape, runs.command.shape) == ((N, 1, 2), (N, 1, 3))
+
+
+def test_one_value_of_a_parameter_serves_all() -> None:
+    runs = cdcr.rollout(MODEL, Q0, QD0, parameters={"payload": [0.01]}, **RUN)
+    np.testing.assert_array_equal(runs.parameters["payload"], np.full(N, 0.01))
+    assert runs[N - 1].model.robot.payload == 0.01
+
+
+def test_commands_to_motions_that_failed_are_not_used() -> None:
+    fast = np.array(QD0)
+    fast[3] *= 1e5
+
+    def policy(t: float, q: np.ndarray, qd: np.ndarray) -> np.ndarray:
+        return np.abs(q @ np.ones((2, 3)))  # NaN where q is
+
+    runs = cdcr.rollout(MODEL, Q0, fast, controller=policy, **RUN)
+    assert [one.motion for one in runs.failures] == [3]
+    sound = cdcr.rollout(MODEL, Q0, QD0, controller=policy, **RUN)
+    np.testing.assert_array_equal(np.delete(runs.q, 3, 0), np.delete(sound.q, 3, 0))
+
+    def pushing(t: float, q: np.ndarray, qd: np.ndarray) -> np.ndarray:
+        command = np.zeros((N, 3))
+        command[4, 1] = -1.0 if t > 2.5 * STEP else 0.0
+        return command
+
+    with pytest.raises(ValueError, match="of motion 5, step 4, cable 2 must be finite and >= 0"):
+        cdcr.rollout(MODEL, Q0, fast, controller=pushing, **RUN)
+
+
+def test_tensions_behind_a_drive_with_play_are_not_told() -> None:
+    section = replace(
+        MODEL.robot.sections[0], cable_stiffness=2e4, cable_backlash=1e-3, cable_pretension=1.0
+    )
+    model = cdcr.Model(replace(MODEL.robot, sections=(section,)))
+    runs = cdcr.rollout(model, Q0, QD0, **RUN)
+    assert np.isnan(runs[0].tension).all()
+    with pytest.raises(ValueError, match="must not be a function where cables or drives remember"):
+        cdcr.rollout(model, Q0, QD0, controller=pull_back, **RUN)
 
 
 @pytest.mark.parametrize("method", ["rk4", "dopri5"])
@@ -225,6 +276,25 @@ def test_control_c_ends_motions_that_go_on_together() -> None:
         assert since() < 5.0
     assert [one.motion for one in runs.failures] == list(range(N))
     assert {one.status for one in runs.failures} == {cdcr.Status.interrupted}
+
+
+def test_control_c_within_a_period_ends_all_of_them() -> None:
+    asked = []
+
+    def policy(t: float, q: np.ndarray, qd: np.ndarray) -> np.ndarray:
+        asked.append(t)
+        return np.zeros((len(q), 3))
+
+    q0 = np.full((1000, 2), 0.3)
+    run: dict[str, Any] = {"step": 1e-3, "steps": 10**7, "control_every": 10**6}
+    with interrupt_soon() as since:
+        runs = cdcr.rollout(
+            MODEL, q0, [0, 0], controller=policy, record_every=10**6, threads=1, **run
+        )
+        assert since() < 5.0
+    assert asked == [0.0]
+    assert {one.status for one in runs.failures} == {cdcr.Status.interrupted}
+    assert len(runs.failures) == len(q0)
 
 
 def test_progress_is_told_and_what_it_raises_is_raised() -> None:
@@ -251,6 +321,13 @@ def test_a_dataset_says_what_there_is() -> None:
     np.testing.assert_array_equal(data.command.values, runs.command)
     assert list(data.status.values) == ["ok", "bending_limit", "ok", "ok", "ok"]
     assert data.qd.attrs["units"] == "rad/s"
+
+
+@pytest.mark.parametrize("index", [slice(2), 1.0, "a", np.array([0, 1])])
+def test_a_motion_is_asked_for_by_its_index(index: Any) -> None:
+    runs = cdcr.rollout(MODEL, Q0, QD0, **RUN)
+    with pytest.raises(TypeError, match="a motion is asked for by its index, a whole number, got"):
+        runs[index]
 
 
 def test_results_pickle_and_print() -> None:

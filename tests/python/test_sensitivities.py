@@ -195,3 +195,11 @@ def test_refusals(asked: Any, options: dict[str, Any], sentence: str) -> None:
         options = {"controller": cdcr.Pid(model, kp=1.0, period=0.01)}
     with pytest.raises(ValueError, match=sentence):
         cdcr.simulate(model, np.zeros(6), np.zeros(6), t=[0.0, 0.1], sensitivities=asked, **options)
+
+
+@pytest.mark.parametrize("asked", [None, 3])
+def test_what_is_no_name(asked: Any) -> None:
+    """Nothing and numbers are none."""
+    model = cdcr.Model(ARM)
+    with pytest.raises(TypeError, match=r"sensitivities must be names, such as 'q0'.*, got"):
+        cdcr.simulate(model, np.zeros(6), np.zeros(6), t=[0.0, 0.1], sensitivities=asked)

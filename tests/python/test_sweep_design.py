@@ -10,7 +10,7 @@ from scipy import stats  # type: ignore[import-untyped]
 
 import cdcr
 from cdcr.sweeps.design import make_design
-from swept import TIMES
+from swept import TIMES, end_x, pulled
 
 pytest.importorskip("xarray")
 
@@ -110,3 +110,21 @@ def test_samples_follow_their_distributions() -> None:
         rows = make_design(box, kind, 0).rows
         assert np.all((rows >= [2.0, 1e-3]) & (rows <= [3.0, 1e-1]))
         assert np.sum(rows[:, 1] < 1e-2) == pytest.approx(len(rows) / 2, rel=0.4)
+
+
+def test_one_parameter_makes_all_of_the_variance() -> None:
+    def still(run: cdcr.Trajectory) -> float:
+        """The same in all runs."""
+        return 1.0
+
+    found = cdcr.sweep(pulled, {"pull": (1.0, 2.0)}, samples="saltelli:4", metrics=[end_x, still])
+    indices = cdcr.sweeps.sobol_indices(found)
+    for shares in (indices.first_order, indices.total_order):
+        np.testing.assert_array_equal(shares, [[1.0], [np.nan]])
+
+
+@pytest.mark.parametrize("thing", [None, 3, "sweep.nc", {}])
+def test_what_is_no_sweep_has_no_indices_and_no_picture(thing: Any) -> None:
+    for use in (cdcr.sweeps.sobol_indices, cdcr.sweeps.plot):
+        with pytest.raises(TypeError, match=r"result must be a Dataset of cdcr.sweep, or one read"):
+            use(thing)

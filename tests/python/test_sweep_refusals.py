@@ -39,6 +39,13 @@ ONE = {"a": [1.0]}
         ({}, "a sweep must have a parameter, got none"),
         ("payload", "parameters must be a mapping from names to values, got 'payload'"),
         (["payload"], "parameters must be a mapping from names to values, got ['payload'] (list)"),
+        (None, "parameters must be a mapping from names to values, got None"),
+        ({3: [1.0]}, "a parameter must have a name, got 3 (int)"),
+        (
+            {"sections.1.damping": [0.01], "sections.*.damping": [0.02]},
+            "'sections.1.damping' and 'sections.*.damping' lead to the same number: give one",
+        ),
+        ({"payload": [0.1], "robot.payload": [0.2]}, "lead to the same number: give one of them"),
     ],
 )
 def test_parameters(parameters: Any, told: str) -> None:
@@ -53,6 +60,7 @@ def test_parameters(parameters: Any, told: str) -> None:
         ("sobul:64", (0, 1), "of sobol, lhs, random, saltelli, got 'sobul:64'. Did you mean 'so"),
         ("lhs", (0, 1), "samples must be KIND:NUMBER, of sobol, lhs, random, saltelli, got 'lhs'"),
         ("lhs:-3", (0, 1), "samples must be KIND:NUMBER"),
+        ("normal:4", (0, 1), "of sobol, lhs, random, saltelli, got 'normal:4'"),
         ("lhs:3", (1, 0), "parameter 'a' must have two numbers, from low to high, or a distribu"),
         ("lhs:3", [0, 1, 2], "parameter 'a' must have two numbers, from low to high"),
         ("lhs:99999999", (0, 1), "a sweep must have at most 10000000 runs, got 99999999"),
@@ -97,6 +105,8 @@ def test_metrics(metrics: Any, told: str) -> None:
         (lambda a: a, ONE, TypeError, "what is swept must return a run, got float"),
         (3, ONE, TypeError, "what is swept must be the name of a scenario, a scenario file or a"),
         ("nowhere.toml", ONE, FileNotFoundError, "there is no scenario file nowhere.toml"),
+        ("step-tensio", ONE, ValueError, "no scenario 'step-tensio'. Did you mean 'step-tension'?"),
+        (lambda: None, ONE, ValueError, "there is no parameter 'a'. The function takes none"),
         ("gravity-ratio", ONE, ValueError, "nothing runs in the scenario 'gravity-ratio'"),
     ],
 )
@@ -113,6 +123,15 @@ def test_sources(source: Any, parameters: Any, error: type[Exception], told: str
         ({"chunk": 0}, "chunk must be a whole number 1 to 1000, got 0 (int)"),
         ({"samples": "lhs:2", "seed": -1}, "seed must be a whole number >= 0, got -1 (int)"),
         ({"executor": 3}, "executor must be a concurrent.futures.Executor or a dask.distributed"),
+        (
+            {"scheduler": 3},
+            "scheduler must be an address, such as 'tcp://10.0.0.1:8786', or 'local",
+        ),
+        ({"progress": 3}, "progress must be a function of two numbers, got 3 (int)"),
+        (
+            {"seed": 2**40, "samples": "lhs:2"},
+            "seed must be a whole number >= 0, at most 2147483647",
+        ),
         ({"executor": 3, "jobs": 2}, "give either an executor, or scheduler and jobs"),
         ({"scheduler": "tcp://a:1", "jobs": 2}, "jobs are for this machine, and tcp://a:1 has"),
         ({"path": "sweep.csv"}, "the file name must end in .nc or .zarr, got 'sweep.csv'"),

@@ -79,12 +79,14 @@ def test_what_is_finished_stays_and_only_the_rest_is_computed(
     assert run.asked == []
 
 
-def test_a_line_that_is_not_whole_does_not_count(tmp_path: Path, whole: Any) -> None:
+@pytest.mark.parametrize("end", [b"", b"5\n", b"[[2]]\n", b'[[2],[["x","ok",""]]]\n'])
+def test_a_line_that_is_not_whole_does_not_count(tmp_path: Path, whole: Any, end: bytes) -> None:
     path, run = tmp_path / "pulls.nc", Counted()
     with pytest.raises(KeyboardInterrupt):
         cdcr.sweep(run, {"pull": PULLS}, path=path, progress=interrupted_after(3), **OPTIONS)
     text = partial(path).read_bytes()
-    partial(path).write_bytes(text[:-9])
+    last = text[:-1].rindex(b"\n") + 1
+    partial(path).write_bytes(text[:last] + end if end else text[:-9])
     run.asked.clear()
     again = cdcr.sweep(run, {"pull": PULLS}, path=path, **OPTIONS)
     assert run.asked == PULLS[2:]

@@ -74,7 +74,10 @@ class Task:
         self._models = [self.model] * count
         self._substeps = np.full(count, self._substeps_of(self.model))
         self._periods = np.zeros(count, dtype=int)  # since the episode began
-        self._simulator: _core.Simulator | None = None  # of a robot that is the only one
+        # Of a robot that is the only one, and of those that a rollout would make forget.
+        remembers = self.model.num_deflections > 0 or self.model.has_backlash
+        self._by_themselves = count == 1 or remembers
+        self._simulators: dict[int, _core.Simulator] = {}
         self._threads = threads
         self._bounds = self.bounds
         size = self.model.num_coordinates
@@ -128,10 +131,11 @@ class Task:
         self.target[i] = given.get("target", self.model.tips(self._corners[i, 0]))
         self.q[i], self.qd[i] = given.get("q", self.q[i]), given.get("qd", self.qd[i])
         self._periods[i] = 0
-        if len(self.q) == 1:
+        if self._by_themselves:
             steps = int(self._substeps[i])
-            self._simulator = _core.Simulator(self._models[i], step=self._period, substeps=steps)
-            self._simulator.reset(self.q[i], self.qd[i])
+            simulator = _core.Simulator(self._models[i], step=self._period, substeps=steps)
+            simulator.reset(self.q[i], self.qd[i])
+            self._simulators[i] = simulator
         self.episode[i] += 1
 
     def step(
@@ -147,12 +151,14 @@ class Task:
             raise ValueError(f"action must have shape {shape}, got {given.shape}")
         share = self.drive.share(given)
         commands = self.drive.command(share)
-        if self._simulator is None:
+        if self._by_themselves:
+            for i in np.flatnonzero(active):
+                simulator = self._simulators[int(i)]
+                failed[i] = simulator.step(commands[i]) != _core.Status.ok
+                self.q[i], self.qd[i] = simulator.q, simulator.qd
+        else:
             for these in self._groups(active):
                 failed[these] = self._advance(these, commands[these])
-        elif active[0]:
-            failed[0] = self._simulator.step(commands[0]) != _core.Status.ok
-            self.q[0], self.qd[0] = self._simulator.q, self._simulator.qd
         self._periods += active & ~failed
         self._update()
         cost = self._cost / share.shape[1]
@@ -262,6 +268,8 @@ class Task:
 
     def _checked(self, options: Mapping[str, Any]) -> dict[str, FloatArray]:
         """Return the options of `reset`, or refuse them."""
+        if not isinstance(options, Mapping):
+            raise TypeError(f"options must be a mapping, got {type(options).__name__}")
         size = self.model.num_coordinates
         shapes = {"q": (size,), "qd": (size,)} | ({} if self.moving else {"target": (3,)})
         given = {}
@@ -272,4 +280,6 @@ class Task:
                 raise ValueError(
                     f"options[{name!r}] must have shape {shapes[name]}, got {given[name].shape}"
                 )
+        if "q" in given:
+            self.model.tips(given["q"])  # refuses what bends too far, before anything has changed
         return given

@@ -137,10 +137,13 @@ class RobotVectorEnv(VectorEnv[Observation, NDArray[np.float32], NDArray[Any]]):
             Observations and infos.
         """
         seeds: list[int | None]
+        several: Any = seed  # of any kind, as users may give
         if seed is None or isinstance(seed, (int, np.integer)):
             seeds = [None if seed is None else seed + i for i in range(self.num_envs)]
+        elif isinstance(several, (Sequence, np.ndarray)) and not isinstance(several, (str, bytes)):
+            seeds = list(several)
         else:
-            seeds = list(seed)
+            raise TypeError(f"seed must be a whole number or one of each robot, got {seed!r}")
         if len(seeds) != self.num_envs:
             raise ValueError(f"seed must be one number or {self.num_envs}, got {len(seeds)}")
         for i, one in enumerate(seeds):

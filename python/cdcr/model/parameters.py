@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import fields
 from typing import Any
 
@@ -37,7 +37,8 @@ class ParameterSets:
         TypeError
             For what is no path.
         """
-        names = (asked,) if isinstance(asked, str) else tuple(asked)
+        one: Any = asked  # of any kind, as users may give
+        names = tuple(one) if isinstance(one, Iterable) and not isinstance(one, str) else (one,)
         for name in names:
             if not isinstance(name, str):
                 raise TypeError(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from cdcr.base.check import nearest
@@ -31,6 +31,18 @@ def refuse_unknown(path: str, known: Sequence[str]) -> None:
     guess = nearest(path, [*known, *every])
     told = f"{guess} Known, where {EVERY} is a number from 1 or all: {', '.join(every)}"
     raise ValueError(f"there is no parameter {path!r}.{told}")
+
+
+def refuse_shared(found: Mapping[str, Sequence[Place]]) -> None:
+    """Raise a ValueError where two paths lead to the same number, which has one value."""
+    first: dict[tuple[int, Any], str] = {}
+    for path, there in found.items():
+        for thing, key in there:
+            other = first.setdefault((id(thing), key), path)
+            if other != path:
+                raise ValueError(
+                    f"parameters {other!r} and {path!r} lead to the same number: give one of them"
+                )
 
 
 def _find(thing: Any, words: Sequence[str]) -> Iterator[Place]:

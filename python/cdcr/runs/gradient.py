@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cdcr.base.arrays import FloatArray, ReadOnlyArrays, finite, read_only
-from cdcr.base.check import Check, require_kind
+from cdcr.base.check import Check, format_value, require_kind
 from cdcr.model.model import Model
 from cdcr.model.steps import AnyDynamics, Steps
 from cdcr.model.wrench import Wrench
@@ -184,17 +184,29 @@ def gradient(
     d = model.num_coordinates
     t = np.asarray(step * record_every * np.arange(len(states)), dtype=np.float64)
     motion = Motion(t, states[:, :d], states[:, d:])
-    value, slopes = cost(motion)
+    value, slopes = _told(cost(motion))
     by_start, by_tension, by_parameter = walk.backwards(
         checkpoints, _state_slopes(model, motion, slopes), record_every
     )
     return Gradient(
-        value=float(value),
+        value=value,
         q0=read_only(by_start[:d]),
         qd0=read_only(by_start[d:]),
         tension=read_only(by_tension if pulls.ndim == 2 else by_tension.sum(axis=0)),
         motion=motion,
         parameters=dict(zip(names, by_parameter.tolist(), strict=True)),
+    )
+
+
+def _told(answer: object) -> tuple[float, Mapping[str, ArrayLike]]:
+    """Return what a cost told: its value and a mapping of slopes, or refuse anything else."""
+    if isinstance(answer, (tuple, list)) and len(answer) == 2 and isinstance(answer[1], Mapping):
+        value = finite(answer[0], "cost")
+        if value.size == 1:
+            return float(value.item()), answer[1]
+    raise TypeError(
+        "cost must return a number and a mapping of its derivatives, such as {'q': ...}, got "
+        f"{format_value(answer)}"
     )
 
 

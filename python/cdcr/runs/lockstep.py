@@ -27,6 +27,11 @@ def run_in_lockstep(batch: Batch, function: BatchController, every: int) -> tupl
             f"control_every must divide the {batch.steps} steps, and record_every = {rows} or be a "
             f"multiple of it, got {every}"
         )
+    if any(model.num_deflections or model.has_backlash for model in batch.models):
+        raise ValueError(
+            "controller must not be a function where cables or drives remember, which would forget "
+            "from one call to the next: presliding_stiffness and backlash must be 0"
+        )
     return _Lockstep(batch, function, every).run()
 
 
@@ -51,8 +56,10 @@ class _Lockstep:
         step = 0
         try:
             while step < self.batch.steps and len(self.alive) > 0:
-                self._advance(step, self._asked(step * self.batch.step))
+                is_stopped = self._advance(step, self._asked(step))
                 step += self.every
+                if is_stopped:  # by Ctrl-C within it, of which the core tells in this way
+                    raise KeyboardInterrupt
                 if self.batch.progress is not None:
                     self.batch.progress(step)
         except KeyboardInterrupt:
@@ -66,16 +73,29 @@ class _Lockstep:
             total(self.costs),
         )
 
-    def _asked(self, t: float) -> FloatArray:
-        """Return the commands (N, num_cables) that the function gives."""
-        command = finite(self.function(t, *(np.array(state) for state in self.now)), "controller")
+    def _asked(self, step: int) -> FloatArray:
+        """Return the commands (N, num_cables) that the function gives, 0 to motions that failed."""
+        given = self.function(step * self.batch.step, *(np.array(state) for state in self.now))
         shape = (len(self.q), self.cables)
+        if len(self.alive) < shape[0] and np.shape(given) == shape:
+            given = np.array(given)
+            given[np.delete(np.arange(shape[0]), self.alive)] = 0
+        command = finite(given, "controller")
         if command.shape != shape:
             raise ValueError(f"controller must give commands of shape {shape}, got {command.shape}")
+        if np.min(command, initial=0.0) < 0.0:
+            i, j = (int(one[0]) for one in np.nonzero(command < 0.0))
+            raise ValueError(
+                f"the command of motion {i + 1}, step {step + 1}, cable {j + 1} must be finite and "
+                f">= 0 (a cable cannot push), got {command[i, j]:g}"
+            )
         return command
 
-    def _advance(self, k: int, command: FloatArray) -> None:
-        """Take all motions that go on through one period, and keep their rows."""
+    def _advance(self, k: int, command: FloatArray) -> bool:
+        """Take all motions that go on through one period, and keep their rows.
+
+        Returns whether that was interrupted.
+        """
         batch, alive = self.batch, self.alive
         inner = min(batch.record_every, self.every)
         several = len(batch.models) > 1
@@ -105,3 +125,4 @@ class _Lockstep:
             state[alive] = rows[:, -1]
         self.failures += [(int(alive[i]), status, message) for i, status, message in failures]
         self.alive = np.delete(alive, [i for i, _, _ in failures])
+        return any(status is _core.Status.interrupted for _, status, _ in failures)

@@ -11,7 +11,7 @@ from cdcr import _core
 from cdcr.base.arrays import FloatArray, finite, read_only
 from cdcr.model.model import Model
 from cdcr.robot.cable import Cable
-from cdcr.robot.numbers import find, paths, put, refuse_unknown
+from cdcr.robot.numbers import Place, find, paths, put, refuse_shared, refuse_unknown
 from cdcr.robot.plain import core_robot, plain_robot
 from cdcr.robot.robot import Robot
 from cdcr.robot.section import Section
@@ -41,17 +41,31 @@ class Variation:
             got = type(parameters).__name__
             raise TypeError(f"parameters must be a mapping of paths to arrays, got {got}")
         table = plain_robot(model.robot)
+        found: dict[str, list[Place]] = {}
         for path, given in parameters.items():
-            if not find(table, str(path)):
+            if not isinstance(path, str):
+                raise TypeError(
+                    f"parameters must be paths, such as 'sections.1.youngs_modulus', got {path!r}"
+                )
+            places = find(table, path)
+            if not places:
                 refuse_unknown(path, list(paths(table)))
             values = np.array(finite(given, f"parameters[{path!r}]"))
             if values.ndim != 1:
                 raise ValueError(f"parameters[{path!r}] must have shape (N,), got {values.shape}")
+            if any(isinstance(thing[key], int) for thing, key in places):
+                _refuse_fractions(path, values)
             self.values[path] = read_only(values)
+            found[path] = places
+        refuse_shared(found)
         sizes = {path: len(values) for path, values in self.values.items()}
         if len(set(sizes.values())) > 1:
             told = ", ".join(f"{size} of {path}" for path, size in sizes.items())
             raise ValueError(f"parameters must have as many values of each, got {told}")
+
+    def spread(self, motions: int) -> dict[str, FloatArray]:
+        """Return the values of so many motions, where one value may stand for all of them."""
+        return {path: np.broadcast_to(one, (motions,)) for path, one in self.values.items()}
 
     def __len__(self) -> int:
         """Return the number of robots."""
@@ -85,3 +99,10 @@ class Variation:
         table["sections"] = [Section(**one) for one in table["sections"]]
         table["cables"] = [Cable(**one) for one in table["cables"]]
         return Model(Robot(**table), self.model.formulation)
+
+
+def _refuse_fractions(path: str, values: FloatArray) -> None:
+    """Refuse values that are not whole for a number that is, such as how many disks there are."""
+    odd = values[values != np.round(values)]
+    if odd.size:
+        raise ValueError(f"parameters[{path!r}] must be whole numbers, got {odd[0]:g}")

@@ -108,7 +108,8 @@ def rollout(
         In place of `command`. A `Pid`, copied for each motion; one for each, written in C++; or a
         function ``f(t, q, qd)`` of the time [s] and the states (N, d) of all motions, which returns
         the commands (N, num_cables): all motions then go on together. It sees NaN of those that
-        failed, whose commands are not used.
+        failed, whose commands are not used. Robots whose cables or drives remember
+        (`presliding_stiffness`, backlash) take no function.
     control_every : int, optional
         Steps from one call of that function to the next.
     wrenches : Wrench or sequence of Wrench, optional
@@ -198,12 +199,19 @@ def rollout(
         ask_about_commands(first.robot, commands)
     drivers = _drivers(controller)
     together = controller is not None and not drivers and callable(controller)
-    motions = _count(
-        models, variation, q0=starts[0], qd0=starts[1], commands=commands, drivers=drivers
+    if not together and whole["control_every"] != 1:
+        raise ValueError("control_every is for a function as controller, and there is none")
+    motions = agree(
+        q0=len(starts[0]),
+        qd0=len(starts[1]),
+        model=len(models),
+        parameters=len(variation) if variation.values else 1,
+        **{name: 1 if commands is None else len(commands)},
+        controller=len(drivers) or 1,
     )
     d = first.num_coordinates
     batch = Batch(
-        models=variation.models() if variation.values else models,
+        models=(variation.models() if variation.values else ()) or models,
         q0=np.broadcast_to(starts[0], (motions, d)),
         qd0=np.broadcast_to(starts[1], (motions, d)),
         commands=commands,
@@ -230,7 +238,7 @@ def rollout(
         told = np.broadcast_to(table, (motions, len(rows), first.num_cables))
     return Rollout(
         models=models,
-        parameters=variation.values,
+        parameters=variation.spread(motions),
         t=np.asarray(seconds * rows, dtype=np.float64),
         q=q,
         qd=qd,
@@ -246,7 +254,7 @@ def _models(given: object) -> tuple[Model, ...]:
     if isinstance(given, Model):
         return (given,)
     if not isinstance(given, Sequence) or len(given) == 0:
-        kind = type(given).__name__
+        kind = "no one" if isinstance(given, Sequence) and not given else type(given).__name__
         raise TypeError(f"model must be a cdcr.Model, or a sequence of them, got {kind}")
     for i, one in enumerate(given):
         require_kind(f"model[{i}] (motion {i + 1})", one, Model)
@@ -282,36 +290,20 @@ def _commands(model: Model, name: str, given: ArrayLike | None, steps: int) -> F
         raise TypeError(f"a function of the states of all motions is a controller, not a {name}")
     array = finite(model.rest_command() if given is None else given, name)
     cables = model.num_cables
-    most = 3 if steps > 0 else 2
-    if not 1 <= array.ndim <= most or array.shape[-1] != cables:
+    if not 1 <= array.ndim <= 3 or array.shape[-1] != cables:
         known = f"({cables},), (N, {cables}) or (N, {steps}, {cables})"
         raise ValueError(f"{name} must have shape {known}, got {array.shape}")
     if array.ndim == 3 and array.shape[1] != steps:
         raise ValueError(
             f"{name} must have shape (N, {steps}, {cables}), a row for each step, got {array.shape}"
         )
+    if array.ndim == 3 and steps == 0:  # none is held, and the only row needs one
+        return np.broadcast_to(model.rest_command(), (len(array), 1, cables))
     return array if array.ndim == 3 else np.atleast_2d(array)[:, None, :]
 
 
-def _count(
-    models: Sequence[Model],
-    variation: Variation,
-    *,
-    q0: FloatArray,
-    qd0: FloatArray,
-    commands: FloatArray | None,
-    drivers: Sequence[object],
-) -> int:
+def agree(**sizes: int) -> int:
     """Return how many motions there are: what all that stand for more than one agree on."""
-    sizes = {"q0": len(q0), "qd0": len(qd0)}
-    if len(models) > 1:
-        sizes["model"] = len(models)
-    if variation.values:
-        sizes["parameters"] = len(variation)
-    if commands is not None:
-        sizes["tension"] = len(commands)
-    if len(drivers) > 0:
-        sizes["controller"] = len(drivers)
     several = {name: size for name, size in sizes.items() if size != 1}
     if len(set(several.values())) > 1:
         told = ", ".join(f"{size} of {name}" for name, size in several.items())

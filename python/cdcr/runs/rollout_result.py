@@ -6,6 +6,7 @@ import json
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, field
 from functools import cached_property
+from numbers import Integral
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -13,7 +14,7 @@ from numpy.typing import NDArray
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray, ReadOnlyArrays, read_only
-from cdcr.base.check import count
+from cdcr.base.check import count, format_value
 from cdcr.base.extras import require
 from cdcr.model.model import Model
 from cdcr.runs.parameters import Variation
@@ -48,7 +49,8 @@ class RolloutFailure(NamedTuple):
 class Rollout(ReadOnlyArrays):
     """Many motions of a robot, or of robots that differ in numbers. All arrays are read-only.
 
-    ``rollout[i]`` is motion i as a `Trajectory`, with the rows that it reached.
+    ``rollout[i]`` is motion i as a `Trajectory`, with the rows that it reached. Its tensions are
+    NaN for cables whose drive has play: rows do not tell where in it the drive stands.
 
     Parameters
     ----------
@@ -149,17 +151,22 @@ class Rollout(ReadOnlyArrays):
         ------
         IndexError
             For an index out of range.
+        TypeError
+            For what is no index, such as a slice.
         ValueError
             For a motion that did not begin.
         """
+        if not isinstance(motion, Integral):
+            got = format_value(motion)
+            raise TypeError(f"a motion is asked for by its index, a whole number, got {got}")
         if not -self.num_motions <= motion < self.num_motions:
             raise IndexError(f"there are {count(self.num_motions, 'motion')}, got index {motion}")
-        i = motion % self.num_motions
+        i = int(motion) % self.num_motions
         model = self.model_of(i)
         reached = int(np.isfinite(self.q[i]).all(axis=1).sum())
         q, qd, command = (rows[i, :reached] for rows in (self.q, self.qd, self.command))
         failed = [failure for failure in self.failures if failure.motion == i]
-        return Trajectory(
+        run = Trajectory(
             model=model,
             t=self.t[:reached],
             q=q,
@@ -171,6 +178,10 @@ class Rollout(ReadOnlyArrays):
             method=self.method,
             command=command,
         )
+        if model.has_backlash:
+            loose = [cable.backlash > 0.0 for cable in model.robot.all_cables]
+            object.__setattr__(run, "tension", read_only(np.where(loose, np.nan, run.tension)))
+        return run
 
     def to_xarray(self) -> xarray.Dataset:
         """Return the rows as a Dataset with named dimensions and units. Needs the extra ``data``.
@@ -194,7 +205,8 @@ class Rollout(ReadOnlyArrays):
             ("command", self.command, "what was asked of the cables"),
         ):
             dims, units = export.dims_and_units(self.model, name)
-            shaped = values.reshape(*values.shape[:2], -1, 2) if len(dims) == 2 else values
+            pairs = (*values.shape[:2], values.shape[2] // 2, 2)  # also where there is no motion
+            shaped = values.reshape(pairs) if len(dims) == 2 else values
             about = {"units": units, "long_name": what}
             data[name] = (("motion", "time", *dims), shaped, about)
         for path, numbers in self.parameters.items():

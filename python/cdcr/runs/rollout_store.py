@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 import secrets
 import shutil
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import partial
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -14,11 +15,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cdcr import _core
+from cdcr.base.arrays import finite
 from cdcr.base.check import Check
 from cdcr.base.extras import require
 from cdcr.files.new_file import REPLACE, file_path
 from cdcr.model.model import Model
-from cdcr.runs.rollout import rollout
+from cdcr.runs.rollout import agree, rollout
 from cdcr.runs.rollout_result import Rollout
 from cdcr.runs.stats import STATS, total
 
@@ -54,7 +56,8 @@ def rollout_to_zarr(
     overwrite : bool, optional
         Whether an existing folder may be replaced.
     **options
-        The other arguments of `rollout`. A function as controller sees the motions of a chunk.
+        The other arguments of `rollout`. A function as controller sees the motions of a chunk;
+        ``progress`` is told of all chunks together.
 
     Returns
     -------
@@ -97,8 +100,8 @@ def rollout_to_zarr(
     try:
         done = 0
         costs, failures = [], []
-        whole = {"q0": q0, "qd0": qd0, "tension": tension, **options}
-        for given in _chunks(size, model, whole):
+        whole = {"model": model, "q0": q0, "qd0": qd0, "tension": tension, **options}
+        for given in _chunks(size, whole):
             runs = rollout(**given)
             if any(one.status is _core.Status.interrupted for one in runs.failures):
                 raise KeyboardInterrupt
@@ -121,46 +124,52 @@ def _check(folder: Path, overwrite: bool) -> None:
         raise ValueError(f"the folder's name must end in .zarr, got {folder.name!r}")
     if not folder.parent.is_dir():
         raise FileNotFoundError(f"the folder {folder.parent} does not exist; make it first")
+    if folder.exists() and not folder.is_dir():
+        raise FileExistsError(f"{folder} is a file, where a folder is to be: remove it")
     if folder.exists() and not overwrite:
         raise FileExistsError(f"{folder} exists; {REPLACE}")
 
 
-def _chunks(
-    size: int, model: Model | Sequence[Model], options: Mapping[str, Any]
-) -> Iterator[dict[str, Any]]:
+def _chunks(size: int, whole: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
     """Yield the arguments of each chunk: what there is of each motion in parts, the rest whole."""
-    parameters = {
-        name: np.asarray(values) for name, values in (options.get("parameters") or {}).items()
-    }
-    arrays = {
-        name: np.asarray(options[name])
-        for name in ("q0", "qd0", "tension", "command")
-        if options.get(name) is not None and not callable(options[name])
-    }
-    lists = {
-        name: things
-        for name, things in (("model", model), ("controller", options.get("controller")))
-        if isinstance(things, Sequence)
-    }
-    several = [len(one) for one in lists.values()]
-    several += [len(one) for one in parameters.values() if one.ndim > 0]
-    several += [len(one) for one in arrays.values() if one.ndim > 1]
-    count = next((size for size in several if size != 1), 1)
-
+    given = dict(whole)
+    if isinstance(given.get("wrenches"), Iterable):
+        given["wrenches"] = tuple(given["wrenches"])  # each chunk goes through them
+    sizes = {}
+    for name in ("q0", "qd0", "tension", "command"):
+        if given.get(name) is not None and not callable(given[name]):
+            given[name] = finite(given[name], name)
+            sizes[name] = len(given[name]) if given[name].ndim > 1 else 1
+    for name in ("model", "controller"):
+        if isinstance(given.get(name), Sequence):
+            sizes[name] = len(given[name])
+    of_each = given.get("parameters")
+    if isinstance(of_each, Mapping):
+        of_each = {name: finite(one, f"parameters[{name!r}]") for name, one in of_each.items()}
+        given["parameters"] = of_each
+        sizes |= {f"parameters[{name!r}]": np.size(one) for name, one in of_each.items()}
+    count = agree(**sizes)
+    told = given.get("progress")
     for first in range(0, max(count, 1), size):
-        chosen = slice(first, first + size)
-        part = {"model": model, **options}
-        part |= {
-            name: one[chosen] if one.ndim > 1 and len(one) == count else one
-            for name, one in arrays.items()
+        cut = partial(_cut, count=count, part=slice(first, first + size))
+        part = given | {
+            name: cut(given[name]) for name in sizes if sizes[name] > 1 and name in given
         }
-        part |= {name: one[chosen] if len(one) == count else one for name, one in lists.items()}
-        if parameters:
-            part["parameters"] = {
-                name: one[chosen] if one.ndim and len(one) == count else one
-                for name, one in parameters.items()
-            }
+        if isinstance(of_each, Mapping):
+            part["parameters"] = {name: cut(one) for name, one in of_each.items()}
+        if callable(told):
+            part["progress"] = partial(_tell, told, first)
         yield part
+
+
+def _cut(things: Any, count: int, part: slice) -> Any:
+    """Return a part of what there is of each motion, or what is of all of them."""
+    return things[part] if count != 1 and np.ndim(things) > 0 and len(things) == count else things
+
+
+def _tell(progress: Callable[[int], object], before: int, ended: int) -> None:
+    """Tell how many motions have ended in this chunk and those before."""
+    progress(before + ended)
 
 
 def _append(runs: Rollout, part: Path, first: int, chunk: int) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -69,6 +69,9 @@ def asked_of(model: Model, names: str | Sequence[str]) -> Asked:
     TypeError
         For what is no name.
     """
+    if not isinstance(names, Iterable):
+        must = "names, such as 'q0', 'tension' or 'payload'"
+        raise TypeError(f"sensitivities must be {must}, got {names!r}")
     given = (names,) if isinstance(names, str) else tuple(names)
     if not given:
         return Asked(())

@@ -56,9 +56,12 @@ def make_design(
     parameters: Mapping[str, Values] | Iterable[str], samples: str | ArrayLike | None, seed: int
 ) -> Design:
     """Return the values of a sweep, as `cdcr.sweep` takes them, or refuse them in a sentence."""
-    if isinstance(parameters, str):
+    if isinstance(parameters, str) or not isinstance(parameters, Iterable):
         raise ValueError(f"parameters must be a mapping from names to values, got {parameters!r}")
     names = tuple(parameters)
+    for name in names:
+        if not isinstance(name, str):
+            raise ValueError(f"a parameter must have a name, got {format_value(name)}")
     if not names:
         raise ValueError("a sweep must have a parameter, got none")
     twice = next((one for i, one in enumerate(names) if one in names[:i]), None)
@@ -110,7 +113,8 @@ def _refuse_too_many(number: int) -> None:
 def _kind_and_number(samples: str, d: int) -> tuple[Kind, int]:
     kind, _, text = samples.partition(":")
     if kind not in SAMPLED:
-        raise ValueError(f"samples must be {_SHAPE}, got {samples!r}.{nearest(kind, SAMPLED)}")
+        guess = nearest(kind, SAMPLED)
+        raise ValueError(f"samples must be {_SHAPE}, got {samples!r}{'.' if guess else ''}{guess}")
     number = int(text) if text.isascii() and text.isdigit() else 0
     if number < 1:
         raise ValueError(f"samples must be {_SHAPE}, got {samples!r}")

@@ -53,6 +53,8 @@ def plot(result: xarray.Dataset, *, size: Size = None) -> Figure:
     ------
     ValueError
         Where `size` is none of these.
+    TypeError
+        For what is no sweep.
 
     Examples
     --------

@@ -26,12 +26,14 @@ def sobol_indices(result: xarray.Dataset) -> xarray.Dataset:
     xarray.Dataset
         ``first_order`` and ``total_order`` (metric, parameter) [1]: the share of a metric's
         variance that a parameter makes by itself, and with all others together. By
-        `scipy.stats.sobol_indices`; NaN where any run has no value of the metric.
+        `scipy.stats.sobol_indices`; NaN where any run has no value of the metric, or all the same.
 
     Raises
     ------
     ValueError
         For a sweep over other samples.
+    TypeError
+        For what is no sweep.
 
     Examples
     --------
@@ -49,15 +51,20 @@ def sobol_indices(result: xarray.Dataset) -> xarray.Dataset:
     """
     stats: Any = require("scipy.stats", "sweep")
     xr: Any = require("xarray", "sweep")
+    parameters = parameter_names(result)
     kind = result.attrs.get("samples")
     if kind != "saltelli":
         raise ValueError(f"Sobol indices need samples 'saltelli:N', and this sweep is of {kind!r}")
-    metrics, parameters = metric_names(result), parameter_names(result)
+    metrics = metric_names(result)
     number = result.sizes["run"] // (len(parameters) + 2)
     found = np.full((2, len(metrics), len(parameters)), np.nan)
     for i, name in enumerate(metrics):
         values = result[name].values.reshape(-1, 1, number)  # of A, B, and A with each from B
-        if np.all(np.isfinite(values)):
+        if np.ptp(values) == 0.0 or not np.all(np.isfinite(values)):
+            continue  # no variance to share out
+        if len(parameters) == 1:
+            found[:, i] = 1.0  # all of it is that of the one, which SciPy does not take
+        else:
             parts = {"f_A": values[0], "f_B": values[1], "f_AB": values[2:]}
             indices = stats.sobol_indices(func=parts, n=number)
             found[:, i] = np.atleast_1d(indices.first_order), np.atleast_1d(indices.total_order)

@@ -15,8 +15,8 @@ from typing import NamedTuple, TypeAlias
 from cdcr import scenarios
 from cdcr._core import __version__
 from cdcr.base.arrays import FloatArray
-from cdcr.base.check import nearest
-from cdcr.robot.numbers import Table, put
+from cdcr.base.check import known_name, nearest
+from cdcr.robot.numbers import Table, put, refuse_shared
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.file.whole import scenario_from_table, whole_table
 from cdcr.scenarios.scenario import Scenario
@@ -73,10 +73,11 @@ Source: TypeAlias = FileSource | FunctionSource
 def file_source(source: str | PathLike[str], names: tuple[str, ...]) -> FileSource:
     """Return the runs of a scenario, by name or file, or refuse it or parameters."""
     is_known = isinstance(source, str) and source.replace("_", "-") in scenarios.names()
+    if isinstance(source, str) and source == Path(source).stem and not Path(source).exists():
+        source = known_name("scenario", source, scenarios.names())  # or refuses it
     file = scenarios.source_file(str(source)) if is_known else Path(source)
     table = whole_table(file)
-    for name in names:
-        places(table, name)
+    refuse_shared({name: places(table, name) for name in names})
     return FileSource(Path(file.name) if is_known else file, table, names)
 
 
@@ -91,10 +92,8 @@ def function_source(function: Callable[..., Trajectory], names: tuple[str, ...])
     takes_any = any(one.kind is inspect.Parameter.VAR_KEYWORD for one in parameters)
     for name in () if takes_any else names:
         if name not in known:
-            listed = ", ".join(known)
-            raise ValueError(
-                f"there is no parameter {name!r}.{nearest(name, known)} Known: {listed}"
-            )
+            listed = f"Known: {', '.join(known)}" if known else "The function takes none"
+            raise ValueError(f"there is no parameter {name!r}.{nearest(name, known)} {listed}")
     missing = [
         one.name
         for one in parameters

@@ -34,7 +34,13 @@ def metric_names(result: xarray.Dataset) -> list[str]:
 
 def parameter_names(result: xarray.Dataset) -> list[str]:
     """Return the names of the parameters of a sweep."""
-    return list(json.loads(result.attrs["sweep"])["parameters"])
+    try:
+        return list(json.loads(result.attrs["sweep"])["parameters"])
+    except (AttributeError, KeyError, TypeError, ValueError):
+        got = type(result).__name__
+        raise TypeError(
+            f"result must be a Dataset of cdcr.sweep, or one read from its file, got {got}"
+        ) from None
 
 
 def make_dataset(

@@ -35,7 +35,7 @@ from cdcr.sweeps.jobs import (
 from cdcr.sweeps.metrics import MetricNames, find_metrics
 from cdcr.sweeps.paths import unit
 from cdcr.sweeps.store import Store, differences, partial_path, store
-from cdcr.sweeps.workers import AHEAD, Workers, WorkersLost, workers
+from cdcr.sweeps.workers import AHEAD, LOCAL, Workers, WorkersLost, workers
 
 if TYPE_CHECKING:
     import xarray
@@ -145,6 +145,11 @@ def sweep(
     if chunk is not None:
         check.whole("chunk", chunk, f"a whole number 1 to {LARGEST}", low=1, high=LARGEST)
     check.done()
+    if progress is not None and not callable(progress):
+        raise TypeError(f"progress must be a function of two numbers, got {format_value(progress)}")
+    if scheduler is not None and not isinstance(scheduler, str):
+        must = f"an address, such as 'tcp://10.0.0.1:8786', or {LOCAL!r}"
+        raise TypeError(f"scheduler must be {must}, got {format_value(scheduler)}")
     target = None if path is None else file_path(path)
     if target is not None:
         result.check_path(target)

@@ -94,9 +94,17 @@ def _alone(path: Path) -> Iterator[BinaryIO]:
                 ) from None
             except OSError:  # a file system without locks
                 pass
-            if path.exists() and path.stat().st_ino == os.fstat(file.fileno()).st_ino:
+            if _is_at(path, file):
                 yield file
                 return
+
+
+def _is_at(path: Path, file: BinaryIO) -> bool:
+    """Whether an open file still has that name, which another sweep may have removed."""
+    try:
+        return os.path.samestat(path.stat(), os.fstat(file.fileno()))
+    except FileNotFoundError:
+        return False
 
 
 def _read(
@@ -120,14 +128,23 @@ def _read(
         raise FileExistsError(f"{path} holds finished runs of a sweep with {different}; {REPLACE}")
     whole = len(first)
     for line in file:
-        found = _parsed(line)
+        found = _outcomes(_parsed(line))
         if found is None:
             break
-        numbers, ended = found
-        for number, (values, status, message) in zip(numbers, ended, strict=True):
-            outcomes[number] = Outcome(tuple(values), status, message)
+        outcomes |= found
         whole += len(line)
     return whole
+
+
+def _outcomes(line: Any) -> dict[int, Outcome] | None:
+    """Return the runs of a line, None where it is no line of runs; what follows does not count."""
+    try:
+        return {
+            int(number): Outcome(tuple(map(float, values)), str(status), str(message))
+            for number, (values, status, message) in zip(*line, strict=True)
+        }
+    except (TypeError, ValueError):
+        return None
 
 
 def _parsed(line: bytes) -> Any:
