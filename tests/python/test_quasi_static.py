@@ -62,6 +62,16 @@ def test_it_says_what_it_does_not_take() -> None:
         )
     with pytest.raises(cdcr.ConvergenceError, match="Stopped before sample 2 of 2"):
         cdcr.quasi_static(model, pulls(1.0, 5e3))
+    with pytest.raises(ValueError, match="after must have reached a sample to go on from"):
+        cdcr.quasi_static(
+            model, pulls(1.0), after=cdcr.quasi_static(model, pulls(5e3), throw=False)
+        )
+    with pytest.raises(ValueError, match="after must be a run of this robot, got one of 6 coord"):
+        cdcr.quasi_static(
+            model,
+            pulls(1.0),
+            after=cdcr.quasi_static(cdcr.Model(cdcr.robots.three_sections()), np.zeros((1, 9))),
+        )
     run = cdcr.quasi_static(model, pulls(1.0, 5e3), throw=False)
     assert len(run) == 1
     assert run.status is cdcr.Status.not_converged

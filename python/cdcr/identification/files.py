@@ -38,6 +38,7 @@ _UNITS = {
     "N or m": ("N or m", 1.0),  # as files of runs say of commands
 }
 _COLUMN = re.compile(r"(?P<name>[^\[\]]*[^\[\]\s])\s*\[(?P<unit>[^\]]*)\]")
+_WHOLE = re.compile(r"t|(cable|pull|command) \d+")  # columns without gaps
 _OF_A_RUN = re.compile(r"(qd\d+ [xy]|theta\d+|phi\d+|.*energy)")  # that say nothing new
 
 
@@ -73,7 +74,8 @@ class Table:
             k = header.index(column)
             cells = [row[k] for _, row in rows[::every]]
             self._header[name], self._units[name] = column, unit
-            self.columns[name] = factor * self._numbers(cells, column, gaps)
+            may = "never" if _WHOLE.fullmatch(name) else gaps
+            self.columns[name] = factor * self._numbers(cells, column, may)
 
     def _chosen(
         self, header: Sequence[str], columns: Mapping[str, str] | None
@@ -108,13 +110,18 @@ class Table:
         if bad.size:
             i = int(bad[0])
             got = f"got {cells[i]!r}" if cells[i].strip() else "got nothing"
-            hint = "; gaps = 'skip' leaves out what was not measured" if empty[i] else ""
+            skip = empty[i] and gaps != "never"
+            hint = "; gaps = 'skip' leaves out what was not measured" if skip else ""
             raise ValueError(f"{self._lines[i]}: {column} must be a number, {got}{hint}")
         return values
 
     def where(self, row: int, column: str) -> str:
         """Name a place in the file by its line, and by the name that the column has there."""
         return f"{self._lines[row]}: {self._header.get(column, column)}"
+
+    def called(self, name: str) -> str:
+        """Return what a column is called in the file."""
+        return self._header[name]
 
     def commands(self, kind: str, count: int, units: Sequence[str]) -> FloatArray:
         """Return the columns that are commands; refusals call them by the names they have."""
@@ -134,7 +141,7 @@ class Table:
             return None
         for name in names:
             if name not in self.columns:
-                known = ", ".join(self.columns) or "none"
+                known = ", ".join(self._header.values()) or "none"
                 raise ValueError(
                     f"{self.file}, line 1: there must be a column '{name} [{units[0]}]', and the "
                     f"columns are {known}"
@@ -215,6 +222,12 @@ def _measured(
         given["pulled"], command = True, table.commands("pull", count, ["m"])
     elif "command" in given:
         command = given.pop("command")
+        twice = [name for name in table.columns if re.fullmatch(r"(cable|command) \d+", name)]
+        if twice:
+            raise ValueError(
+                f"{table.file}, line 1: column {table.called(twice[0])!r} is a command, and so is "
+                "what 'command' tells: leave out one of them"
+            )
     elif "command 1" in table.columns:
         command = table.commands("command", count, ["N or m", "N", "m"])
         table.take([f"tension {j}" for j in cables], ["N"])  # in a run's file: what came of it

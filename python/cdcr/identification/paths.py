@@ -9,7 +9,7 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 from cdcr.base.check import entry, nearest
-from cdcr.identification.setup import Plain
+from cdcr.identification.setup import MOUNTING, Plain
 from cdcr.robot.cable import Cable
 from cdcr.robot.robot import Robot
 from cdcr.robot.section import Section
@@ -32,6 +32,13 @@ _SHARED = {
     "command_offset": "N or m",
     "command_gain": "",
 }
+# What has so many numbers that words name what can be sought of them.
+_WHOLES = {
+    "tool": "; 'tip offset' can",
+    "base_orientation": "; 'base tilt' and 'base yaw' can",
+    "payload_inertia": "",
+}
+_NO_NUMBERS = ("sections", "cables", *MOUNTING, "places", "marker_offset")
 _OF_CABLES = (
     "radius", "stiffness", "damping", "friction", "entry_friction", "sheath_friction", "viscosity",
     "pretension", "backlash",
@@ -99,7 +106,8 @@ def quantities_of(path: str, robot: Robot, plain: Plain, first: int = 0) -> list
     if not isinstance(path, str):
         raise ValueError(f"a parameter must be named by a path, got {path!r}")
     words = re.fullmatch(r"(.+?)(?: ([xyz]))?", path.strip())
-    assert words is not None
+    if words is None:
+        raise ValueError(_unknown(path, robot))
     if path in _WORDS or words[1] in _WORDS:
         return list(_by_words(path, *words.groups(), robot=robot, plain=plain))
     if marker := re.fullmatch(r"marker (?:(\d+) )?offset(?: ([xyz]))?", path):
@@ -164,9 +172,13 @@ def _slots(
             who = f"all {home}" if i is None else entry(home, i)
             groups += _of_things(path, robot, plain, home, who, chosen, field, inner, first)
         return groups
-    if field is None and home in plain and home not in ("sections", "cables"):
+    if field is None and home in _WHOLES:
+        raise ValueError(
+            f"parameter {path!r}: {home} is no number that can be sought{_WHOLES[home]}"
+        )
+    if field is None and home in plain and home not in _NO_NUMBERS:
         if isinstance(plain[home], list):
-            if pick is None or isinstance(plain[home][0], list):
+            if pick is None:
                 raise ValueError(
                     f"parameter {path!r}: {home} has several numbers, pick one: {home}[{first}]"
                 )
