@@ -196,3 +196,35 @@ def test_columns_of_files(tmp_path: Path) -> None:
     file.write_text("# measured today\n" + file.read_text())
     with refused(f"{file}, line 2: must have 1 column, got 9"):
         Poses.load(file, ROBOT)
+
+
+def test_files_of_runs_of_rods(tmp_path: Path) -> None:
+    section = cdcr.Section(
+        length=0.3, backbone_mass=0.01, backbone_diameter=2e-3, youngs_modulus=60e9,
+        shear_modulus=23e9, cable_radius=0.01, cable_angles=[0.0, 2.1, 4.2], damping=1e-3,
+        twist_damping=1e-4, stretch_damping=0.1, bending_order=1, twist_order=1, stretch_order=0,
+    )  # fmt: skip
+    robot = cdcr.Robot(sections=[section, section])
+    rest = np.zeros(cdcr.Model(robot).num_coordinates)
+    run = cdcr.simulate(
+        cdcr.Model(robot), rest, rest, t=np.linspace(0.0, 0.1, 5), tension=[2.0, 0, 0, 0, 0, 0]
+    )
+    file = run.save(tmp_path / "run.csv")
+    assert [one.name for one in Motion.load(file, robot).channels] == ["tip"]
+    header, *rows = (line.split(",") for line in file.read_text().splitlines())
+    keep = [k for k, name in enumerate(header) if not name.startswith("tip")]
+
+    def written(scale: float) -> Path:
+        lines = [[header[k] for k in keep]]
+        for row in rows:
+            lines.append([
+                repr(scale * float(row[k])) if header[k] == "q2_x [rad]" else row[k] for k in keep
+            ])  # fmt: skip
+        file.write_text("\n".join(map(",".join, lines)))
+        return file
+
+    (channel,) = Motion.load(written(1.0), robot).channels
+    np.testing.assert_array_equal(channel.values, run.q)
+    far = Motion.load(written(1e6), robot)
+    with pytest.raises(ValueError, match=r"run.csv, line \d: q2_x \[rad\] = .* is it in deg"):
+        cdcr.identify(far, robot, {"sections[*].damping": None})

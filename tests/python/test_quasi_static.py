@@ -121,6 +121,24 @@ def test_motion_remembers_by_every_method(method: Any) -> None:
     assert np.max(np.abs(rest.q - run.q)) < 0.03
 
 
+@pytest.mark.parametrize("suffix", ["nc", "csv"])
+def test_files_keep_what_friction_remembers(tmp_path: Path, suffix: str) -> None:
+    model = cdcr.Model(rubbing(presliding_stiffness=2e4))
+    t = np.linspace(0.0, 2.0, 21)
+    run = cdcr.simulate(model, [0.3, 0.0], [0, 0], t=t, tension=[5.0, 0.0, 0.0])
+    if suffix == "nc":
+        pytest.importorskip("xarray")
+    file = run.save(tmp_path / f"run.{suffix}")
+    again = cdcr.Trajectory.load(file, model=model)
+    assert run.deflection is not None
+    np.testing.assert_array_equal(again.deflection, run.deflection)
+    np.testing.assert_array_equal(again.friction_power, run.friction_power)
+    if suffix == "csv":
+        assert len(cdcr.identification.Motion.load(file, model.robot)) == 21
+    with pytest.raises(ValueError, match=r"deflection must have shape \(21, 3\), got \(21, 2\)"):
+        replace(run, deflection=run.deflection[:, :2])
+
+
 def test_a_drive_with_play_takes_no_function() -> None:
     robot = rubbing()
     section = replace(robot.sections[0], cable_stiffness=1e4, cable_backlash=1e-3)

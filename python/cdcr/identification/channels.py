@@ -192,9 +192,10 @@ def ask_about_cables(channel: Channel, command: FloatArray, robot: Robot, where:
         raise ValueError(f"{where(row, column)} = {values[row, j]:g} {channel.unit}, {beside[j]}")
 
 
-def ask_about_shapes(values: FloatArray, where: Where) -> None:
+def ask_about_shapes(values: FloatArray, robot: Robot, where: Where) -> None:
     """Refuse bending vectors beyond what the model allows: they ask for a unit."""
-    for row, k in np.argwhere(np.abs(values) > 3.0 * np.pi)[:1]:
+    bends = np.array([name.startswith("q") for name in Model(robot).coordinate_names])
+    for row, k in np.argwhere((np.abs(values) > 3.0 * np.pi) & bends)[:1]:
         raise ValueError(
             f"{where(row, column_name('q', k))} = {values[row, k]:g} rad, and no section bends "
             "beyond 3 pi rad: is it in deg?"

@@ -179,7 +179,7 @@ def check_channels(
         if channel.unit == "m" and size == 3:
             ask_about_places(channel.values, robot, where, channel.name)
         elif channel.name == "q":
-            ask_about_shapes(channel.values, where)
+            ask_about_shapes(channel.values, robot, where)
         elif channel.name in sizes:
             ask_about_cables(channel, command, robot, where)
 

@@ -18,6 +18,7 @@ from cdcr.files.new_file import file_path
 from cdcr.files.number_csv import number, read_rows
 from cdcr.identification.channels import whole
 from cdcr.identification.setup import Place
+from cdcr.model.model import Model
 
 if TYPE_CHECKING:
     from cdcr.robot.robot import Robot
@@ -39,7 +40,9 @@ _UNITS = {
 }
 _COLUMN = re.compile(r"(?P<name>[^\[\]]*[^\[\]\s])\s*\[(?P<unit>[^\]]*)\]")
 _WHOLE = re.compile(r"t|(cable|pull|command) \d+")  # columns without gaps
-_OF_A_RUN = re.compile(r"(qd\d+ [xy]|theta\d+|phi\d+|.*energy)")  # that say nothing new
+_OF_A_RUN = re.compile(
+    r"(qd\d+ [xy]( \d+)?|[te]d\d+( \d+)?|theta\d+|phi\d+|deflection\d+|.*energy)"
+)  # that say nothing new
 
 
 class Table:
@@ -131,6 +134,17 @@ class Table:
         for j, name in enumerate(names):
             self._header[f"cable {j + 1}"] = self._header[name]
         return found
+
+    def shapes(self, names: Sequence[str]) -> FloatArray | None:
+        """Return the columns that are coordinates; refusals call them by the names they have."""
+        plain = [name.replace("_", " ") for name in names]
+        if not any(name in self.columns for name in plain):
+            return None
+        found = []
+        for k, name in enumerate(plain):
+            found.append(self.take([name], ["m" if name.startswith("e") else "rad"], needed=True))
+            self._header[f"q {k + 1}"] = self._header[name]
+        return np.concatenate(found, axis=1)
 
     def take(
         self, names: Sequence[str], units: Sequence[str], *, needed: bool = False
@@ -244,8 +258,7 @@ def _measured(
     }
     for name, (labels, unit) in names.items():
         given[name] = table.take(labels, [unit])
-    shapes = [f"q{i + 1} {axis}" for i in range(len(robot.sections)) for axis in "xy"]
-    q = table.take(shapes, ["rad"])
+    q = table.shapes(Model(robot).coordinate_names)
     # The file of a run has shapes beside the tip, which only a simulation knows.
     given["q"] = q if given["tip"] is None and not markers else None
     given["markers"] = {

@@ -57,8 +57,8 @@ class Poses(AtRest):
         Positions [m] of other places, each a section from 0 and a fraction of its length.
     tension, length : (N, num_cables) array_like, optional
         Measured tensions [N] and lengths [m] of the cables.
-    q : (N, 2n) array_like, optional
-        Measured bending vectors [rad].
+    q : (N, d) array_like, optional
+        Measured coordinates, in the order of `Model.coordinate_names` [rad], stretch [m].
     base_force, base_moment : (N, 3) array_like, optional
         What the robot does to its base [N], [N m], about where that is and in its frame; the
         drives of its cables stand on it.
