@@ -199,7 +199,8 @@ def _whole(robot: Robot, rest: Rest | None) -> Table:
         _add_row(table, "tip stiffness", "", ["none: some small forces move it far"])
     else:
         for axis, stiffness in zip("xy", rest.tip_stiffness, strict=True):
-            _add_row(table, f"tip stiffness along its {axis}", "N/m", [_text(stiffness)])
+            text = _text(stiffness) if math.isfinite(stiffness) else "rigid"
+            _add_row(table, f"tip stiffness along its {axis}", "N/m", [text])
     with suppress(ValueError):  # no inertia, told already
         _add_row(table, "largest stable step of rk4", "s", [_text(rest.step)])
     return table
