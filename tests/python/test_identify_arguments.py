@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,8 @@ import pytest
 
 import cdcr
 from cdcr.identification import Frequencies, Motion, Poses, informative_commands
+from cdcr.identification.paths import quantities_of
+from cdcr.identification.setup import plain_setup
 from measured import BY_LENGTH, ROBOT, pulls, tips
 
 COMMANDS = pulls(4)
@@ -48,6 +51,33 @@ def test_a_path_of_a_file_without_quotes() -> None:
         '"cables.friction"'
     ):
         cdcr.identify(POSES, ROBOT, {"cables": {"friction": {}}})
+
+
+def test_numbers_in_pairs() -> None:
+    helix = cdcr.Cable(radius=0.01, angle=[(0.0, 3.0), (3.0, 4.0)], end_section=1)
+    cone = cdcr.Cable(radius=[(0.01, 0.008)] * 2, angle=[(1.0, 3.0), (3.0, 4.0)], end_section=1)
+    robot = replace(ROBOT, cables=(helix, cone))
+    plain = plain_setup(robot)
+
+    def names(path: str) -> list[str]:
+        return [one.name for one in quantities_of(path, robot, plain)]
+
+    (last,) = quantities_of("cables[0].angle[1][1]", robot, plain)
+    assert (last.start, last.slots) == (4.0, (("cables", 0, "angle", 1, 1),))
+    assert names("cables[1].radius[*][0]") == ["cable 2 of cables: radius 1"]
+    assert len(names("cables[:].angle[:][:]")) == 8
+    for path, sentence in (
+        ("cables[0].angle", "angle has several numbers, pick one: [0][0]"),
+        ("cables[0].angle[0]", "angle has several numbers, pick one: [0]"),
+        ("cables[0].radius[0]", "radius is no number that can be sought"),
+        ("cables[*].radius", "cables have differing numbers of radius"),
+        (
+            "cables.radius",
+            "radius of cable 2 of cables has several numbers, pick one: cables[1].ra",
+        ),
+    ):
+        with refused(f"parameter {path!r}: {sentence}"):
+            names(path)
 
 
 @pytest.mark.parametrize("data", [5, None, Poses])

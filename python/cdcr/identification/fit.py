@@ -48,6 +48,7 @@ def identify(
     parameters : mapping of str to anything
         What is sought, by path: ``sections[*].youngs_modulus`` (one number for all sections),
         ``sections[:].damping`` (one each), ``sections[0].cable_angles[2]``,
+        ``cables[0].angle[0][1]`` (of (base, tip) pairs, which of them and which end),
         ``scale sections[*].disk_masses[*]`` (a common factor), ``cables.friction`` (of all
         cables), ``payload``; ``base tilt`` (about its X and Y), ``base yaw``, ``base position``,
         ``tip offset``, ``marker offset``, ``time shift``; and what no robot has a field for:
