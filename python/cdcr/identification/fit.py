@@ -262,7 +262,9 @@ def _rescaled(solution: Any, level: float) -> Any:
 def _no_start(problem: Problem) -> str:
     try:
         problem.forget()
-        problem.answers(np.zeros(len(problem.unknowns)))
+        start = np.zeros(len(problem.unknowns))
+        problem.answers(start)
+        problem.jacobian(start)
     except (UnsolvedError, ValueError) as error:
         return f"the model has no answer at the start: {error}"
     return "the model has no answer at any start"
