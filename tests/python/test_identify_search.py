@@ -144,7 +144,7 @@ def test_a_search_ends_at_the_edge_of_what_the_model_answers(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     commands = pulls(20)
-    soft = replace(ROBOT, sections=[replace(ROBOT.sections[0], youngs_modulus=45e9)] * 2)
+    soft = replace(ROBOT, sections=(replace(ROBOT.sections[0], youngs_modulus=45e9),) * 2)
     poses = Poses(commands, tip=tips(soft, commands), noise=NOISE)
     slopes, asked = problem.Problem.jacobian, []
 

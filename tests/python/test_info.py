@@ -137,7 +137,7 @@ def test_tip_stiffness_and_motion_by_statics() -> None:
 def test_a_tip_that_no_strain_moves_sideways_is_rigid(tmp_path: Path, strain: str) -> None:
     section = cdcr.Section(
         length=0.3, backbone_mass=0.01, backbone_diameter=2e-3, youngs_modulus=60e9,
-        shear_modulus=23e9, bending_order=None, **{strain: 0},
+        shear_modulus=23e9, bending_order=None, **{strain: 0},  # type: ignore[arg-type]
     )  # fmt: skip
     file = tmp_path / "stiff.toml"
     cdcr.Robot(sections=[section]).save(file)

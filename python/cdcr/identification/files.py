@@ -140,9 +140,11 @@ class Table:
         plain = [name.replace("_", " ") for name in names]
         if not any(name in self.columns for name in plain):
             return None
-        found = []
+        found: list[FloatArray] = []
         for k, name in enumerate(plain):
-            found.append(self.take([name], ["m" if name.startswith("e") else "rad"], needed=True))
+            column = self.take([name], ["m" if name.startswith("e") else "rad"], needed=True)
+            assert column is not None
+            found.append(column)
             self._header[f"q {k + 1}"] = self._header[name]
         return np.concatenate(found, axis=1)
 

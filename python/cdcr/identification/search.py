@@ -104,19 +104,22 @@ class _Steps:
         if self.problem.noise_is_given:
             misfit = max(misfit, 1.0)
         moved = np.inf if self._slopes is None else np.linalg.norm(self._slopes @ (x - self._at))
-        if self._slopes is None or not self.linear or moved > KEPT * misfit:
-            self._differentiate()
-        if self.linear and np.linalg.norm(told_part(self._slopes, residuals)) <= SETTLED * misfit:
+        slopes = self._slopes
+        if slopes is None or not self.linear or moved > KEPT * misfit:
+            slopes = self._differentiate()
+        if self.linear and np.linalg.norm(told_part(slopes, residuals)) <= SETTLED * misfit:
             self._end()
-        return self._slopes
+        return slopes
 
-    def _differentiate(self) -> None:
-        """Find derivatives at x; where the model has none, as at its limits, the search ends."""
+    def _differentiate(self) -> FloatArray:
+        """Return derivatives at x; where the model has none, as at its limits, the search ends."""
         try:
-            self._slopes, self._at = self.problem.jacobian(self.x), self.x
+            slopes = self.problem.jacobian(self.x)
         except (UnsolvedError, ValueError) as error:
             self.trouble = str(error)
             self._end()
+        self._slopes, self._at = slopes, self.x
+        return slopes
 
     def _end(self) -> NoReturn:
         raise _EndedError
