@@ -37,7 +37,7 @@ def refused(sentence: str) -> Any:
         ("places[0]", "there is no parameter 'places[0]'."),
         ("tool[0]", "parameter 'tool[0]': tool is no number that can be sought; 'tip offset' can"),
         ("base_orientation", "parameter 'base_orientation': base_orientation is no number that"),
-        ("payload_inertia[0]", "parameter 'payload_inertia[0]': payload_inertia is no number tha"),
+        ("payload_inertia[0]", "parameter 'payload_inertia[0]': payload_inertia is no number"),
     ],
 )
 def test_words_of_a_laboratory_are_no_paths(path: str, sentence: str) -> None:
@@ -216,7 +216,7 @@ def test_columns_of_files(tmp_path: Path) -> None:
         Poses.load(written(1, 1, ""), ROBOT, gaps="skip")
     assert np.isnan(np.asarray(Poses.load(written(1, 6, ""), ROBOT, gaps="skip").tip)[1, 0])
     written(0, 0, "0.0")
-    with refused(f"{file}, line 1: column 'cable 1 [N]' is a command, and so is what 'command' te"):
+    with refused(f"{file}, line 1: column 'cable 1 [N]' is a command, and so is what 'command'"):
         Poses.load(file, ROBOT, command=np.zeros(6))
     with refused(
         f"{file}, line 1: there must be a column 'marker 1 x [m]', and the columns are "

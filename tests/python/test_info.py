@@ -153,6 +153,22 @@ def test_a_link_is_bent_as_it_was_made(tmp_path: Path) -> None:
     assert rest.words == f"bent by 0.00, {math.degrees(0.5):.2f} deg"
 
 
+def test_what_else_a_cable_has_is_told(tmp_path: Path) -> None:
+    robot = cdcr.robots.amouri2020()
+    rubs = cdcr.Cable(
+        radius=0.01, angle=0.0, end_section=0, stiffness=1e4, entry_friction=0.5,
+        sheath_friction=0.1, viscosity=2.0, pretension=3.0, backlash=1e-4,
+    )  # fmt: skip
+    robot = dataclasses.replace(robot, cables=(rubs, rubs), presliding_stiffness=2e4)
+    robot.save(tmp_path / "rubs.toml")
+    text = printed(tmp_path / "rubs.toml")
+    assert (
+        "cables with entry friction 0.5 N, sheath friction 0.1, viscosity 2 N s/m, pretension 3 N, "
+        "backlash 0.0001 m: 4, 5"
+    ) in " ".join(text.split())
+    assert row(text, "stiffness of cables that stick [N/m]") == ["20000"]
+
+
 def test_cables_driven_by_length(tmp_path: Path) -> None:
     robot = cdcr.scenarios.get("length-drive").robot
     robot.save(tmp_path / "driven.toml")

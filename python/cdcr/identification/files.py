@@ -41,7 +41,7 @@ _UNITS = {
 _COLUMN = re.compile(r"(?P<name>[^\[\]]*[^\[\]\s])\s*\[(?P<unit>[^\]]*)\]")
 _WHOLE = re.compile(r"t|(cable|pull|command) \d+")  # columns without gaps
 _OF_A_RUN = re.compile(
-    r"(qd\d+ [xy]( \d+)?|[te]d\d+( \d+)?|theta\d+|phi\d+|deflection\d+|.*energy)"
+    r"(qd\d+ [xy]( \d+)?|(t|e)d\d+( \d+)?|theta\d+|phi\d+|deflection\d+|.*energy)"
 )  # that say nothing new
 
 
