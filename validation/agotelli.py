@@ -24,7 +24,18 @@ from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
-from common import FloatArray, Row, amplitude, mean, read_columns, rms, script, state_at, watch
+from common import (
+    FloatArray,
+    Row,
+    amplitude,
+    mean,
+    positive,
+    read_columns,
+    rms,
+    script,
+    state_at,
+    watch,
+)
 
 import cdcr
 from cdcr.identification import Identified, Motion, Poses
@@ -321,7 +332,9 @@ def main() -> None:
     """Read the arguments and print the table."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=Path, help="of the repository")
-    parser.add_argument("--parts", type=int, default=4, help="arcs that the section is cut into")
+    parser.add_argument(
+        "--parts", type=positive, default=4, help="arcs that the section is cut into"
+    )
     parser.add_argument("--drag", type=float, default=0.0, help="of a disk [N s^2/m^2]")
     given = parser.parse_args()
     script(lambda: rows(given.folder, given.parts, given.drag))

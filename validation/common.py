@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import sys
 import time
+from argparse import ArgumentTypeError
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -165,6 +166,13 @@ def _number(text: str, where: str) -> float:
     if not np.isfinite(value):
         raise ValueError(f"{where} must be a finite number, got {text!r}")
     return value
+
+
+def positive(text: str) -> int:
+    """Return an argument that is a whole number > 0, or refuse it as argparse does."""
+    if not (text.isascii() and text.isdigit() and int(text) > 0):
+        raise ArgumentTypeError(f"must be a whole number > 0, got {text!r}")
+    return int(text)
 
 
 def script(rows: Callable[[], Sequence[Row]]) -> None:

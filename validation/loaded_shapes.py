@@ -17,7 +17,7 @@ import argparse
 from collections.abc import Iterable
 
 import numpy as np
-from common import FloatArray, rms
+from common import FloatArray, positive, rms
 
 import cdcr
 
@@ -117,7 +117,7 @@ def table(shapes: int) -> list[str]:
 def main() -> None:
     """Read the argument and print the table."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--shapes", type=int, default=500, help="that are loaded")
+    parser.add_argument("--shapes", type=positive, default=500, help="that are loaded")
     print("\n".join(table(parser.parse_args().shapes)))
 
 

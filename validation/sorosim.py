@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from common import FloatArray, Row, read_columns, rms, script, watch
+from common import FloatArray, Row, positive, read_columns, rms, script, watch
 
 import cdcr
 
@@ -176,7 +176,7 @@ def main() -> None:
     """Read the arguments and print the table."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("paths", type=Path, nargs="+", help="files, or a folder of them")
-    parser.add_argument("--parts", type=int, default=8, help="arcs that a rod is cut into")
+    parser.add_argument("--parts", type=positive, default=8, help="arcs that a rod is cut into")
     parser.add_argument("--order", type=int, default=3, help="of the bending of a rod")
     parser.add_argument("--twist", type=int, default=1, help="order of its twist")
     given = parser.parse_args()

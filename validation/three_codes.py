@@ -15,7 +15,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from common import FloatArray, Row, amplitude, read_columns, rms, script, watch
+from common import FloatArray, Row, amplitude, positive, read_columns, rms, script, watch
 
 import cdcr
 
@@ -93,7 +93,7 @@ def main() -> None:
     """Read the arguments and print the table."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=Path)
-    parser.add_argument("--parts", type=int, default=6, help="arcs that each link is cut into")
+    parser.add_argument("--parts", type=positive, default=6, help="arcs that each link is cut into")
     given = parser.parse_args()
     script(lambda: rows(given.folder, given.parts))
 

@@ -23,7 +23,18 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from common import FloatArray, Row, amplitude, mean, read_columns, rms, script, state_at, watch
+from common import (
+    FloatArray,
+    Row,
+    amplitude,
+    mean,
+    positive,
+    read_columns,
+    rms,
+    script,
+    state_at,
+    watch,
+)
 
 import cdcr
 from cdcr.identification import Motion, Poses
@@ -198,7 +209,7 @@ def main() -> None:
     """Read the arguments and print the table."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=Path, help="of the repository")
-    parser.add_argument("--train", type=int, default=5, help="files that are fitted")
+    parser.add_argument("--train", type=positive, default=5, help="files that are fitted")
     given = parser.parse_args()
     script(lambda: rows(given.folder, given.train))
 

@@ -155,8 +155,19 @@ def test_poses_with_a_history_tell_friction(tmp_path: Path) -> None:
         (
             "sections[2]",
             "sections[3]",
-            "parameter 'sections[3].disk_mass': [3] must be one of 1 to 2, * or :",
+            "task.toml: parameter 'sections[3].disk_mass': [3] must be one of 1 to 2, * or :",
         ),
+        (
+            "noise = 1e-3\n",
+            "noise = 1e-3\nmarkers = [[1.5, 0.5]]\n",
+            "poses[0]: markers must be an array of pairs, a section from 1 to 2 and a fraction fr",
+        ),
+        (
+            "noise = 1e-3\n",
+            "noise = 1e-3\nmarkers = [[1]]\n",
+            "poses[0]: markers must be an array of pairs, a section from 1 to 2 and a fraction fr",
+        ),
+        ("mode = [1]", "mode = [9]", "mode[0] asks for vibration 9, and the robot has 4"),
         ('file = "pulls.csv"', 'file = "pull.csv"', "poses[0]: there is no file of measurements"),
         ('"tip x [mm]" = "x"', '"tip x [mm]" = "u"', "pulls.csv, line 1: there is no column 'u'"),
         ("mode = [1]", "mode = [0]", "mode must be an array of whole numbers > 0"),

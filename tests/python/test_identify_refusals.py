@@ -170,7 +170,7 @@ def test_frequencies() -> None:
         Frequencies(damping_ratio=[-0.1], command=np.zeros(6))
     with refused("mode must have 1 number, one each, got 2"):
         Frequencies([1.0], mode=[0, 1], command=np.zeros(6))
-    with refused("frequencies: mode[0] must be 0 to 3, got 9"):
+    with refused("frequencies: mode[0] asks for vibration 10, and the robot has 4"):
         cdcr.identify(Frequencies([1.0], mode=[9], command=np.zeros(6)), ROBOT, {MODULUS: None})
 
 

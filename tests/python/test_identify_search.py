@@ -13,6 +13,7 @@ from scipy.optimize import least_squares  # type: ignore[import-untyped]
 import cdcr
 from cdcr.base.arrays import FloatArray
 from cdcr.identification import Motion, Poses, problem, search
+from cdcr.identification.data import UnsolvedError
 from cdcr.identification.fit import prepared
 from measured import NOISE, ROBOT, pulls, tips
 
@@ -137,3 +138,29 @@ def test_derivatives_of_a_run_are_as_good_as_its_noise_asks(clean: FloatArray) -
         step = h * np.eye(3)[k]
         solved = (whole.residuals(x + step) - whole.residuals(x - step)) / (2.0 * h)
         assert np.abs(slopes[:, k] - solved).max() < 1e-3 * np.abs(solved).max()
+
+
+def test_a_search_ends_at_the_edge_of_what_the_model_answers(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    commands = pulls(20)
+    soft = replace(ROBOT, sections=(replace(ROBOT.sections[0], youngs_modulus=45e9),) * 2)
+    poses = Poses(commands, tip=tips(soft, commands), noise=NOISE)
+    slopes, asked = problem.Problem.jacobian, []
+
+    def edge(self: problem.Problem, x: FloatArray) -> FloatArray:
+        asked.append(x)
+        if len(asked) > allowed:
+            raise UnsolvedError("poses, row 1: too far")
+        return slopes(self, x)
+
+    monkeypatch.setattr(problem.Problem, "jacobian", edge)
+    allowed = 1
+    found = cdcr.identify(poses, ROBOT, {"sections[*].youngs_modulus": None})
+    assert not found.success
+    assert found.message == "it came to the edge of what the model answers: poses, row 1: too far"
+    assert 40e9 < found["sections[*].youngs_modulus"] < 60e9
+    assert f"The search ended early: {found.message}" in found.report()
+    allowed = 0
+    with pytest.raises(ValueError, match="no answer at the start: poses, row 1: too far"):
+        cdcr.identify(poses, ROBOT, {"sections[*].youngs_modulus": None})

@@ -1,6 +1,7 @@
 """``cdcr info`` and what it computes: rest, frequencies, stiffness and the largest stable step."""
 
 import dataclasses
+import json
 import math
 from pathlib import Path
 from typing import Any
@@ -130,6 +131,42 @@ def test_tip_stiffness_and_motion_by_statics() -> None:
         pull[cable] += PULL
         away = np.linalg.norm(model.tip(model.equilibrium(pull, q))[1] - p) / PULL
         assert away == pytest.approx(rest.tip_motion[cable], rel=1e-2)
+
+
+@pytest.mark.parametrize("strain", ["twist_order", "stretch_order"])
+def test_a_tip_that_no_strain_moves_sideways_is_rigid(tmp_path: Path, strain: str) -> None:
+    section = cdcr.Section(
+        length=0.3, backbone_mass=0.01, backbone_diameter=2e-3, youngs_modulus=60e9,
+        shear_modulus=23e9, bending_order=None, **{strain: 0},  # type: ignore[arg-type]
+    )  # fmt: skip
+    file = tmp_path / "stiff.toml"
+    cdcr.Robot(sections=[section]).save(file)
+    assert row(printed(file), "tip stiffness along its x [N/m]") == ["rigid"]
+    told = json.loads(cdcr_("info", file, "--json").stdout)
+    assert told["rest"]["tip_stiffness_N_per_m"] == [None, None]
+
+
+def test_a_link_is_bent_as_it_was_made(tmp_path: Path) -> None:
+    section = cdcr.robots.amouri2020().sections[0]
+    link = dataclasses.replace(section, bending_order=None, rest_bending=(0.3, 0.4))
+    rest = at_rest(cdcr.Robot(sections=[section, link]))
+    assert rest.words == f"bent by 0.00, {math.degrees(0.5):.2f} deg"
+
+
+def test_what_else_a_cable_has_is_told(tmp_path: Path) -> None:
+    robot = cdcr.robots.amouri2020()
+    rubs = cdcr.Cable(
+        radius=0.01, angle=0.0, end_section=0, stiffness=1e4, entry_friction=0.5,
+        sheath_friction=0.1, viscosity=2.0, pretension=3.0, backlash=1e-4,
+    )  # fmt: skip
+    robot = dataclasses.replace(robot, cables=(rubs, rubs), presliding_stiffness=2e4)
+    robot.save(tmp_path / "rubs.toml")
+    text = printed(tmp_path / "rubs.toml")
+    assert (
+        "cables with entry friction 0.5 N, sheath friction 0.1, viscosity 2 N s/m, pretension 3 N, "
+        "backlash 0.0001 m: 4, 5"
+    ) in " ".join(text.split())
+    assert row(text, "stiffness of cables that stick [N/m]") == ["20000"]
 
 
 def test_cables_driven_by_length(tmp_path: Path) -> None:

@@ -1,5 +1,6 @@
 """Pictures of robots of several sections: colours tell sections, kinds of line tell cables."""
 
+import itertools
 from dataclasses import replace
 from typing import Any
 
@@ -152,3 +153,19 @@ def test_turns_of_a_straight_section_are_not_drawn() -> None:
     np.testing.assert_allclose(shown[:5], np.rad2deg(phi[:5]), atol=1e-9)
     np.testing.assert_allclose(shown[-5:], np.rad2deg(phi[-5:]) - 1440.0, atol=1e-9)
     assert np.isnan(shown[5:45]).all()
+
+
+@pytest.mark.parametrize("size", [None, "slide"])
+def test_names_of_five_panels_stand_clear_of_one_another(size: Any) -> None:
+    section = replace(
+        cdcr.robots.amouri2020(damping=0.01).sections[0],
+        shear_modulus=4e9, twist_order=0, stretch_order=0, twist_damping=0.01, stretch_damping=0.1,
+    )  # fmt: skip
+    model = cdcr.Model(cdcr.Robot(sections=[section]))
+    run = cdcr.simulate(model, [0.1, 0.1, 0.1, 1e-3], np.zeros(4), t=np.linspace(0.0, 0.1, 5))
+    figure = run.plot(size=size)
+    figure.canvas.draw()
+    left = [axes for axes in figure.axes if axes.get_position().x0 < 0.3]
+    assert len(left) == 5
+    names = sorted((axes.yaxis.label.get_window_extent() for axes in left), key=lambda box: box.y0)
+    assert all(lower.y1 < upper.y0 for lower, upper in itertools.pairwise(names))

@@ -62,6 +62,16 @@ def test_it_says_what_it_does_not_take() -> None:
         )
     with pytest.raises(cdcr.ConvergenceError, match="Stopped before sample 2 of 2"):
         cdcr.quasi_static(model, pulls(1.0, 5e3))
+    with pytest.raises(ValueError, match="after must have reached a sample to go on from"):
+        cdcr.quasi_static(
+            model, pulls(1.0), after=cdcr.quasi_static(model, pulls(5e3), throw=False)
+        )
+    with pytest.raises(ValueError, match="after must be a run of this robot, got one of 6 coord"):
+        cdcr.quasi_static(
+            model,
+            pulls(1.0),
+            after=cdcr.quasi_static(cdcr.Model(cdcr.robots.three_sections()), np.zeros((1, 9))),
+        )
     run = cdcr.quasi_static(model, pulls(1.0, 5e3), throw=False)
     assert len(run) == 1
     assert run.status is cdcr.Status.not_converged
@@ -109,6 +119,24 @@ def test_motion_remembers_by_every_method(method: Any) -> None:
     assert np.min(run.friction_power) >= -1e-12
     rest = cdcr.quasi_static(model, run.command)
     assert np.max(np.abs(rest.q - run.q)) < 0.03
+
+
+@pytest.mark.parametrize("suffix", ["nc", "csv"])
+def test_files_keep_what_friction_remembers(tmp_path: Path, suffix: str) -> None:
+    model = cdcr.Model(rubbing(presliding_stiffness=2e4))
+    t = np.linspace(0.0, 2.0, 21)
+    run = cdcr.simulate(model, [0.3, 0.0], [0, 0], t=t, tension=[5.0, 0.0, 0.0])
+    if suffix == "nc":
+        pytest.importorskip("xarray")
+    file = run.save(tmp_path / f"run.{suffix}")
+    again = cdcr.Trajectory.load(file, model=model)
+    assert run.deflection is not None
+    np.testing.assert_array_equal(again.deflection, run.deflection)
+    np.testing.assert_array_equal(again.friction_power, run.friction_power)
+    if suffix == "csv":
+        assert len(cdcr.identification.Motion.load(file, model.robot)) == 21
+    with pytest.raises(ValueError, match=r"deflection must have shape \(21, 3\), got \(21, 2\)"):
+        replace(run, deflection=run.deflection[:, :2])
 
 
 def test_a_drive_with_play_takes_no_function() -> None:

@@ -86,6 +86,11 @@ def test_angles_of_a_route_may_be_in_degrees(tmp_path: Path) -> None:
             "cable 1 of cables: radius[0][1] must be > 0",
         ),
         (f"{CABLE}radius = 0.01\nangle = [0, 1, 2]", "cable 1 of cables: angle must be a number"),
+        (f"{CABLE}radius = 0.01\nangle_deg = []", "cable 1 of cables: angle_deg must be a number"),
+        (
+            f"{CABLE}radius = []\nangle = 0",
+            "cable 1 of cables: radius must be a number [m], or one",
+        ),
         (f"{CABLE}radius = 0.01\nangle = 0\nstart_section = 2", "cable 1 of cables: start_section"),
     ],
 )

@@ -75,8 +75,19 @@ def test_cables_begin_and_end_where_they_did() -> None:
     assert cables[2].angle == 2.0
 
 
-def test_states_of_rods_are_not_merged() -> None:
-    with pytest.raises(ValueError, match="section 1 has orders bending 2, twist 1, stretch 0"):
+def test_states_of_parts_are_merged() -> None:
+    cut = cdcr.subdivide_state(ROBOT, PARTS, np.stack([Q, QD]))
+    assert np.abs(cdcr.merge_state(ROBOT, PARTS, cut) - [Q, QD]).max() <= ROUNDING
+    # Parts that do what no whole section can: as much together, and a remainder that is square to
+    # all that a section can do.
+    other = np.random.default_rng(4).uniform(-0.3, 0.3, (31,))
+    merged = cdcr.merge_state(ROBOT, PARTS, other)
+    rod = other[:27].reshape(3, 9)
+    together = [0, 1, 6, 8]
+    assert np.abs(merged[together] - np.sum(rod[:, together], axis=0)).max() <= ROUNDING
+    rest = other - cdcr.subdivide_state(ROBOT, PARTS, merged)
+    assert np.abs(cdcr.merge_state(ROBOT, PARTS, rest)).max() <= ROUNDING
+    with pytest.raises(ValueError, match=r"q must have shape \(\.\.\., 31\), got \(11,\)"):
         cdcr.merge_state(ROBOT, PARTS, np.zeros(11))
     with pytest.raises(ValueError, match=r"q must have shape \(\.\.\., 11\), got \(4,\)"):
         cdcr.subdivide_state(ROBOT, PARTS, np.zeros(4))

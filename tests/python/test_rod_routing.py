@@ -105,3 +105,11 @@ def test_tips_are_those_of_kirchhoff(route: Route, tensions: list[float]) -> Non
     assert np.abs(rotation - R).max() < 10.0 * TIP
     assert errors[-1] < 0.1 * errors[0]
     assert np.linalg.norm(p[:2]) > 0.02 * LENGTH  # it does bend
+
+
+def test_pairs_may_be_an_array() -> None:
+    pairs = [(0.01, 0.008), (0.008, 0.005)]
+    cable = cdcr.Cable(radius=np.array(pairs), angle=np.array(pairs), end_section=1)
+    assert cable == cdcr.Cable(radius=pairs, angle=pairs, end_section=1)
+    with pytest.raises(ValueError, match=r"^radius\[0\] must be two numbers, base and tip, got "):
+        cdcr.Cable(radius=np.zeros((2, 3)), angle=0.0, end_section=1)

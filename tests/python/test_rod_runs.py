@@ -9,6 +9,7 @@ import pytest
 import cdcr
 from cdcr.model.rest import at_rest
 from cdcr.model.signals import find_outputs
+from cdcr.scenarios.file.reader import load_scenario
 
 # Least squares of numbers near 1 on a force of some N m.
 ALLOCATED = 1e-9
@@ -83,3 +84,24 @@ def test_rest_tells_of_bending_and_twist() -> None:
     assert rest.words == "straight, twisted by 28.65 deg"
     assert rest.stable
     assert rest.is_nondegenerate
+
+
+def test_what_no_cable_can_hold_is_told_in_one_line(tmp_path: Path) -> None:
+    cable = cdcr.robots.amouri2020().sections[0].cable_angles
+    rod = replace(ROD, bending_order=3, stretch_order=None, cable_angles=cable)
+    model = cdcr.Model(replace(ROBOT, sections=(rod,), gravity=(0.0, 0.0, -9.81)))
+    bent = cdcr.Reference.from_angles([0.0, 1.0], 0.2, 0.0).on(model)
+    with pytest.raises(cdcr.InfeasibleError) as caught:
+        model.allocate(np.arange(8.0) / 3.0)
+    assert "; the nearest force is [" in str(caught.value)
+    with pytest.raises(ValueError, match="no cable pulls that way, the nearest force") as asked:
+        cdcr.inverse_run(model, bent)
+    assert "\n" not in f"{caught.value}{asked.value}"
+    model.robot.save(tmp_path / "rod.toml")
+    file = tmp_path / "move.toml"
+    file.write_text(
+        'robot = "rod.toml"\nt_end = 1.0\n[trajectory]\nshape = "circle"\ntheta = 0.2\n'
+        "turns_per_second = 0.1\n"
+    )
+    with pytest.raises(ValueError, match=r"\(no cable pulls that way\), nor at 1000 more of 1001"):
+        load_scenario(file).simulate()

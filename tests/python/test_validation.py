@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import re
 import sys
 from collections.abc import Callable
@@ -172,6 +173,13 @@ def test_columns_are_refused_by_file_line_and_column(tmp_path: Path) -> None:
     refused(lambda: common.read_columns(file, ["x"]), f"{file} has no rows of numbers")
     file.write_text("0,1\n1,b\n")
     refused(lambda: common.read_columns(file), f"{file}, line 2: column 2 must be a finite number")
+
+
+@pytest.mark.parametrize("text", ["0", "-1", "x", "1.5", ""])
+def test_numbers_of_parts_are_whole(text: str) -> None:
+    assert common.positive("8") == 8
+    with pytest.raises(argparse.ArgumentTypeError, match="must be a whole number > 0, got '"):
+        common.positive(text)
 
 
 def test_the_table_is_markdown(capsys: pytest.CaptureFixture[str]) -> None:

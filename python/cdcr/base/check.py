@@ -202,7 +202,8 @@ class Check:
     ) -> tuple[Any, ...]:
         """Return a (base, tip) pair, or `many` of them, of which one may stand by itself."""
         before = len(self.sentences)
-        values = self.items(item, value, requirement)
+        rows = list(value) if many and isinstance(value, np.ndarray) and value.ndim == 2 else value
+        values = self.items(item, rows, requirement)
         if len(self.sentences) > before:
             return ()
         if values and all(isinstance(one, Real) for one in values):

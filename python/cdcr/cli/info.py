@@ -23,6 +23,7 @@ from cdcr.robot.section import Section
 _LABELS = {"youngs_modulus": "Young's modulus", "num_disks": "disks"}
 # Told by the table of cables.
 _OF_CABLES = ("cable_radius", "cable_angles", "cable_stiffness", "cable_damping", "cable_friction")
+_MORE = ("entry_friction", "sheath_friction", "viscosity", "pretension", "backlash")
 _MAX_MODES = 8  # rows, slowest first
 _SAME = 1e-6  # relative; two modes closer than this are shown as one
 
@@ -38,7 +39,7 @@ def print_robot(console: Console, name: str, robot: Robot) -> None:
         how = str(error)
     if robot.num_cables:
         console.print(_cables(robot, rest))
-        for line in _drives(robot):
+        for line in (*_drives(robot), *_rubbing(robot)):
             console.print(Text(f"cables {line}\n"))
     console.print(_masses(robot))
     if rest is not None:
@@ -117,6 +118,21 @@ def _drives(robot: Robot) -> Iterator[str]:
         yield f"driven by length, {stiffness:g} N/m, {damping:g} N s/m: {', '.join(names)}"
 
 
+def _rubbing(robot: Robot) -> Iterator[str]:
+    """Yield a line for all cables with the same of what else a cable may have, if it has any."""
+    groups: dict[str, list[str]] = {}
+    for j, cable in enumerate(robot.all_cables):
+        told = ", ".join(
+            f"{item.name.replace('_', ' ')} {getattr(cable, item.name):g} {item.metadata['unit']}"
+            for item in fields(Cable)
+            if item.name in _MORE and getattr(cable, item.name)
+        )
+        if told:
+            groups.setdefault(told.replace(" ,", ",").strip(), []).append(str(j + 1))
+    for told, names in groups.items():
+        yield f"with {told}: {', '.join(names)}"
+
+
 def _friction(robot: Robot, cable: Cable) -> str:
     """Return its coefficient, or those of the sections it runs through where they differ."""
     if cable.friction is not None:
@@ -193,13 +209,17 @@ def _whole(robot: Robot, rest: Rest | None) -> Table:
     ):
         if any(place):
             _add_row(table, f"{name} at", "m", [", ".join(map(_text, place))])
+    if robot.presliding_stiffness:
+        text = _text(robot.presliding_stiffness)
+        _add_row(table, "stiffness of cables that stick", "N/m", [text])
     if rest is None:
         return table
     if not rest.is_nondegenerate:
         _add_row(table, "tip stiffness", "", ["none: some small forces move it far"])
     else:
         for axis, stiffness in zip("xy", rest.tip_stiffness, strict=True):
-            _add_row(table, f"tip stiffness along its {axis}", "N/m", [_text(stiffness)])
+            text = _text(stiffness) if math.isfinite(stiffness) else "rigid"
+            _add_row(table, f"tip stiffness along its {axis}", "N/m", [text])
     with suppress(ValueError):  # no inertia, told already
         _add_row(table, "largest stable step of rk4", "s", [_text(rest.step)])
     return table

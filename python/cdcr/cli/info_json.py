@@ -36,7 +36,9 @@ def _rest(rest: Rest) -> dict[str, Any]:
         "command": rest.command.tolist(),
         "tension_N": rest.tension.tolist(),
         "stable": rest.stable,
-        "tip_stiffness_N_per_m": list(rest.tip_stiffness) if rest.is_nondegenerate else None,
+        "tip_stiffness_N_per_m": _finite(np.array(rest.tip_stiffness))
+        if rest.is_nondegenerate
+        else None,
         "frequency_Hz": None,
         "damping_ratio": None,
         "largest_stable_step_s": None,

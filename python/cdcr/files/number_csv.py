@@ -7,6 +7,7 @@ import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
+from cdcr.base.check import count
 from cdcr.files.text import read_text
 
 if TYPE_CHECKING:
@@ -76,7 +77,8 @@ def read_rows(path: Path, what: str) -> tuple[list[str], list[tuple[str, list[st
             raise ValueError(f"{path}, line 1: columns must be separated by commas, not {name}")
     for where, row in rows:
         if len(row) != len(header):
-            raise ValueError(f"{where}: must have {len(header)} columns, got {len(row)}")
+            wanted = count(len(header), "column")
+            raise ValueError(f"{where}: must have {wanted}, got {len(row)}")
     return header, rows
 
 

@@ -21,6 +21,9 @@ MANY = 2**31 - 1
 FARTHEST, FARTHEST_FROM_BASE, LONGEST, STRONGEST = 3.0, 50.0, 1e4, 100.0
 
 
+_TOLD = ("command", "candidates")  # arrays of what cables are told, and never measured
+
+
 @dataclass(frozen=True, eq=False)
 class Channel:
     """One thing measured, a row for each pose or time.
@@ -58,7 +61,7 @@ def column_name(item: str, k: int) -> str:
     """Name a column: 'tip x', 'marker 1 y', 'base force z', 'cable 2' of commands, 'tension 3'."""
     if item in ("tip", "base_force", "base_moment") or item.startswith("marker"):
         return f"{item.replace('_', ' ')} {'xyz'[k]}"
-    return f"{'cable' if item == 'command' else item} {k + 1}"
+    return f"{'cable' if item in _TOLD else item} {k + 1}"
 
 
 def measured(
@@ -83,10 +86,24 @@ def measured(
         at = tuple(int(k) for k in np.argwhere(bad)[0])
         column = column_name(item, at[1]) if len(at) > 1 else item
         got = array[at]
-        skip = np.isnan(got) and len(at) > 1 and item != "command"
+        skip = np.isnan(got) and len(at) > 1 and item not in _TOLD
         hint = "; gaps='skip' leaves out what was not measured" if skip else ""
         raise ValueError(f"{where(at[0], column)} must be a finite number, got {got}{hint}")
     return array
+
+
+def of_numbers(value: object) -> bool:
+    """Whether a value can be an array of numbers; one of bools or of complex ones is none."""
+    try:
+        return np.asarray(value).dtype.kind not in "bcSU" and bool(np.array(value, float).size)
+    except (TypeError, ValueError):
+        return False
+
+
+def require_truth(item: str, value: object) -> None:
+    """Refuse what is neither True nor False."""
+    if not isinstance(value, bool | np.bool_):
+        raise ValueError(f"{item} must be True or False, got {format_value(value)}")
 
 
 def increasing(t: FloatArray, where: Where) -> None:
@@ -175,9 +192,10 @@ def ask_about_cables(channel: Channel, command: FloatArray, robot: Robot, where:
         raise ValueError(f"{where(row, column)} = {values[row, j]:g} {channel.unit}, {beside[j]}")
 
 
-def ask_about_shapes(values: FloatArray, where: Where) -> None:
+def ask_about_shapes(values: FloatArray, robot: Robot, where: Where) -> None:
     """Refuse bending vectors beyond what the model allows: they ask for a unit."""
-    for row, k in np.argwhere(np.abs(values) > 3.0 * np.pi)[:1]:
+    bends = np.array([name.startswith("q") for name in Model(robot).coordinate_names])
+    for row, k in np.argwhere((np.abs(values) > 3.0 * np.pi) & bends)[:1]:
         raise ValueError(
             f"{where(row, column_name('q', k))} = {values[row, k]:g} rad, and no section bends "
             "beyond 3 pi rad: is it in deg?"
@@ -215,9 +233,10 @@ def check_commands(
             f"straight robot takes {straight[j]:.4g} m: is it in mm, a tension [N], or a pull?"
         )
     for row, j in np.argwhere((command < 0.0) & ~(driven & pulled))[:1]:
+        hint = "; of cables driven by length, pulls may be negative (pulled=True)"
         raise ValueError(
             f"{where(row, column_name('command', j))} must be >= 0 (a cable cannot push), got "
-            f"{command[row, j]:g}; of cables driven by length, pulls may be negative (pulled=True)"
+            f"{command[row, j]:g}{hint if driven[j] else ''}"
         )
 
 

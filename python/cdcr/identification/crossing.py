@@ -38,9 +38,14 @@ class CrossValidation:
 def cross_validate(found: Identified, folds: int) -> CrossValidation:
     """Return errors of prediction of the robot that was found."""
     most = max(len(one) for one in found.data)
+    if most < 2:
+        raise ValueError("cross-validation needs at least two rows of measurements, got 1")
     whole("folds", folds, 2, most)
     values: list[list[float]] = []
     squares: dict[str, list[tuple[float, int]]] = {}
+    with_all: dict[str, list[tuple[float, int]]] = {}
+    for error in found.residuals:
+        with_all.setdefault(_name(error), []).append(_square(error))
     for fold in range(folds):
         used: list[Data] = []
         left: list[Data] = []
@@ -53,13 +58,16 @@ def cross_validate(found: Identified, folds: int) -> CrossValidation:
         for one in left:
             for error in again.errors(one):
                 squares.setdefault(_name(error), []).append(_square(error))
-    held_out = {
+    return CrossValidation(_rms(squares), _rms(with_all), np.array(values))
+
+
+def _rms(squares: Mapping[str, list[tuple[float, int]]]) -> dict[str, float]:
+    """Return the root mean square of each channel, over all data of its name."""
+    return {
         name: float(np.sqrt(sum(s for s, _ in pairs) / sum(n for _, n in pairs)))
         for name, pairs in squares.items()
+        if sum(n for _, n in pairs)
     }
-    return CrossValidation(
-        held_out, {_name(one): one.rms for one in found.residuals}, np.array(values)
-    )
 
 
 def _name(error: Residual) -> str:

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from cdcr.base.arrays import FloatArray
-from cdcr.base.check import format_value
+from cdcr.base.check import Check, format_value
 from cdcr.identification.channels import (
     Channel,
     Where,
@@ -101,6 +101,28 @@ class Data(ABC):
         return len(self.channels[0].values)
 
 
+def require_data(item: str, value: object, more: str = "") -> None:
+    """Refuse what is no measurement."""
+    if not isinstance(value, Data):
+        raise TypeError(
+            f"{item} must be Poses, a Motion or Frequencies{more}, got {type(value).__name__}"
+        )
+
+
+def measured_in(data: Any, rows: NDArray[np.bool_]) -> dict[str, Any]:
+    """Return everything measured of poses or of a motion, as gaps where not in these rows."""
+
+    def part(value: ArrayLike | None) -> FloatArray | None:
+        if value is None:
+            return None
+        array: FloatArray = np.where(rows[:, None], np.asarray(value, float), np.nan)
+        return array
+
+    given: dict[str, Any] = {name: part(getattr(data, name)) for name in MEASURED}
+    given["markers"] = {place: part(one) for place, one in (data.markers or {}).items()}
+    return given | {"gaps": "skip"}
+
+
 def channels_of(
     given: Mapping[str, ArrayLike | None],
     markers: Mapping[Place, ArrayLike],
@@ -128,8 +150,17 @@ def channels_of(
     return tuple(Channel(name, unit, values, levels.get(name)) for name, unit, values in found)
 
 
-def check_channels(data: Data, command: FloatArray, robot: Robot, where: Where) -> None:
-    """Refuse columns and places that the robot has not, and numbers that ask for a unit."""
+def check_wrenches(wrenches: Wrenches, robot: Robot) -> None:
+    """Refuse what is no wrench on this robot."""
+    model = Model(robot)
+    model.wrench_force(np.zeros(model.num_coordinates), wrenches)
+
+
+def check_channels(
+    data: Data, command: FloatArray, robot: Robot, where: Where, wrenches: Wrenches
+) -> None:
+    """Refuse columns, places and loads that the robot has not, and numbers that ask for a unit."""
+    check_wrenches(wrenches, robot)
     for section, fraction in data.places:
         if not (0 <= section < len(robot.sections) and 0.0 <= fraction <= 1.0):
             raise ValueError(
@@ -148,7 +179,7 @@ def check_channels(data: Data, command: FloatArray, robot: Robot, where: Where) 
         if channel.unit == "m" and size == 3:
             ask_about_places(channel.values, robot, where, channel.name)
         elif channel.name == "q":
-            ask_about_shapes(channel.values, where)
+            ask_about_shapes(channel.values, robot, where)
         elif channel.name in sizes:
             ask_about_cables(channel, command, robot, where)
 
@@ -221,4 +252,8 @@ def markers_of(markers: Mapping[Place, ArrayLike] | None) -> dict[Place, ArrayLi
             raise ValueError(
                 f"a marker's place must be (section, fraction), got {format_value(place)}"
             )
+        check = Check()
+        check.whole("section of a marker's place", place[0], "a whole number")
+        check.number("fraction of a marker's place", place[1], "a number")
+        check.done()
     return dict(markers)

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from cdcr.base.arrays import FloatArray
 from cdcr.base.check import Check, require_kind
-from cdcr.identification.channels import whole
+from cdcr.identification.channels import measured, require_truth, row_of, whole
 from cdcr.identification.data import UnsolvedError
 from cdcr.identification.fit import prepared
 from cdcr.identification.poses import Poses
@@ -98,8 +98,11 @@ def informative_commands(
     if isinstance(candidates, Poses):
         poses = replace(candidates, noise=level)
     else:
-        commands = np.asarray(candidates)
-        poses = Poses(candidates, tip=np.zeros((len(commands), 3)), noise=level, name="candidates")
+        commands = measured("candidates", candidates, (None, None), row_of("candidates"))
+        poses = Poses(commands, tip=np.zeros((len(commands), 3)), noise=level, name="candidates")
+    require_truth("repeat", repeat)
+    if not len(poses):
+        raise ValueError("candidates must have at least one command, got none")
     problem = prepared(poses, robot, parameters, enough=False)
     most = len(poses)
     wanted = most if number is None else whole("number", number, 1, None if repeat else most)
@@ -108,9 +111,9 @@ def informative_commands(
         jacobian = problem.jacobian(start)
     except UnsolvedError as error:
         raise ValueError(f"the model has no answer there: {error}") from None
-    measured = problem.num_measurements
-    rows = _by_pose(poses, jacobian[:measured])
-    information = jacobian[measured:].T @ jacobian[measured:]
+    told = problem.num_measurements
+    rows = _by_pose(poses, jacobian[:told])
+    information = jacobian[told:].T @ jacobian[told:]
     information = information + _FAINT * np.eye(start.size)
     order, errors = _choose(rows, information, wanted, repeat=repeat)
     commands = np.asarray(poses.command)

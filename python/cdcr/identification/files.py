@@ -18,6 +18,7 @@ from cdcr.files.new_file import file_path
 from cdcr.files.number_csv import number, read_rows
 from cdcr.identification.channels import whole
 from cdcr.identification.setup import Place
+from cdcr.model.model import Model
 
 if TYPE_CHECKING:
     from cdcr.robot.robot import Robot
@@ -38,7 +39,10 @@ _UNITS = {
     "N or m": ("N or m", 1.0),  # as files of runs say of commands
 }
 _COLUMN = re.compile(r"(?P<name>[^\[\]]*[^\[\]\s])\s*\[(?P<unit>[^\]]*)\]")
-_OF_A_RUN = re.compile(r"(qd\d+ [xy]|theta\d+|phi\d+|.*energy)")  # that say nothing new
+_WHOLE = re.compile(r"t|(cable|pull|command) \d+")  # columns without gaps
+_OF_A_RUN = re.compile(
+    r"(qd\d+ [xy]( \d+)?|(t|e)d\d+( \d+)?|theta\d+|phi\d+|deflection\d+|.*energy)"
+)  # that say nothing new
 
 
 class Table:
@@ -73,7 +77,8 @@ class Table:
             k = header.index(column)
             cells = [row[k] for _, row in rows[::every]]
             self._header[name], self._units[name] = column, unit
-            self.columns[name] = factor * self._numbers(cells, column, gaps)
+            may = "never" if _WHOLE.fullmatch(name) else gaps
+            self.columns[name] = factor * self._numbers(cells, column, may)
 
     def _chosen(
         self, header: Sequence[str], columns: Mapping[str, str] | None
@@ -108,13 +113,18 @@ class Table:
         if bad.size:
             i = int(bad[0])
             got = f"got {cells[i]!r}" if cells[i].strip() else "got nothing"
-            hint = "; gaps = 'skip' leaves out what was not measured" if empty[i] else ""
+            skip = empty[i] and gaps != "never"
+            hint = "; gaps = 'skip' leaves out what was not measured" if skip else ""
             raise ValueError(f"{self._lines[i]}: {column} must be a number, {got}{hint}")
         return values
 
     def where(self, row: int, column: str) -> str:
         """Name a place in the file by its line, and by the name that the column has there."""
         return f"{self._lines[row]}: {self._header.get(column, column)}"
+
+    def called(self, name: str) -> str:
+        """Return what a column is called in the file."""
+        return self._header[name]
 
     def commands(self, kind: str, count: int, units: Sequence[str]) -> FloatArray:
         """Return the columns that are commands; refusals call them by the names they have."""
@@ -125,6 +135,19 @@ class Table:
             self._header[f"cable {j + 1}"] = self._header[name]
         return found
 
+    def shapes(self, names: Sequence[str]) -> FloatArray | None:
+        """Return the columns that are coordinates; refusals call them by the names they have."""
+        plain = [name.replace("_", " ") for name in names]
+        if not any(name in self.columns for name in plain):
+            return None
+        found: list[FloatArray] = []
+        for k, name in enumerate(plain):
+            column = self.take([name], ["m" if name.startswith("e") else "rad"], needed=True)
+            assert column is not None
+            found.append(column)
+            self._header[f"q {k + 1}"] = self._header[name]
+        return np.concatenate(found, axis=1)
+
     def take(
         self, names: Sequence[str], units: Sequence[str], *, needed: bool = False
     ) -> FloatArray | None:
@@ -134,7 +157,7 @@ class Table:
             return None
         for name in names:
             if name not in self.columns:
-                known = ", ".join(self.columns) or "none"
+                known = ", ".join(self._header.values()) or "none"
                 raise ValueError(
                     f"{self.file}, line 1: there must be a column '{name} [{units[0]}]', and the "
                     f"columns are {known}"
@@ -215,6 +238,12 @@ def _measured(
         given["pulled"], command = True, table.commands("pull", count, ["m"])
     elif "command" in given:
         command = given.pop("command")
+        twice = [name for name in table.columns if re.fullmatch(r"(cable|command) \d+", name)]
+        if twice:
+            raise ValueError(
+                f"{table.file}, line 1: column {table.called(twice[0])!r} is a command, and so is "
+                "what 'command' tells: leave out one of them"
+            )
     elif "command 1" in table.columns:
         command = table.commands("command", count, ["N or m", "N", "m"])
         table.take([f"tension {j}" for j in cables], ["N"])  # in a run's file: what came of it
@@ -231,8 +260,7 @@ def _measured(
     }
     for name, (labels, unit) in names.items():
         given[name] = table.take(labels, [unit])
-    shapes = [f"q{i + 1} {axis}" for i in range(len(robot.sections)) for axis in "xy"]
-    q = table.take(shapes, ["rad"])
+    q = table.shapes(Model(robot).coordinate_names)
     # The file of a run has shapes beside the tip, which only a simulation knows.
     given["q"] = q if given["tip"] is None and not markers else None
     given["markers"] = {

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import partial
 from typing import Any
 
 import numpy as np
 
 from cdcr.base.arrays import FloatArray
-from cdcr.base.check import count, one_of, require_kind
+from cdcr.base.check import Check, count, one_of, require_kind
 from cdcr.base.extras import require
 from cdcr.identification.channels import whole
-from cdcr.identification.data import Data, UnsolvedError
+from cdcr.identification.data import Data, UnsolvedError, require_data
 from cdcr.identification.parameter import unknowns_of
 from cdcr.identification.problem import Problem
 from cdcr.identification.result import Identified
@@ -23,6 +23,7 @@ from cdcr.robot.robot import Robot
 LOSSES = ("linear", "soft_l1", "huber", "cauchy")
 ROUNDS = 3  # in which the noise of channels is found
 SETTLED = 0.02  # relative change of a noise that needs no further round
+LARGEST_SEED = 2**64
 SPREAD = 3.0  # sizes of an unknown within which other starts are drawn, where there are no bounds
 
 
@@ -47,6 +48,7 @@ def identify(
     parameters : mapping of str to anything
         What is sought, by path: ``sections[*].youngs_modulus`` (one number for all sections),
         ``sections[:].damping`` (one each), ``sections[0].cable_angles[2]``,
+        ``cables[0].angle[0][1]`` (of (base, tip) pairs, which of them and which end),
         ``scale sections[*].disk_masses[*]`` (a common factor), ``cables.friction`` (of all
         cables), ``payload``; ``base tilt`` (about its X and Y), ``base yaw``, ``base position``,
         ``tip offset``, ``marker offset``, ``time shift``; and what no robot has a field for:
@@ -120,6 +122,9 @@ def fit(
     if not one_of(loss, LOSSES):
         raise ValueError(f"loss must be one of {', '.join(LOSSES)}, got {loss!r}")
     starts, most = whole("starts", starts, 1), whole("max_evaluations", max_evaluations, 1)
+    check = Check()
+    seed = check.whole("seed", seed, "a whole number >= 0", 0, LARGEST_SEED)
+    check.done()
     problem = prepared(data, robot, parameters, first=first)
     optimise = require("scipy.optimize", "identify").least_squares
     options = {"loss": loss, "max_nfev": most}
@@ -157,19 +162,15 @@ def prepared(
     first: int = 0,
 ) -> Problem:
     """Return the problem that data and parameters pose, or refuse them."""
+    if not isinstance(data, Data | Iterable):
+        require_data("data", data, ", or a sequence of these")
     every = [data] if isinstance(data, Data) else list(data)
     for i, one in enumerate(every):
-        if not isinstance(one, Data):
-            raise TypeError(
-                f"data[{i}] must be Poses, a Motion or Frequencies, got {type(one).__name__}"
-            )
+        require_data(f"data[{i}]", one)
         one._check(robot)
     if not every:
         raise ValueError("data must hold at least one measurement, got none")
-    places: list[Place] = []
-    for one in every:
-        places += [place for place in one.places if place not in places]
-    plain = plain_setup(robot, tuple(places))
+    plain = plain_setup(robot, places_of(every))
     unknowns = unknowns_of(parameters, robot, plain, first)
     problem = Problem(every, plain, unknowns)
     if enough and problem.num_residuals < len(unknowns):
@@ -178,6 +179,11 @@ def prepared(
             f"{count(len(unknowns), 'parameter')}; measure more, or seek fewer"
         )
     return problem
+
+
+def places_of(data: Sequence[Data]) -> tuple[Place, ...]:
+    """Return the places of all markers, each once."""
+    return tuple(dict.fromkeys(place for one in data for place in one.places))
 
 
 def _drawn(problem: Problem, number: int, seed: int) -> list[FloatArray]:
@@ -256,7 +262,9 @@ def _rescaled(solution: Any, level: float) -> Any:
 def _no_start(problem: Problem) -> str:
     try:
         problem.forget()
-        problem.answers(np.zeros(len(problem.unknowns)))
+        start = np.zeros(len(problem.unknowns))
+        problem.answers(start)
+        problem.jacobian(start)
     except (UnsolvedError, ValueError) as error:
         return f"the model has no answer at the start: {error}"
     return "the model has no answer at any start"

@@ -11,8 +11,14 @@ from numpy.typing import ArrayLike
 
 from cdcr.base.arrays import FloatArray
 from cdcr.base.check import Check, count
-from cdcr.identification.channels import Channel, measured, noise_levels, row_of
-from cdcr.identification.data import Noise, Wrenches
+from cdcr.identification.channels import (
+    Channel,
+    check_commands,
+    measured,
+    noise_levels,
+    row_of,
+)
+from cdcr.identification.data import Noise, Wrenches, check_wrenches
 from cdcr.identification.rest import AtRest
 from cdcr.identification.setup import Place, Setup
 from cdcr.model.model import Model
@@ -119,10 +125,15 @@ class Frequencies(AtRest):
             raise ValueError(
                 f"{self.name}: command must have shape ({robot.num_cables},), got {command.shape}"
             )
+        check_commands(command[None, :], robot, self._named, self.name, pulled=False)
+        check_wrenches(self.wrenches, robot)
         number = Model(robot).num_coordinates
         for i, mode in enumerate(self.mode or ()):
             if mode >= number:
-                raise ValueError(f"{self.name}: mode[{i}] must be 0 to {number - 1}, got {mode}")
+                raise ValueError(
+                    f"{self.name}: mode[{i}] asks for vibration {mode + 1}, and the robot has "
+                    f"{number}"
+                )
         if robot.mass == 0.0:
             raise ValueError(f"{self.name}: a robot without mass does not vibrate; give it a mass")
 

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray
-from cdcr.base.check import format_value, one_of
+from cdcr.base.check import Check, format_value, one_of
 from cdcr.identification.channels import (
     Channel,
     Where,
@@ -19,6 +19,8 @@ from cdcr.identification.channels import (
     check_commands,
     increasing,
     measured,
+    of_numbers,
+    require_truth,
     row_of,
 )
 from cdcr.identification.data import (
@@ -32,13 +34,20 @@ from cdcr.identification.data import (
     channels_of,
     check_channels,
     markers_of,
+    measured_in,
 )
 from cdcr.identification.files import read_measured
 from cdcr.identification.motion_slopes import NOTHING, Samples, motion_slopes
 from cdcr.identification.setup import Place, Setup
 from cdcr.model.model import Model
 from cdcr.runs.command import TensionTable
-from cdcr.runs.simulate import DEFAULT_METHOD, FIXED_STEP, MethodName, find_method, simulate
+from cdcr.runs.simulate import (
+    DEFAULT_METHOD,
+    FIXED_STEP,
+    MethodName,
+    integrator_options,
+    simulate,
+)
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -131,7 +140,8 @@ class Motion(Data):
                 raise ValueError(
                     f"{name} must be {known[0]!r} or {known[1]!r}, got {getattr(self, name)!r}"
                 )
-        find_method(self.method)
+        integrator_options(self.method, rtol=self.rtol, step=self.step)
+        require_truth("pulled", self.pulled)
         where = self._named
         t = measured("t", self.t, (None,), where)
         if t.size < 2:
@@ -190,6 +200,9 @@ class Motion(Data):
         Motion
         """
         t = cast("FloatArray", self.t)
+        check = Check()
+        time = check.number("time", time, "a number of seconds > 0", above=0.0)
+        check.done()
         count = int(np.searchsorted(t, t[0] + time, side="right"))
         names = ("t", "command", *MEASURED)
         given: dict[str, Any] = {
@@ -210,8 +223,22 @@ class Motion(Data):
         """Refuse what does not fit a robot."""
         command = np.asarray(self.command)
         check_commands(command, robot, self._named, self.name, pulled=self.pulled)
-        check_channels(self, command, robot, self._named)
-        self._start(robot, Model(robot).num_coordinates)
+        check_channels(self, command, robot, self._named, self.wrenches)
+        self._check_start(robot)
+
+    def _check_start(self, robot: Robot) -> None:
+        """Refuse commands held before, or a state, that the robot cannot have."""
+        kind, value = self._start(robot, Model(robot).num_coordinates)
+        if kind == "state":
+            for name, one in zip(("q0", "qd0"), value, strict=True):
+                measured(name, one, (None,), lambda k, item: f"{self.name}, start, {item}[{k}]")
+            return
+
+        def named(_: int, column: str) -> str:
+            return f"{self.name}, start, {column}"
+
+        held = measured("command", value[None, :], (None, None), named)
+        check_commands(held, robot, named, self.name, pulled=self.pulled)
 
     def _named(self, row: int, column: str) -> str:
         """Name a row and a column, those of the file where they come from one."""
@@ -224,9 +251,9 @@ class Motion(Data):
         state = isinstance(self.start, tuple) and len(self.start) == 2 and np.ndim(self.start[0])
         if state:
             shapes = [np.shape(one) for one in self.start]
-            if shapes == [(num_q,), (num_q,)]:
+            if shapes == [(num_q,), (num_q,)] and all(map(of_numbers, self.start)):
                 return "state", tuple(np.asarray(one, float) for one in self.start)
-        elif np.shape(self.start) == (robot.num_cables,):
+        elif np.shape(self.start) == (robot.num_cables,) and of_numbers(self.start):
             return "held", np.asarray(self.start, float)
         raise ValueError(
             f"{self.name}: start must be None, {robot.num_cables} commands, or a pair (q0, qd0) of "
@@ -302,14 +329,4 @@ class Motion(Data):
 
     def _rows(self, chosen: FloatArray) -> Motion:
         """Return the same motion, measured at some times alone."""
-        keep = np.asarray(chosen, bool)
-
-        def part(value: ArrayLike | None) -> FloatArray | None:
-            if value is None:
-                return None
-            array: FloatArray = np.where(keep[:, None], np.asarray(value, float), np.nan)
-            return array
-
-        given: dict[str, Any] = {name: part(getattr(self, name)) for name in MEASURED}
-        given["markers"] = {place: part(one) for place, one in (self.markers or {}).items()}
-        return replace(self, **given, gaps="skip")
+        return replace(self, **measured_in(self, np.asarray(chosen, bool)))

@@ -71,7 +71,13 @@ def parameter_of(path: str, told: object) -> Parameter:
         if isinstance(told, Mapping):
             for key in told:
                 if key not in known:
-                    raise ValueError(f"there is no key {key!r}.{nearest(str(key), known)}")
+                    quote = f'; a path stands in quotes: "{path}.{key}"' if "." not in path else ""
+                    hint = nearest(str(key), known)
+                    raise ValueError(
+                        f"there is no key {key!r}.{hint}"
+                        if hint or not quote
+                        else f"there is no key {key!r}{quote}"
+                    )
             return Parameter(**told)
         return Parameter(start=told)  # type: ignore[arg-type]
     except ValueError as error:

@@ -9,14 +9,14 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 from cdcr.base.check import entry, nearest
-from cdcr.identification.setup import Plain
+from cdcr.identification.setup import MOUNTING, Plain
 from cdcr.robot.cable import Cable
 from cdcr.robot.robot import Robot
 from cdcr.robot.section import Section
 
 Slot = tuple[str | int, ...]  # the way to a number through lists and tables
 
-_PATH = re.compile(r"(scale )?(\w+)(?:\[([\d*:]+)\])?(?:\.(\w+)(?:\[([\d*:]+)\])?)?")
+_PATH = re.compile(r"(scale )?(\w+)(?:\[([\d*:]+)\])?(?:\.(\w+)((?:\[[\d*:]+\]){0,2}))?")
 _AXES = "xyz"
 # Numbers that words name, with their unit; those of three axes or two are one each.
 _WORDS: dict[str, tuple[tuple[Slot, ...], str]] = {
@@ -32,6 +32,13 @@ _SHARED = {
     "command_offset": "N or m",
     "command_gain": "",
 }
+# What has so many numbers that words name what can be sought of them.
+_WHOLES = {
+    "tool": "; 'tip offset' can",
+    "base_orientation": "; 'base tilt' and 'base yaw' can",
+    "payload_inertia": "",
+}
+_NO_NUMBERS = ("sections", "cables", *MOUNTING, "places", "marker_offset")
 _OF_CABLES = (
     "radius", "stiffness", "damping", "friction", "entry_friction", "sheath_friction", "viscosity",
     "pretension", "backlash",
@@ -99,7 +106,8 @@ def quantities_of(path: str, robot: Robot, plain: Plain, first: int = 0) -> list
     if not isinstance(path, str):
         raise ValueError(f"a parameter must be named by a path, got {path!r}")
     words = re.fullmatch(r"(.+?)(?: ([xyz]))?", path.strip())
-    assert words is not None
+    if words is None:
+        raise ValueError(_unknown(path, robot))
     if path in _WORDS or words[1] in _WORDS:
         return list(_by_words(path, *words.groups(), robot=robot, plain=plain))
     if marker := re.fullmatch(r"marker (?:(\d+) )?offset(?: ([xyz]))?", path):
@@ -156,6 +164,12 @@ def _slots(
         every = [("sections", i, f"cable_{field}") for i, one in enumerate(robot.sections)
                  if one.cable_angles]  # fmt: skip
         every += [("cables", j, field) for j in range(len(robot.cables))]
+        for j, cable in enumerate(plain["cables"]):
+            if _sizes(cable[field]):
+                raise ValueError(
+                    f"parameter {path!r}: {field} of cable {j + 1} of cables has several numbers, "
+                    f"pick one: cables[{first + j}].{field}[{first}][{first}]"
+                )
         return [(f"cables: {field}", tuple(every))]
     if home in ("sections", "cables") and field is not None and pick is not None:
         things = plain[home]
@@ -164,9 +178,13 @@ def _slots(
             who = f"all {home}" if i is None else entry(home, i)
             groups += _of_things(path, robot, plain, home, who, chosen, field, inner, first)
         return groups
-    if field is None and home in plain and home not in ("sections", "cables"):
+    if field is None and home in _WHOLES:
+        raise ValueError(
+            f"parameter {path!r}: {home} is no number that can be sought{_WHOLES[home]}"
+        )
+    if field is None and home in plain and home not in _NO_NUMBERS:
         if isinstance(plain[home], list):
-            if pick is None or isinstance(plain[home][0], list):
+            if pick is None:
                 raise ValueError(
                     f"parameter {path!r}: {home} has several numbers, pick one: {home}[{first}]"
                 )
@@ -195,27 +213,35 @@ def _of_things(
     things = [plain[home][i] for i in chosen]
     if not things or field not in things[0]:
         raise ValueError(_unknown(path, robot))
-    value = things[0][field]
-    if isinstance(value, list):
-        if inner is None:
-            raise ValueError(
-                f"parameter {path!r}: {field} has several numbers, pick one: [{first}]"
-            )
-        sizes = {len(thing[field]) for thing in things}
-        if len(sizes) > 1:
-            raise ValueError(f"parameter {path!r}: sections have differing numbers of {field}")
-        return [
-            (
-                f"{who}: {field}" if k is None else f"{who}: {field} {k + 1}",
-                tuple((home, i, field, one) for i in chosen for one in inside),
-            )
-            for k, inside in _picked(path, inner, sizes.pop(), first)
-        ]
-    if inner is not None or isinstance(value, bool | int | str):
+    picks = re.findall(r"\[([\d*:]+)\]", inner or "")
+    values = [thing[field] for thing in things]
+    shapes = {_sizes(value) for value in values}
+    if len(shapes) > 1:
+        raise ValueError(f"parameter {path!r}: {home} have differing numbers of {field}")
+    sizes = shapes.pop()
+    if len(picks) < len(sizes):
+        more = "".join(f"[{first}]" for _ in sizes[len(picks) :])
+        raise ValueError(f"parameter {path!r}: {field} has several numbers, pick one: {more}")
+    if len(picks) > len(sizes) or isinstance(values[0], bool | int | str):
         raise ValueError(f"parameter {path!r}: {field} is no number that can be sought")
-    if any(thing[field] is None for thing in things):
+    if any(value is None for value in values):
         raise ValueError(f"parameter {path!r}: {field} has no value to begin with, give it one")
-    return [(f"{who}: {field}", tuple((home, i, field) for i in chosen))]
+    groups: Groups = [(f"{who}: {field}", tuple((home, i, field) for i in chosen))]
+    for pick, size in zip(picks, sizes, strict=True):
+        groups = [
+            (name if k is None else f"{name} {k + 1}",
+             tuple((*slot, one) for slot in slots for one in inside))
+            for name, slots in groups
+            for k, inside in _picked(path, pick, size, first)
+        ]  # fmt: skip
+    return groups
+
+
+def _sizes(value: Any) -> tuple[int, ...]:
+    """Return how many numbers a field has: none of a number, one of a list, two of pairs."""
+    if not isinstance(value, list):
+        return ()
+    return (len(value), *(_sizes(value[0]) if value else ()))
 
 
 def _shared(robot: Robot, chosen: tuple[int, ...], field: str) -> Iterator[Slot]:

@@ -11,7 +11,14 @@ from numpy.typing import ArrayLike
 
 from cdcr.base.arrays import FloatArray
 from cdcr.base.check import one_of
-from cdcr.identification.channels import Channel, Where, check_commands, measured, row_of
+from cdcr.identification.channels import (
+    Channel,
+    Where,
+    check_commands,
+    measured,
+    require_truth,
+    row_of,
+)
 from cdcr.identification.data import (
     MEASURED,
     Noise,
@@ -21,6 +28,7 @@ from cdcr.identification.data import (
     channels_of,
     check_channels,
     markers_of,
+    measured_in,
 )
 from cdcr.identification.files import read_measured
 from cdcr.identification.history import differences, follow
@@ -49,8 +57,8 @@ class Poses(AtRest):
         Positions [m] of other places, each a section from 0 and a fraction of its length.
     tension, length : (N, num_cables) array_like, optional
         Measured tensions [N] and lengths [m] of the cables.
-    q : (N, 2n) array_like, optional
-        Measured bending vectors [rad].
+    q : (N, d) array_like, optional
+        Measured coordinates, in the order of `Model.coordinate_names` [rad], stretch [m].
     base_force, base_moment : (N, 3) array_like, optional
         What the robot does to its base [N], [N m], about where that is and in its frame; the
         drives of its cables stand on it.
@@ -108,6 +116,8 @@ class Poses(AtRest):
         """Keep arrays of numbers, or refuse what is none."""
         if not one_of(self.gaps, ("refuse", "skip")):
             raise ValueError(f"gaps must be 'refuse' or 'skip', got {self.gaps!r}")
+        for name in ("pulled", "history"):
+            require_truth(name, getattr(self, name))
         command = measured("command", self.command, (None, None), self._named)
         markers = markers_of(self.markers)
         given = {name: getattr(self, name) for name in MEASURED}
@@ -160,7 +170,7 @@ class Poses(AtRest):
         """Refuse what does not fit a robot."""
         command = np.asarray(self.command)
         check_commands(command, robot, self._named, self.name, pulled=self.pulled)
-        check_channels(self, command, robot, self._named)
+        check_channels(self, command, robot, self._named, self.wrenches)
 
     def _named(self, row: int, column: str) -> str:
         """Name a row and a column, those of the file where they come from one."""
@@ -191,7 +201,7 @@ class Poses(AtRest):
     def _rows(self, chosen: FloatArray) -> Poses:
         """Return some of the poses; where they have a history, all of them, some measured."""
         if self.history:
-            return self._measured_in(np.asarray(chosen, bool))
+            return replace(self, **measured_in(self, np.asarray(chosen, bool)))
         pick = np.flatnonzero(chosen)
         given: dict[str, Any] = {
             name: None if getattr(self, name) is None else np.asarray(getattr(self, name))[pick]
@@ -202,16 +212,3 @@ class Poses(AtRest):
         }
         given["where"] = lambda row, column: self._named(int(pick[row]), column)
         return replace(self, **given)
-
-    def _measured_in(self, rows: FloatArray) -> Poses:
-        def part(value: ArrayLike | None) -> FloatArray | None:
-            if value is None:
-                return None
-            array: FloatArray = np.where(rows[:, None], np.asarray(value, float), np.nan)
-            return array
-
-        given: dict[str, Any] = {
-            name: part(getattr(self, name)) for name in ("tip", "tension", "length", "q")
-        }
-        given["markers"] = {place: part(one) for place, one in (self.markers or {}).items()}
-        return replace(self, **given, gaps="skip")

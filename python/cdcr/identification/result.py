@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from cdcr.base.arrays import FloatArray
-from cdcr.identification.data import Data, UnsolvedError
+from cdcr.identification.data import Data, UnsolvedError, require_data
 from cdcr.identification.problem import Problem
 from cdcr.identification.setup import Setup
 from cdcr.identification.uncertainty import Uncertainty
@@ -194,6 +194,7 @@ class Identified:
         ValueError
             Where the model has no answer.
         """
+        require_data("data", data)
         setup = self._with_places(data)
         try:
             answers = data._answers(setup, data._solve(setup, None))

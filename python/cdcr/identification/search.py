@@ -8,6 +8,7 @@ from typing import Any, NoReturn
 import numpy as np
 
 from cdcr.base.arrays import FloatArray
+from cdcr.identification.data import UnsolvedError
 from cdcr.identification.problem import Problem
 from cdcr.identification.uncertainty import told_part
 
@@ -24,6 +25,8 @@ class _EndedError(Exception):
 
 def search(problem: Problem, start: FloatArray, options: dict[str, Any], optimise: Any) -> Any:
     """Return what least squares find from a start, None where the model has no answer there.
+
+    Where it comes to the edge of what the model answers it ends there, without success.
 
     SciPy's search within bounds goes slowly even where they are far: they are left aside until a
     step leads beyond one.
@@ -62,6 +65,7 @@ class _Steps:
         self.problem, self.x, self.linear = problem, start, linear
         self.evaluations = 0
         self.bounded = self.left = False
+        self.trouble = ""  # why there are no derivatives at x
         self._at = start  # of the derivatives
         self._slopes: FloatArray | None = None
 
@@ -77,7 +81,8 @@ class _Steps:
                 jac=lambda y: self.jacobian(y - shift), bounds=bounds, **options,
             )  # fmt: skip
         except _EndedError:
-            return None if self.left else self._settled()
+            nowhere = bool(self.trouble) and self._slopes is None
+            return None if self.left or nowhere else self._settled()
         found.x = found.x - shift
         return found
 
@@ -99,11 +104,22 @@ class _Steps:
         if self.problem.noise_is_given:
             misfit = max(misfit, 1.0)
         moved = np.inf if self._slopes is None else np.linalg.norm(self._slopes @ (x - self._at))
-        if self._slopes is None or not self.linear or moved > KEPT * misfit:
-            self._slopes, self._at = self.problem.jacobian(x), self.x
-        if self.linear and np.linalg.norm(told_part(self._slopes, residuals)) <= SETTLED * misfit:
+        slopes = self._slopes
+        if slopes is None or not self.linear or moved > KEPT * misfit:
+            slopes = self._differentiate()
+        if self.linear and np.linalg.norm(told_part(slopes, residuals)) <= SETTLED * misfit:
             self._end()
-        return self._slopes
+        return slopes
+
+    def _differentiate(self) -> FloatArray:
+        """Return derivatives at x; where the model has none, as at its limits, the search ends."""
+        try:
+            slopes = self.problem.jacobian(self.x)
+        except (UnsolvedError, ValueError) as error:
+            self.trouble = str(error)
+            self._end()
+        self._slopes, self._at = slopes, self.x
+        return slopes
 
     def _end(self) -> NoReturn:
         raise _EndedError
@@ -111,8 +127,11 @@ class _Steps:
     def _settled(self) -> Any:
         """Return what was found, as SciPy would."""
         fun = self.problem.residuals(self.x)
+        message = f"a further step is shorter than {SETTLED:g} standard errors"
+        if self.trouble:
+            message = f"it came to the edge of what the model answers: {self.trouble}"
         return SimpleNamespace(
-            x=self.x, fun=fun, jac=self._slopes, cost=0.5 * float(fun @ fun), success=True,
-            message=f"a further step is shorter than {SETTLED:g} standard errors",
+            x=self.x, fun=fun, jac=self._slopes, cost=0.5 * float(fun @ fun),
+            success=not self.trouble, message=message,
             active_mask=np.zeros(self.x.size, int),
         )  # fmt: skip

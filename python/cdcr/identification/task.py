@@ -25,11 +25,13 @@ from cdcr import robots
 from cdcr.files.refusals import named_by, with_lines
 from cdcr.files.toml import Faults, read_toml, refuse, schema_errors
 from cdcr.identification.data import Data
-from cdcr.identification.fit import fit
+from cdcr.identification.fit import fit, places_of
 from cdcr.identification.frequencies import Frequencies
 from cdcr.identification.motions import Motion
+from cdcr.identification.parameter import unknowns_of
 from cdcr.identification.poses import Poses
 from cdcr.identification.result import Identified
+from cdcr.identification.setup import Place, plain_setup
 from cdcr.robot.robot import Robot
 
 if TYPE_CHECKING:
@@ -90,6 +92,8 @@ def _task(file: Path, table: dict[str, Any]) -> Task:
     faults.done()
     if not data:
         raise ValueError(f"{file}: there must be a table [[poses]], [[motions]] or [[frequencies]]")
+    with named_by(str(file)):
+        unknowns_of(table["parameters"], robot, plain_setup(robot, places_of(data)), first=1)
     options = {key: table[key] for key in _OPTIONS if key in table}
     return Task(robot, table["parameters"], tuple(data), options, table.get("folds"))
 
@@ -107,10 +111,20 @@ def _robot(name: str, file: Path) -> Robot:
 def _data(table: Mapping[str, Any], make: Callable[..., Data], robot: Robot, folder: Path) -> Data:
     given = dict(table)
     if "markers" in given:
-        given["markers"] = [(int(section) - 1, at) for section, at in given["markers"]]
+        given["markers"] = [_place(one, robot) for one in given["markers"]]
     if "file" not in given:
         return make(**given)
     return make(folder / given.pop("file"), robot, **given)
+
+
+def _place(pair: list[float], robot: Robot) -> Place:
+    count = len(robot.sections)
+    if len(pair) != 2 or pair[0] not in range(1, count + 1) or not 0.0 <= pair[1] <= 1.0:
+        raise ValueError(
+            f"markers must be an array of pairs, a section from 1 to {count} and a fraction from 0 "
+            f"to 1, got {pair}"
+        )
+    return int(pair[0]) - 1, pair[1]
 
 
 def _frequencies(**given: Any) -> Frequencies:

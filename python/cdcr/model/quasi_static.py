@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray, ReadOnlyArrays, read_only
-from cdcr.base.check import require_kind
+from cdcr.base.check import count, require_kind
 from cdcr.model.model import Model
 from cdcr.model.statics import ConvergenceError
 
@@ -130,7 +130,7 @@ def quasi_static(
     Raises
     ------
     ValueError
-        For commands out of range.
+        For commands out of range, and an `after` of another robot or of no sample.
     ConvergenceError
         Where a sample has no rest.
 
@@ -152,6 +152,13 @@ def quasi_static(
         require_kind("after", after, QuasiStatic)
         if q0 is not None:
             raise ValueError("give either q0 or after, not both")
+        if not len(after):
+            raise ValueError("after must have reached a sample to go on from, got a run of none")
+        if after.q.shape[1] != model.num_coordinates or after.felt.shape[1] != model.num_cables:
+            raise ValueError(
+                "after must be a run of this robot, got one of "
+                f"{count(after.q.shape[1], 'coordinate')} and {count(after.felt.shape[1], 'cable')}"
+            )
         q, deflection, felt = after.q[-1], after.deflection[-1], after.felt[-1]
     found = _core.quasi_static(model, command, q, deflection, felt, wrenches)
     reached = len(found["q"])

@@ -16,6 +16,7 @@ from cdcr.robot.robot import Robot
 
 TAUT = 10.0  # tension to which cables driven by length are wound, that all are taut [N]
 PERTURBATION = 0.1  # off a shape that does not last, towards one that does [rad]
+RIGID = 1e-14  # of the largest compliance of the tip: less is rounding
 STRAIGHT = 1e-6  # bent by less than this is straight [rad]
 
 
@@ -49,9 +50,12 @@ class Rest:
     @property
     def words(self) -> str:
         """Where it rests."""
-        angles = self.model.polar(self.q)[0]
+        angles = self.model.polar(self.q)[0].copy()
+        for i, section in enumerate(self.model.robot.sections):
+            if section.bending_order is None:  # bent as it was made
+                angles[i] = np.hypot(*section.rest_bending)
         bends = [name.startswith("q") for name in self.model.coordinate_names]
-        if np.max(np.abs(self.q[bends]), initial=0.0) < STRAIGHT:
+        if max(np.max(np.abs(self.q[bends]), initial=0.0), np.max(angles)) < STRAIGHT:
             where = "straight"
         else:
             where = f"bent by {_degrees(angles)}"
@@ -100,10 +104,14 @@ class Rest:
 
     @property
     def tip_stiffness(self) -> tuple[float, float]:
-        """Force on the tip over its motion along it, along x and y of the tip [N/m]."""
+        """Force on the tip over its motion along it, along x and y of the tip [N/m].
+
+        Infinite where no strain that it has moves the tip that way.
+        """
         J, compliance = self._tip
-        x, y, _ = np.diag(J @ compliance @ J.T)
-        return 1.0 / float(x), 1.0 / float(y)
+        x, y, z = map(float, np.diag(J @ compliance @ J.T))
+        least = RIGID * max(x, y, z, 0.0)
+        return (1.0 / x if x > least else np.inf), (1.0 / y if y > least else np.inf)
 
     @property
     def tip_motion(self) -> FloatArray:

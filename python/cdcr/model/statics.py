@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import warnings
 from typing import Any
 
@@ -84,8 +85,13 @@ def checked_allocation(
         names = ", ".join(found.limits)
         reason = f"limited by {names}" if names else "no cable pulls that way"
         raise InfeasibleError(
-            f"force {np.asarray(force)} N m cannot be met with tensions from {limits[0]} to "
-            f"{limits[1]} N: {reason}; the nearest force is {found.force} N m",
+            f"force {in_line(force)} N m cannot be met with tensions from {limits[0]} to "
+            f"{limits[1]} N: {reason}; the nearest force is {in_line(found.force)} N m",
             found,
         )
     return found.tension
+
+
+def in_line(numbers: ArrayLike) -> str:
+    """Return an array as sentences print it: in one line, however long."""
+    return np.array2string(np.asarray(numbers), max_line_width=sys.maxsize)

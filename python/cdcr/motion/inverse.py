@@ -14,7 +14,7 @@ from cdcr import _core
 from cdcr.base.arrays import FloatArray, ReadOnlyArrays, read_only
 from cdcr.base.check import Check, one_of, require_kind
 from cdcr.model.model import Model
-from cdcr.model.statics import InfeasibleError
+from cdcr.model.statics import InfeasibleError, in_line
 from cdcr.motion.reference import Reference
 from cdcr.runs.command import Interpolation, TensionTable
 from cdcr.runs.simulate import warn_beyond_taylor_range
@@ -295,8 +295,8 @@ def _refusal(
     t: float, force: ArrayLike, answer: _core.Allocation, limits: tuple[float, float]
 ) -> str:
     cables = ", ".join(str(cable + 1) for cable in answer.limiting)
+    reason = f"limited by cables {cables}" if cables else "no cable pulls that way"
     return (
-        f"at t = {t:g} s force {np.asarray(force)} N m cannot be met with tensions from "
-        f"{limits[0]:g} to {limits[1]:g} N: limited by cables {cables}, the nearest force is "
-        f"{answer.force}"
+        f"at t = {t:g} s force {in_line(force)} N m cannot be met with tensions from "
+        f"{limits[0]:g} to {limits[1]:g} N: {reason}, the nearest force is {in_line(answer.force)}"
     )

@@ -25,6 +25,7 @@ MIN_LENGTH = 1e-3  # of the robot's length
 MIN_ENERGY = 1e-9  # of what bends it by about 1 rad
 MIN_ERROR = 1e-15  # [1]
 
+PANEL = 1.9  # height that a name beside a panel needs [in]
 MAX_NAMED = 9  # names in one row of a legend
 MAX_CABLES = 18  # named in two rows
 ROOMY = 6  # lines named without crowding
@@ -70,13 +71,14 @@ def plot_run(run: Trajectory) -> StyledFigure:
     left: list[Panel] = [plot_theta, plot_phi, *strain_panels(run.model), plot_tension]
     right: list[Panel] = [_plot_tip, _plot_energy, *[_plot_energy_error] * _is_free(run)]
     with style():
-        figure = StyledFigure(figsize=(11.0, 6.6), layout="constrained")
+        height = max(6.6, PANEL * len(left))
+        figure = StyledFigure(figsize=(11.0, height), layout="constrained")
         rows = math.lcm(len(left), len(right))
         grid = figure.add_gridspec(rows, 2)
         for column, panels in enumerate((left, right)):
-            height = rows // len(panels)
+            tall = rows // len(panels)
             for row, panel in enumerate(panels):
-                axes = figure.add_subplot(grid[row * height : (row + 1) * height, column])
+                axes = figure.add_subplot(grid[row * tall : (row + 1) * tall, column])
                 panel(axes, run)
                 show_time(axes, run, named=panel is panels[-1])
         figure.align_ylabels()

@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any
 
 from cdcr import _core
+from cdcr.base.arrays import FloatArray
 from cdcr.base.check import Check
 from cdcr.base.keywords import by_keyword
 from cdcr.base.quantity import quantity, told
@@ -130,8 +131,8 @@ class Cable:
         def __init__(
             self,
             *,
-            radius: float | Sequence[Sequence[float]] | Sequence[float],
-            angle: float | Sequence[Sequence[float]] | Sequence[float],
+            radius: float | Sequence[Sequence[float]] | Sequence[float] | FloatArray,
+            angle: float | Sequence[Sequence[float]] | Sequence[float] | FloatArray,
             end_section: int,
             stiffness: float = ...,
             damping: float = ...,

@@ -29,7 +29,7 @@ _TYPES: dict[str, Any] = {
     "whole or none": _Int,
     "number or pair": float | _Pair,
     "pair": _Pair,
-    "route": float | list[_Pair] | _Pair,
+    "route": float | Annotated[list[_Pair], pydantic.Field(min_length=1)] | _Pair,
     "section": Annotated[_Int, pydantic.Field(ge=1)],
     "numbers": list[float],
     "vector": _Three,

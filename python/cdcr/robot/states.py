@@ -60,11 +60,11 @@ def subdivide_state(robot: Robot, parts: Parts, q: ArrayLike) -> FloatArray:
 
 
 def merge_state(robot: Robot, parts: Parts, q: ArrayLike) -> FloatArray:
-    """Return the state of the whole robot whose sections bend as much as their parts together.
+    """Return the state of the whole robot that is nearest to that of its parts.
 
-    Exact where the parts of a section are bent alike, and the inverse of ``subdivide_state`` then.
-    Of sections that bend evenly, without twist and stretch: parts that do otherwise have no shape
-    in common with one that is whole.
+    Each section bends, twists and stretches as much as its parts together, and its strains, of the
+    orders that it has, come nearest to theirs in the mean square along it. Exact where a whole
+    section can have the shape of its parts, and the inverse of ``subdivide_state`` then.
 
     Parameters
     ----------
@@ -72,19 +72,18 @@ def merge_state(robot: Robot, parts: Parts, q: ArrayLike) -> FloatArray:
         The robot of n sections, not yet subdivided.
     parts : int or sequence of int
         As in ``robot.subdivide``, m parts together.
-    q : (..., 2m) array_like
-        Bending vectors of the subdivided robot [rad]; or their rates.
+    q : (..., D) array_like
+        Coordinates of the subdivided robot [rad], stretch [m]; or their rates.
 
     Returns
     -------
-    (..., 2n) array
-        Bending vectors of the sections, in the unit of `q`.
+    (..., d) array
+        Coordinates of the sections, in the units of `q`.
 
     Raises
     ------
     ValueError
-        For a wrong shape, values that are not finite, wrong `parts`, or a section that does more
-        than bend evenly.
+        For a wrong shape, values that are not finite, or wrong `parts`.
 
     Examples
     --------
@@ -94,17 +93,24 @@ def merge_state(robot: Robot, parts: Parts, q: ArrayLike) -> FloatArray:
     [0.5 0. ]
     """
     counts = _counts(robot, parts)
-    for i, section in enumerate(robot.sections):
-        if _strains(section) != [(1, 2)]:
-            raise ValueError(
-                "states can be merged of sections that bend evenly, without twist and stretch, "
-                f"and section {i + 1} has orders {_orders(section)}"
-            )
-    state = _checked(q, 2 * int(counts.sum()))
-    vectors = state.reshape(*state.shape[:-1], state.shape[-1] // 2, 2)
-    firsts = np.cumsum(counts) - counts
-    sums = np.add.reduceat(vectors, firsts, axis=-2)
-    return sums.reshape(*sums.shape[:-2], 2 * len(counts))
+    strains = [_strains(section) for section in robot.sections]
+    widths = [sum(size * width for size, width in one) for one in strains]
+    state = _checked(q, int(np.dot(counts, widths)))
+    found: list[FloatArray] = []
+    first = 0
+    for count, one, whole in zip(counts, strains, widths, strict=True):
+        end = first + count * whole
+        of_parts = state[..., first:end].reshape(*state.shape[:-1], count, whole)
+        first, begin = end, 0
+        for size, width in one:
+            block = of_parts[..., begin : begin + size * width]
+            block = block.reshape(*block.shape[:-1], size, width)
+            begin += size * width
+            share = np.zeros((*state.shape[:-1], size, width))
+            for part in range(count):
+                share += _extension(size, part, count) @ block[..., part, :, :]
+            found.append(share.reshape(*state.shape[:-1], size * width))
+    return np.concatenate(found, axis=-1)
 
 
 def _counts(robot: Robot, parts: Parts) -> NDArray[np.int_]:
@@ -120,13 +126,6 @@ def _checked(q: ArrayLike, size: int) -> FloatArray:
     if array.ndim == 0 or array.shape[-1] != size:
         raise ValueError(f"q must have shape (..., {size}), got {array.shape}")
     return array
-
-
-def _orders(section: Section) -> str:
-    names = ("bending", "twist", "stretch")
-    orders = (section.bending_order, section.twist_order, section.stretch_order)
-    told = zip(names, orders, strict=True)
-    return ", ".join(f"{name} {'locked' if order is None else order}" for name, order in told)
 
 
 def _strains(section: Section) -> list[tuple[int, int]]:
@@ -148,3 +147,9 @@ def _restriction(size: int, part: int, count: int) -> FloatArray:
     norms = np.arange(size) + 0.5
     projection = (norms[:, None] * legvander(points, size - 1).T) * weights
     return np.asarray(projection @ legvander(on_whole, size - 1))
+
+
+def _extension(size: int, part: int, count: int) -> FloatArray:
+    """Return what the Legendre coefficients on a part add to those on the whole (size, size)."""
+    norms = 2.0 * np.arange(size) + 1.0
+    return np.asarray(_restriction(size, part, count).T * norms[:, None] / norms[None, :])

@@ -33,6 +33,7 @@ _STATE = {
     "qd": (("section", "component"), "rad/s"),
     "tension": (("cable",), "N"),
     "command": (("cable",), "N or m"),
+    "deflection": (("cable",), "m"),  # of cables that remember
 }
 
 
@@ -73,6 +74,9 @@ def quantities(run: Trajectory) -> list[Quantity]:
             Quantity("command", *_STATE["command"], what, run.command),
             Quantity("cable_energy", (), "J", "energy in the cables' springs", run.cable_energy),
         ]
+    if run.deflection is not None:
+        what = "how far the cable is from where it stuck"
+        found.append(Quantity("deflection", *_STATE["deflection"], what, run.deflection))
     return found + [item for items in run.channels.values() for item in items]
 
 
@@ -89,7 +93,7 @@ def _state(run: Trajectory) -> list[Quantity]:
 
 
 def dims_and_units(model: Model, name: str) -> tuple[tuple[str, ...], str]:
-    """Return the dimensions after time, and the unit, of q, qd, tension or command."""
+    """Return the dimensions after time, and the unit, of q, qd, tension, command or deflection."""
     dims, units = _STATE[name]
     if name not in ("q", "qd") or all_bend_evenly(model):
         return dims, units
@@ -231,7 +235,7 @@ def write_csv(run: Trajectory, path: Path) -> None:
 
 
 def columns_of(model: Model, name: str) -> list[str]:
-    """Return the columns of q, qd, tension or command in a CSV file."""
+    """Return the columns of q, qd, tension, command or deflection in a CSV file."""
     return _columns(model, name, *dims_and_units(model, name))
 
 

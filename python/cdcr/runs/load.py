@@ -55,6 +55,7 @@ def _netcdf(file: Path, model: Model | None) -> dict[str, Any]:
             "qd": found.qd.values.reshape(rows, -1),
             "tension": found.tension.values,
             "command": command.values,
+            "deflection": found.deflection.values if "deflection" in found else None,
             "status": Status[about["status"]],
             "message": about["message"],
             "method": about["method"],
@@ -97,6 +98,7 @@ def _csv(file: Path, model: Model) -> dict[str, Any]:
 
     tension = values(columns_of(model, "tension"))
     asked = values(columns_of(model, "command")) if by_length(model) else tension
+    stuck = columns_of(model, "deflection")
     return {
         "model": model,
         "t": values([RUN_TIME])[:, 0],
@@ -104,6 +106,7 @@ def _csv(file: Path, model: Model) -> dict[str, Any]:
         "qd": values(columns_of(model, "qd")),
         "tension": tension,
         "command": asked,
+        "deflection": values(stuck) if stuck[:1] and stuck[0] in columns else None,
         "status": Status.ok,
         "message": f"{file.name} does not hold how the run ended, its method and its cost",
         "stats": make_stats(),

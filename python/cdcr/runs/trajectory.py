@@ -55,7 +55,7 @@ class Trajectory(Pictures, ReadOnlyArrays):
     events : tuple of EventRecord
         The events of `simulate`, in the order of time.
     deflection : ndarray, shape (N, num_cables), optional
-        Of cables whose friction remembers, against where they stick [m]; files do not keep it.
+        Of cables whose friction remembers, against where they stick [m].
     channels : mapping of str to sequence of Quantity, optional
         What else files of the run tell over time, by topic; `cdcr.Loop.run` gives it.
     sensitivities, rate_sensitivities : mapping of str to (N, d, k) array
@@ -95,7 +95,10 @@ class Trajectory(Pictures, ReadOnlyArrays):
                 raise ValueError(f"{name} must have shape {shape}, got {array.shape}")
             object.__setattr__(self, name, read_only(array))
         if self.deflection is not None:
-            object.__setattr__(self, "deflection", read_only(np.array(self.deflection)))
+            array = np.array(finite(self.deflection, "deflection"))
+            if array.shape != pulls:
+                raise ValueError(f"deflection must have shape {pulls}, got {array.shape}")
+            object.__setattr__(self, "deflection", read_only(array))
         if rows == 0:
             raise ValueError(f"a run must have at least one sample, got none. {self.message}")
 

@@ -213,10 +213,12 @@ def _out_of_reach(needed: InverseRun) -> str:
     misses = np.flatnonzero(~needed.feasible)
     first = int(misses[0])
     limiting = [str(cable + 1) for cable in needed.limiting[first]]
-    cables = f"cable{'' if len(limiting) == 1 else 's'} {', '.join(limiting)}"
+    cables = f"limited by cable{'' if len(limiting) == 1 else 's'} {', '.join(limiting)}"
+    reason = cables if limiting else "no cable pulls that way"
+    advice = "widen the limits, slow the motion down, or " if limiting else ""
     return (
         f"at t = {needed.t[first]:g} s the motion cannot be had with tensions from "
-        f"{needed.min_tension:g} to {needed.max_tension:g} N (limited by {cables}), nor at "
-        f"{misses.size - 1} more of {len(needed)} samples; widen the limits, slow the motion down, "
-        'or take the nearest tensions with infeasible = "nearest"'
+        f"{needed.min_tension:g} to {needed.max_tension:g} N ({reason}), nor at "
+        f"{misses.size - 1} more of {len(needed)} samples; {advice}"
+        'take the nearest tensions with infeasible = "nearest"'
     )
