@@ -22,7 +22,7 @@ py::array_t<int> sliding_of(const QuasiStatic& found) {
 
 py::dict follow(const Model& model, const py::object& commands, const py::object& q0,
                 const py::object& deflection, const py::object& felt, const py::object& wrenches) {
-  const Array rows = read_array(commands, "commands", {any_size, model.num_cables()}, of_cables);
+  const Array rows = read_array(commands, "command", {any_size, model.num_cables()}, of_cables);
   const RowMatrixXd asked =
       Eigen::Map<const RowMatrixXd>(rows.data(), rows.shape(0), rows.shape(1));
   QuasiStaticStart start;
@@ -31,11 +31,13 @@ py::dict follow(const Model& model, const py::object& commands, const py::object
   if (!deflection.is_none()) start.deflection = *VectorArgument(deflection, "deflection", m);
   if (!felt.is_none()) start.felt = *VectorArgument(felt, "felt", m);
   const Wrenches loads = read_wrenches(model, wrenches);
+  Interruption interruption;
   QuasiStatic found;
   {
     const Unlocked unlocked;
-    found = quasi_static(model, asked, start, loads);
+    found = quasi_static(model, asked, start, loads, [&] { return interruption(); });
   }
+  if (found.status == Status::interrupted) interruption.raise();
   py::dict out;
   out["q"] = to_rows(found.q);
   out["tension"] = to_rows(found.tension);

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import pickle
+import signal
+import threading
 import warnings
 from dataclasses import replace
 from pathlib import Path
@@ -54,8 +57,10 @@ def test_it_goes_on_after_another_run() -> None:
 
 def test_it_says_what_it_does_not_take() -> None:
     model = cdcr.Model(rubbing())
-    with pytest.raises(ValueError, match="commands must have shape"):
+    with pytest.raises(ValueError, match="command must have shape"):
         cdcr.quasi_static(model, [[1.0, 2.0]])
+    with pytest.raises(ValueError, match=r"sample 2 of 2: tension must be .* >= 0 N"):
+        cdcr.quasi_static(model, pulls(1.0, -1.0))
     with pytest.raises(ValueError, match="give either q0 or after, not both"):
         cdcr.quasi_static(
             model, pulls(1.0), q0=[0.0, 0.0], after=cdcr.quasi_static(model, pulls(0.0))
@@ -193,3 +198,12 @@ def test_cables_that_are_slack_and_straight_begin_smoothly() -> None:
                         method="bdf", rtol=1e-6, atol=1e-8)  # fmt: skip
     assert run.success
     assert run.stats.steps < 20000
+
+
+def test_ctrl_c_ends_it() -> None:
+    model = cdcr.Model(rubbing())
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background ignores it
+    timer = threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        cdcr.quasi_static(model, np.tile(pulls(1.0, 2.0), (500_000, 1)))

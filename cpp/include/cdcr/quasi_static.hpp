@@ -43,10 +43,12 @@ struct QuasiStaticStart {
 /// a two-hundredth of what the robot does. Without friction these are the points of rest that
 /// equilibrium() finds, each from the one before. Where a step does not converge it is cut; a jump
 /// to another shape (a buckling arm) is followed to where it comes to rest. Samples after a failure
-/// are left out. Throws std::invalid_argument for wrong sizes, negative or non-finite commands, and
+/// are left out, and with status interrupted those from where `interrupt`, asked before each, says
+/// true. Throws std::invalid_argument for wrong sizes, negative or non-finite commands, and
 /// wrenches that validate() refuses.
 [[nodiscard]] QuasiStatic quasi_static(const Model& model, const RowMatrixXd& commands,
                                        const QuasiStaticStart& start = {},
-                                       const Wrenches& wrenches = no_wrenches());
+                                       const Wrenches& wrenches = no_wrenches(),
+                                       const Interrupt& interrupt = {});
 
 }  // namespace CDCR_EXPORT cdcr

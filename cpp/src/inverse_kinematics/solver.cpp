@@ -5,6 +5,7 @@
 
 #include "base/constants.hpp"
 #include "cdcr/inverse_kinematics.hpp"
+#include "cdcr/robot_ode.hpp"
 #include "dynamics/bending.hpp"
 
 namespace cdcr {
@@ -93,7 +94,8 @@ void InverseSolver::curvature() noexcept {
   }
 }
 
-/// Shortens the bending vectors that are beyond their limits.
+/// Shortens the bending vectors that are beyond their limits, and draws what else leaves the
+/// shapes of rods back towards rest.
 void InverseSolver::keep_within_limits(VectorXd& q) const noexcept {
   // A hair less than the limit, so that rounding cannot put the length above it.
   constexpr double inside = 1.0 - 4.0 * std::numeric_limits<double>::epsilon();
@@ -102,6 +104,8 @@ void InverseSolver::keep_within_limits(VectorXd& q) const noexcept {
     const double theta = bend.norm();
     if (theta > inside * max_theta_[i]) bend *= inside * max_theta_[i] / theta;
   }
+  if (!model_->has_rods() || !q.allFinite()) return;
+  while (check_shape(*model_, q) != Status::ok) q += 0.1 * (model_->rest() - q);
 }
 
 bool InverseSolver::stands_at_limit(const VectorXd& q, Index section) const noexcept {

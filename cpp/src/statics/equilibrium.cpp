@@ -33,8 +33,7 @@ constexpr int max_load_steps = 400;
 constexpr int max_searches = 64;
 
 bool within_limit(const Model& model, const VectorXd& q) {
-  return q.allFinite() && detail::largest_bending(model, q) <= max_bending &&
-         detail::keeps_length(model, q);
+  return q.allFinite() && check_shape(model, q) == Status::ok;
 }
 
 /// Newton's method from one start.
@@ -242,8 +241,8 @@ bool multistart(const Model& model, NewtonSolver& search, VectorXd& q, int& sear
 void find(StaticProblem& problem, Equilibrium& result) {
   NewtonSolver search(problem);
   VectorXd& q = result.q;
-  const bool started_beyond = !within_limit(problem.model(), q);
-  if (started_beyond) q = problem.model().rest();
+  const Status started = check_shape(problem.model(), q);
+  if (!within_limit(problem.model(), q)) q = problem.model().rest();
   result.searches = 1;
   bool found = search.run(q);
   result.residual = search.residual();
@@ -258,8 +257,10 @@ void find(StaticProblem& problem, Equilibrium& result) {
     q = other;
     result.residual = search.residual();
     result.status = Status::ok;
-  } else if (started_beyond || detail::largest_bending(problem.model(), q) > 0.999 * max_bending) {
-    result.status = Status::bending_limit;
+  } else if (const Status ended = check_shape(problem.model(), 1.001 * q); ended != Status::ok) {
+    result.status = ended;
+  } else if (started != Status::ok) {
+    result.status = started;
   }
 }
 

@@ -92,12 +92,19 @@ class SlowRun {
 }  // namespace
 
 QuasiStatic quasi_static(const Model& model, const RowMatrixXd& commands,
-                         const QuasiStaticStart& start, const Wrenches& wrenches) {
+                         const QuasiStaticStart& start, const Wrenches& wrenches,
+                         const Interrupt& interrupt) {
   const Index m = model.num_cables(), count = commands.rows();
   detail::require(commands.cols() == m, "commands must have one column for each of the ", m,
                   " cables, got ", commands.cols());
   detail::require(count > 0, "commands must have at least one row, got none");
-  for (Index i = 0; i < count; ++i) require_command(model, commands.row(i).transpose());
+  for (Index i = 0; i < count; ++i) {
+    try {
+      require_command(model, commands.row(i).transpose());
+    } catch (const std::invalid_argument& error) {
+      detail::refuse("sample ", i + 1, " of ", count, ": ", error.what());
+    }
+  }
   if (start.q.size() != 0) detail::require_finite("q0", start.q, model.num_coordinates());
   if (start.deflection.size() != 0) detail::require_finite("deflection", start.deflection, m);
   if (start.felt.size() != 0) detail::require_finite("felt", start.felt, m);
@@ -112,14 +119,21 @@ QuasiStatic quasi_static(const Model& model, const RowMatrixXd& commands,
   out.sliding.resize(static_cast<std::size_t>(count * m));
   SlowRun run(model, wrenches, out);
   Index reached = 0;
+  out.status = Status::not_converged;
   for (; reached < count; ++reached) {
+    if (interrupt && interrupt()) {
+      out.status = Status::interrupted;
+      break;
+    }
     const VectorXd command = commands.row(reached);
     if (!(reached == 0 ? run.begin(command, start) : run.follow(command))) break;
     run.record(reached);
   }
   out.iterations = run.iterations();
-  if (reached == count) return out;
-  out.status = Status::not_converged;
+  if (reached == count) {
+    out.status = Status::ok;
+    return out;
+  }
   out.message = detail::sentence("Stopped before sample ", reached + 1, " of ", count, " (",
                                  name(out.status), "). ", message(out.status));
   out.q.conservativeResize(reached, Eigen::NoChange);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cdcr/dynamics.hpp"
+#include "cdcr/robot_ode.hpp"
 #include "cdcr/statics.hpp"
 #include "dynamics/bending.hpp"
 #include "loads/force_derivatives.hpp"
@@ -313,9 +314,7 @@ bool SlowStep::step(const VectorXd& command, const VectorXd* near) noexcept {
     out = now;
     if (stalled >= 3 && out <= stalled_by * tolerance()) break;
   }
-  if (!(out <= stalled_by * tolerance()) || !(largest_bending(model_, trial_) <= max_bending)) {
-    return false;
-  }
+  if (!(out <= stalled_by * tolerance()) || check_shape(model_, trial_) != Status::ok) return false;
   command_change_ = command_ - command_at_rest_;
   command_at_rest_ = command_;
   change_ = trial_ - q_;
