@@ -45,12 +45,12 @@ class PythonLoop final : public Loop {
         estimated_by(std::move(from)) {}
   PythonLoop(const PythonLoop&) = delete;
   PythonLoop& operator=(const PythonLoop&) = delete;
-  ~PythonLoop() { Driving::forget(controller(), this); }
+  ~PythonLoop() { Driving::forget(controller(), estimator(), this); }
 
   /// Goes on with the controller, as `asking` does.
   template <class Call>
   auto going_on(Call&& call) {
-    if (status() != Status::not_started) Driving::require_last(controller(), this);
+    if (status() != Status::not_started) Driving::require_last(controller(), estimator(), this);
     return asking(std::forward<Call>(call));
   }
 
@@ -58,7 +58,7 @@ class PythonLoop final : public Loop {
   /// throws.
   template <class Call>
   auto asking(Call&& call) {
-    const Driving driving(controller(), this);
+    const Driving driving(controller(), this, estimator());
     const auto unlocked = [&] {
       const Unlocked here;
       return call();
