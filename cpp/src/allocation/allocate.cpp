@@ -1,3 +1,4 @@
+#include <limits>
 #include <string>
 
 #include "base/arguments.hpp"
@@ -36,7 +37,9 @@ Allocation allocate_at(const Model& model, const VectorXd& q, const VectorXd& fo
   actuation_matrix(model, q, B);
   Allocation result;
   result.feasible = allocator.solve(force);
-  result.tension = allocator.tension();
+  // A force on short arms may ask for more than the largest double, which is not feasible.
+  constexpr double most = std::numeric_limits<double>::max();
+  result.tension = allocator.tension().cwiseMin(most).cwiseMax(-most);
   result.force = allocator.force();
   const VectorXd missing = force - result.force;
   result.distance = missing.stableNorm();  // whose squares do not overflow

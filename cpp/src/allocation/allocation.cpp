@@ -4,7 +4,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "allocation/check_limits.hpp"
 #include "base/arguments.hpp"
@@ -288,18 +287,14 @@ bool Allocator::solve(const ConstVectorRef& force) noexcept {
   high_ = upper_ / unit_;
   Q_ = force / unit_ / scale_;
   if (!solve_in_closed_form()) search();
-  bool feasible = is_met();
-  constexpr double most = std::numeric_limits<double>::max();
+  const bool feasible = is_met();
   for (Index j = 0; j < F_.size(); ++j) {
     tension_[j] = place_[j] == Place::lower   ? lower_[j]
                   : place_[j] == Place::upper ? upper_[j]
                                               : F_[j] * unit_;
-    if (std::abs(tension_[j]) <= most) continue;
-    tension_[j] = std::copysign(most, tension_[j]);  // a force of short arms may ask for more
-    feasible = false;
   }
   force_ = unit_ * (scale_ * (Q_ - rest_));
-  return feasible;
+  return feasible && tension_.allFinite();
 }
 
 }  // namespace cdcr

@@ -46,6 +46,18 @@ template <class P, class State>
   }
 }
 
+/// An answer about a pack of states from `first` on, of which there are so many.
+template <class P>
+[[gnu::always_inline]] inline void scatter(const Answer& answer, Index first, Index count,
+                                           const P* from) {
+  with_size(answer.size, [&](auto size) {
+    double* row = answer.data + first * answer.size;
+    for (Index lane = 0; lane < count; ++lane, row += size) {
+      for (Index i = 0; i < size; ++i) row[i] = get_lane(from[i], lane);
+    }
+  });
+}
+
 /// f(in, out) of packs of states in registers of W: all arguments of a pack one after another, and
 /// room for its answers likewise.
 template <int W, class P, class F>
@@ -67,12 +79,8 @@ void in_packs(Index count, std::initializer_list<Argument> arguments,
       f(static_cast<const P*>(in), out);
       const P* from = out;
       for (const Answer& answer : answers) {
-        with_size(answer.data != nullptr ? answer.size : 0, [&](auto size) {
-          for (int lane = 0; lane < P::size && first + lane < count; ++lane) {
-            double* row = answer.data + (first + lane) * answer.size;
-            for (Index i = 0; i < size; ++i) row[i] = get_lane(from[i], lane);
-          }
-        });
+        if (answer.data != nullptr)
+          scatter(answer, first, std::min(last + 1, Index{P::size}), from);
         from += answer.size;
       }
     }

@@ -1,5 +1,7 @@
 #include "estimation/augmented_motion.hpp"
 
+#include <limits>
+
 #include "cdcr/base_wrench.hpp"
 #include "cdcr/dynamics.hpp"
 #include "cdcr/kinematics.hpp"
@@ -68,6 +70,10 @@ void AugmentedMotion::set_mass(const ConstVectorRef& q, const ConstVectorRef& sh
 void AugmentedMotion::accelerate(const ConstVectorRef& x, const VectorXd& command,
                                  VectorRef qdd) noexcept {
   const auto q = x.head(d_), qd = x.segment(d_, d_);
+  if (!x.allFinite()) {  // of a filter that diverges
+    qdd.setConstant(std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
   if (!force_.empty()) force_[0].force = x.segment<3>(2 * d_);
   if (models_.size() == 1) {
     return forward_dynamics(models_[0], data_[0], q, qd, command, force_, qdd);
