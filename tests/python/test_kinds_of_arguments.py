@@ -55,6 +55,14 @@ CASES: dict[str, tuple[Callable[[], object], str]] = {
         lambda: MODEL.inverse_kinematics([0.0, 0.0, 0.8], seeds=10**40),
         "seeds must be a whole number of at most 2147483647 in size, got 1000",
     ),
+    "many steps": (
+        lambda: cdcr.rollout(MODEL, ZERO, ZERO, step=1.0, steps=10**12),
+        "steps must be a whole number >= 0 and at most 2147483647, got 1000000000000 (int)",
+    ),
+    "no path": (
+        lambda: MODEL.robot.save("robot\0.toml"),
+        "path must be the path of a file, got 'robot\\x00.toml' (str)",
+    ),
     "huge limit": (
         lambda: MODEL.allocate(ZERO, max_tension=10**400),
         "max_tension must be a number of at most 1.797693135e+308 in size, got 1000",

@@ -47,7 +47,7 @@ def test_chunks_are_the_whole(name: str, chunk: int, tmp_path: Path) -> None:
 def test_a_folder_is_replaced_when_asked(tmp_path: Path) -> None:
     path = tmp_path / "runs.zarr"
     cdcr.rollout_to_zarr(path, MODEL, Q0, QD0, **RUN)
-    with pytest.raises(FileExistsError, match=r"runs\.zarr exists; pass overwrite=True"):
+    with pytest.raises(FileExistsError, match=r"runs\.zarr exists already; pass overwrite=True"):
         cdcr.rollout_to_zarr(path, MODEL, Q0, QD0, **RUN)
     cdcr.rollout_to_zarr(path, MODEL, Q0[:3], QD0[:3], overwrite=True, **RUN)
     with xarray.open_zarr(path) as found:

@@ -115,6 +115,8 @@ class Check:
             count = int(value)
             if low <= count <= high:
                 return count
+            if count > high and str(high) not in requirement:
+                requirement += f" and at most {high}"
         self.refuse(item, requirement, value)
         return 0
 

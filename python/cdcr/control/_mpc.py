@@ -160,6 +160,10 @@ class Mpc(_core.Controller):
             )
         super().__setattr__(name, value)
 
+    def __repr__(self) -> str:
+        """Say how far it plans."""
+        return f"<Mpc: horizon {self.horizon}, period {self.period:g} s>"
+
     @property
     def reference(self) -> FloatArray:
         """Position of the tip to go to, (3,) [m]."""

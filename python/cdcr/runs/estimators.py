@@ -13,6 +13,7 @@ from cdcr.base.arrays import finite
 from cdcr.base.check import Check, require_kind
 from cdcr.base.keywords import by_keyword
 from cdcr.model.model import Model
+from cdcr.runs.limits import told
 from cdcr.runs.parts import Actuator, Sensor, as_dicts
 
 
@@ -159,6 +160,10 @@ class ExtendedKalman(_core.ExtendedKalman):
         )
         super().__init__(model, options)
 
+    def __repr__(self) -> str:
+        """Say how many sensors it hears."""
+        return told("ExtendedKalman", self.period, {"sensors": len(self.options["sensors"])})
+
 
 @by_keyword
 class UnscentedKalman(_core.UnscentedKalman):
@@ -247,6 +252,10 @@ class UnscentedKalman(_core.UnscentedKalman):
         )
         super().__init__(model, options)
 
+    def __repr__(self) -> str:
+        """Say how many sensors it hears."""
+        return told("UnscentedKalman", self.period, {"sensors": len(self.options["sensors"])})
+
 
 @by_keyword
 class MomentumObserver(_core.MomentumObserver):
@@ -325,3 +334,7 @@ class MomentumObserver(_core.MomentumObserver):
         check.done()
         options |= {"actuators": as_dicts("actuators", actuators, Actuator), "states": states}
         super().__init__(model, options)
+
+    def __repr__(self) -> str:
+        """Say the bandwidth."""
+        return told("MomentumObserver", self.period, {"bandwidth": self.options["bandwidth"]})
