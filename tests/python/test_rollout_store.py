@@ -63,6 +63,12 @@ def test_what_fails_leaves_nothing(tmp_path: Path) -> None:
         cdcr.rollout_to_zarr(tmp_path / "runs.nc", MODEL, Q0, QD0, **RUN)
     with pytest.raises(FileNotFoundError, match="does not exist; make it first"):
         cdcr.rollout_to_zarr(tmp_path / "no" / "runs.zarr", MODEL, Q0, QD0, **RUN)
+    masked = np.ma.masked_array(Q0, mask=np.eye(N, 2, dtype=bool))
+    for wrong in ({"q0": masked}, {"q0": Q0, "parameters": {"payload": masked[:, 0]}}):
+        with pytest.raises(ValueError, match="must be numbers, got MaskedArray with masked"):
+            cdcr.rollout_to_zarr(tmp_path / "runs.zarr", MODEL, qd0=QD0, **wrong, **RUN)
+    with pytest.raises(TypeError, match="parameters must be a mapping of paths to arrays"):
+        cdcr.rollout_to_zarr(tmp_path / "runs.zarr", MODEL, Q0, QD0, parameters="payload", **RUN)
     with pytest.raises(ValueError, match="chunk must be a whole number >= 1, got 0"):
         cdcr.rollout_to_zarr(tmp_path / "runs.zarr", MODEL, Q0, QD0, chunk=0, **RUN)
     assert list(tmp_path.iterdir()) == []

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from cdcr.base.arrays import FloatArray
+from cdcr.base.arrays import FloatArray, numbers
 from cdcr.base.check import Check, format_value
 from cdcr.model.model import Model
 from cdcr.robot.robot import Robot
@@ -65,12 +65,7 @@ def measured(
     item: str, value: object, shape: tuple[int | None, ...], where: Where, *, gaps: bool = False
 ) -> FloatArray:
     """Return an array of that shape, None for any length, or refuse it by row and column."""
-    try:
-        if np.asarray(value).dtype.kind in "bc":  # NumPy would take them for numbers
-            raise TypeError
-        array = np.array(value, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise ValueError(f"{item} must be an array of numbers, got {format_value(value)}") from None
+    array = numbers(value, f"{item} must be an array of numbers")
     fits = array.ndim == len(shape) and all(
         want in (None, got) for want, got in zip(shape, array.shape, strict=False)
     )

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cdcr.base.arrays import FloatArray
+from cdcr.base.arrays import FloatArray, numbers
 from cdcr.base.check import Check, require_kind
 from cdcr.identification.channels import whole
 from cdcr.identification.data import UnsolvedError
@@ -98,7 +98,7 @@ def informative_commands(
     if isinstance(candidates, Poses):
         poses = replace(candidates, noise=level)
     else:
-        commands = np.asarray(candidates)
+        commands = numbers(candidates, "candidates must be an array of numbers")
         poses = Poses(candidates, tip=np.zeros((len(commands), 3)), noise=level, name="candidates")
     problem = prepared(poses, robot, parameters, enough=False)
     most = len(poses)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, field, replace
+from numbers import Real
 from typing import TYPE_CHECKING, Any, Literal, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from cdcr import _core
-from cdcr.base.arrays import FloatArray
+from cdcr.base.arrays import FloatArray, finite, numbers
 from cdcr.base.check import format_value, one_of
 from cdcr.identification.channels import (
     Channel,
@@ -138,7 +139,7 @@ class Motion(Data):
             raise ValueError(f"{self.name}: a motion must have at least two times, got {t.size}")
         increasing(t, where)
         ask_about_times(t, where)
-        given_command = np.asarray(self.command)
+        given_command = numbers(self.command, "command must be an array of numbers")
         if given_command.ndim == 1:
             given_command = np.tile(given_command, (len(t), 1))
         command = measured("command", given_command, (len(t), None), where)
@@ -221,13 +222,13 @@ class Motion(Data):
         """Return how the motion begins: 'held' with commands, or 'state' with q0 and qd0."""
         if self.start is None:
             return "held", np.asarray(self.command)[0]
-        state = isinstance(self.start, tuple) and len(self.start) == 2 and np.ndim(self.start[0])
-        if state:
-            shapes = [np.shape(one) for one in self.start]
-            if shapes == [(num_q,), (num_q,)]:
-                return "state", tuple(np.asarray(one, float) for one in self.start)
-        elif np.shape(self.start) == (robot.num_cables,):
-            return "held", np.asarray(self.start, float)
+        item = f"{self.name}: start"
+        if isinstance(self.start, tuple) and not all(isinstance(one, Real) for one in self.start):
+            state = tuple(finite(one, item) for one in self.start)
+            if [one.shape for one in state] == [(num_q,), (num_q,)]:
+                return "state", state
+        elif (held := finite(self.start, item)).shape == (robot.num_cables,):
+            return "held", held
         raise ValueError(
             f"{self.name}: start must be None, {robot.num_cables} commands, or a pair (q0, qd0) of "
             f"{num_q} numbers each, got {format_value(self.start)}"

@@ -8,10 +8,10 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from cdcr import _core
+from cdcr.base.arrays import finite
 from cdcr.base.check import Check
 from cdcr.base.extras import require
 from cdcr.files.new_file import file_path
@@ -114,11 +114,13 @@ def _chunks(
     size: int, model: Model | Sequence[Model], options: Mapping[str, Any]
 ) -> Iterator[dict[str, Any]]:
     """Yield the arguments of each chunk: what there is of each motion in parts, the rest whole."""
+    given = options.get("parameters")
     parameters = {
-        name: np.asarray(values) for name, values in (options.get("parameters") or {}).items()
+        name: finite(values, f"parameters[{name!r}]")
+        for name, values in (given.items() if isinstance(given, Mapping) else ())
     }
     arrays = {
-        name: np.asarray(options[name])
+        name: finite(options[name], name)
         for name in ("q0", "qd0", "tension", "command")
         if options.get(name) is not None and not callable(options[name])
     }
