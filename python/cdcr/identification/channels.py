@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cdcr.base.arrays import FloatArray, numbers
-from cdcr.base.check import Check, format_value
+from cdcr.base.check import Check
 from cdcr.model.model import Model
 from cdcr.robot.robot import Robot
 
@@ -101,16 +101,17 @@ def noise_levels(noise: Mapping[str, float] | float | None, names: Sequence[str]
         return {}
     levels: Mapping[str, Any]
     levels = noise if isinstance(noise, Mapping) else dict.fromkeys(names, noise)
-    for name, level in levels.items():
+    for name in levels:
         if name not in names:
             known = ", ".join(names)
             raise ValueError(f"noise: there is no channel {name!r}; measured are {known}")
-        fine = isinstance(level, int | float | np.floating) and 0.0 < float(level) < np.inf
-        if not fine or isinstance(level, bool):
-            raise ValueError(
-                f"noise of {name} must be a number > 0 and finite, got {format_value(level)}"
-            )
-    return {name: float(level) for name, level in levels.items()}
+    check = Check()
+    found = {
+        name: check.number(f"noise of {name}", level, "a number > 0 and finite", above=0.0)
+        for name, level in levels.items()
+    }
+    check.done()
+    return found
 
 
 def ask_about_times(t: FloatArray, where: Where) -> None:

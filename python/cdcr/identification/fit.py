@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from cdcr.base.arrays import FloatArray
-from cdcr.base.check import count, one_of, require_kind
+from cdcr.base.check import as_tuple, count, one_of, require_kind
 from cdcr.base.extras import require
 from cdcr.identification.channels import whole
 from cdcr.identification.data import Data, UnsolvedError
@@ -20,6 +20,7 @@ from cdcr.identification.search import search
 from cdcr.identification.setup import Place, plain_setup
 from cdcr.robot.robot import Robot
 
+_DATA = "Poses, a Motion or Frequencies"
 LOSSES = ("linear", "soft_l1", "huber", "cauchy")
 ROUNDS = 3  # in which the noise of channels is found
 SETTLED = 0.02  # relative change of a noise that needs no further round
@@ -157,12 +158,10 @@ def prepared(
     first: int = 0,
 ) -> Problem:
     """Return the problem that data and parameters pose, or refuse them."""
-    every = [data] if isinstance(data, Data) else list(data)
+    every = [data] if isinstance(data, Data) else [*as_tuple("data", data, f"{_DATA}, or several")]
     for i, one in enumerate(every):
         if not isinstance(one, Data):
-            raise TypeError(
-                f"data[{i}] must be Poses, a Motion or Frequencies, got {type(one).__name__}"
-            )
+            raise TypeError(f"data[{i}] must be {_DATA}, got {type(one).__name__}")
         one._check(robot)
     if not every:
         raise ValueError("data must hold at least one measurement, got none")

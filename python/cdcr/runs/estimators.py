@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from cdcr import _core
 from cdcr.base.arrays import finite
-from cdcr.base.check import Check, require_kind
+from cdcr.base.check import Check, as_tuple, require_kind
 from cdcr.base.keywords import by_keyword
 from cdcr.model.model import Model
 from cdcr.runs.limits import told
@@ -47,7 +47,8 @@ def _kalman(
     given["substeps"] = check.whole("substeps", substeps, "a whole number >= 1")
     given["force_at"] = _place(check, force_at)
     check.done()
-    models = (variants,) if isinstance(variants, Model) else tuple(variants)
+    wanted = "a cdcr.Model or a sequence of them"
+    models = (variants,) if isinstance(variants, Model) else as_tuple("variants", variants, wanted)
     for i, variant in enumerate(models):
         require_kind(f"variants[{i}]", variant, Model)
     noise = np.atleast_1d(finite(acceleration_noise, "acceleration_noise"))

@@ -8,6 +8,7 @@ from typing import Any
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray, read_only
+from cdcr.base.check import as_tuple
 from cdcr.model.model import Model
 
 _START = ("q0", "qd0")
@@ -69,7 +70,8 @@ def asked_of(model: Model, names: str | Sequence[str]) -> Asked:
     TypeError
         For what is no name.
     """
-    given = (names,) if isinstance(names, str) else tuple(names)
+    wanted = "a name or a sequence of names"
+    given = (names,) if isinstance(names, str) else as_tuple("sensitivities", names, wanted)
     if not given:
         return Asked(())
     known = [name for name in given if name in (*_START, *_COMMANDS)]

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cdcr.base.arrays import MAX_SAMPLES, FloatArray, finite
-from cdcr.base.check import Check, format_value, nearest
+from cdcr.base.check import Check, as_tuple, format_value, nearest
 from cdcr.base.extras import require
 
 Kind = Literal["grid", "rows", "sobol", "lhs", "random", "saltelli"]
@@ -58,7 +58,7 @@ def make_design(
     """Return the values of a sweep, as `cdcr.sweep` takes them, or refuse them in a sentence."""
     if isinstance(parameters, str):
         raise ValueError(f"parameters must be a mapping from names to values, got {parameters!r}")
-    names = tuple(parameters)
+    names = as_tuple("parameters", parameters, "a mapping from names to values")
     if not names:
         raise ValueError("a sweep must have a parameter, got none")
     twice = next((one for i, one in enumerate(names) if one in names[:i]), None)

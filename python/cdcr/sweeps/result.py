@@ -25,6 +25,12 @@ ZARR_FORMAT = 2  # in which strings are specified
 _BESIDE = ("status", "message")  # variables that are no metrics
 
 
+def require_sweep(result: object) -> None:
+    """Refuse what is no result of a sweep."""
+    if "sweep" not in getattr(result, "attrs", ()):
+        raise TypeError(f"result must be what cdcr.sweep returns, got {type(result).__name__}")
+
+
 def metric_names(result: xarray.Dataset) -> list[str]:
     """Return the names of the metrics of a sweep."""
     return [str(name) for name in result.data_vars if name not in _BESIDE]

@@ -145,6 +145,8 @@ def sweep(
     if chunk is not None:
         check.whole("chunk", chunk, f"a whole number 1 to {LARGEST}", low=1, high=LARGEST)
     check.done()
+    if progress is not None and not callable(progress):
+        raise TypeError(f"progress must be a function of numbers, got {type(progress).__name__}")
     target = None if path is None else file_path(path)
     if target is not None:
         result.check_path(target)
