@@ -1,5 +1,6 @@
 """The gradient of a cost by the adjoint: differences, sensitivities forward, refusals."""
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -168,6 +169,9 @@ def test_it_is_that_of_sensitivities() -> None:
         ({"parameters": "mass"}, "there is no parameter 'mass'"),
         ({"cost": lambda m: (0.0, {"p": m.q})}, "derivatives by 'q', 'qd', 'tip', got 'p'"),
         ({"cost": lambda m: (0.0, {"q": m.q[1:]})}, r"by q must have shape \(31, 6\)"),
+        ({"cost": lambda m: (math.nan, {})}, "cost must be finite, got nan"),
+        ({"cost": lambda m: ([1.0], {})}, r"cost must be one number, got \(1,\)"),
+        ({"cost": lambda m: 1.0}, "cost must return the cost and a mapping with its derivatives"),
         (
             {"wrenches": cdcr.Wrench(section=0, force=(1, 0, 0), profile=([0, 1], [0, 1]))},
             "must not change in time",
@@ -191,5 +195,16 @@ def test_what_remembers_and_what_fails() -> None:
     with pytest.raises(ValueError, match="no gradient where cables or drives remember"):
         cdcr.gradient(model, [0, 0], [0, 0], model.rest_command(), cost_of(model), **OPTIONS)
     weak = cdcr.Model(cdcr.robots.amouri2020())
+    with (
+        pytest.raises(RuntimeError, match="the gradient became infinite"),
+        np.errstate(all="ignore"),
+    ):
+        cdcr.gradient(
+            weak,
+            *([0, 0], [0, 0], [1.0, 0, 0]),
+            lambda motion: (1.0, {"q": np.full_like(motion.q, 1.7e308)}),
+            step=0.01,
+            steps=300,
+        )
     with pytest.raises(RuntimeError, match="bend"):
         cdcr.gradient(weak, [0, 0], [0, 0], [500.0, 0, 0], cost_of(weak), **OPTIONS)

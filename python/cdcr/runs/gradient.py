@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from cdcr.base.arrays import FloatArray, ReadOnlyArrays, finite, read_only
-from cdcr.base.check import Check, as_tuple, require_kind
+from cdcr.base.check import Check, as_tuple, format_value, require_kind
 from cdcr.model.model import Model
 from cdcr.model.steps import AnyDynamics, Steps
 from cdcr.model.wrench import Wrench
@@ -187,18 +187,33 @@ def gradient(
     d = model.num_coordinates
     t = np.asarray(step * record_every * np.arange(len(states)), dtype=np.float64)
     motion = Motion(t, states[:, :d], states[:, d:])
-    value, slopes = cost(motion)
+    value, slopes = _answer(cost(motion))
     by_start, by_tension, by_parameter = walk.backwards(
         checkpoints, _state_slopes(model, motion, slopes), record_every
     )
+    if not all(np.isfinite(one).all() for one in (by_start, by_tension, by_parameter)):
+        raise RuntimeError("the gradient became infinite or not a number: use a smaller step")
     return Gradient(
-        value=float(value),
+        value=value,
         q0=read_only(by_start[:d]),
         qd0=read_only(by_start[d:]),
         tension=read_only(by_tension if pulls.ndim == 2 else by_tension.sum(axis=0)),
         motion=motion,
         parameters=dict(zip(names, by_parameter.tolist(), strict=True)),
     )
+
+
+def _answer(told: Any) -> tuple[float, Mapping[str, ArrayLike]]:
+    """Return what a cost has told, or refuse what is none."""
+    if not isinstance(told, (tuple, list)) or len(told) != 2 or not isinstance(told[1], Mapping):
+        raise TypeError(
+            "cost must return the cost and a mapping with its derivatives, got "
+            f"{format_value(told)}"
+        )
+    value = finite(told[0], "cost")
+    if value.shape:
+        raise ValueError(f"cost must be one number, got {value.shape}")
+    return float(value), told[1]
 
 
 def _state_slopes(model: Model, motion: Motion, slopes: Mapping[str, ArrayLike]) -> FloatArray:
