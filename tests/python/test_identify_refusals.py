@@ -281,6 +281,9 @@ def test_files_of_measurements(tmp_path: Path) -> None:
     written(file, header=HEADER + ",warmth [m]")
     with refused(f"{file}, line 2: must have 10 columns, got 9"):
         Poses.load(file, ROBOT)
+    file.write_text("root:*:20228:0\ndaemon:*:20228:0\n")  # of somebody who may not read it
+    with refused(f"{file}, line 1: the columns must have units, as in 'tip x [m]', and none has"):
+        Poses.load(file, ROBOT)
     lines = good.read_text().splitlines()
     file.write_text("\n".join([f"{lines[0]},tipp x [m]", *(f"{row},0" for row in lines[1:])]))
     with refused(f"{file}, line 1: there is no channel 'tipp x [m]'. Did you mean 'tip x'?"):
