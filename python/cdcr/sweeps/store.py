@@ -143,13 +143,12 @@ def _chunk(line: Any, num_metrics: int) -> dict[int, Outcome] | None:
             number: Outcome(tuple(float(value) for value in values), status, message)
             for number, (values, status, message) in zip(numbers, ended, strict=True)
         }
+        words = all(isinstance(word, str) for one in ended for word in one[1:])
     except (TypeError, ValueError):
         return None
-    for number, one in found.items():
-        words = isinstance(one.status, str) and isinstance(one.message, str)
-        if not isinstance(number, int) or len(one.values) != num_metrics or not words:
-            return None
-    return found
+    whole = all(isinstance(number, int) for number in numbers)
+    sizes = all(len(one.values) == num_metrics for one in found.values())
+    return found if words and whole and sizes else None
 
 
 def _parsed(line: bytes) -> Any:
