@@ -75,6 +75,9 @@ def test_suffix_chooses_the_format(
     assert run.animate(tmp_path / "RUN.GIF", fps=4.0).read_bytes().startswith(b"GIF89a")
     with pytest.raises(ValueError, match=r"must end in \.gif, \.mp4 or \.html, got 'run\.avi'"):
         run.animate(tmp_path / "run.avi")
+    for nameless in ("", "..", "/"):
+        with pytest.raises(ValueError, match=r"must end in \.gif, \.mp4 or \.html, got '(\.\.)?'"):
+            run.animate(nameless)
 
 
 def _install_ffmpeg(folder: Path, script: str, monkeypatch: pytest.MonkeyPatch) -> None:

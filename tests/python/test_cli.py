@@ -208,3 +208,12 @@ def test_dashes_and_underscores_are_the_same_in_names(name: str, tmp_path: Path)
 def test_names_that_are_no_strings(get: Any, name: object) -> None:
     with pytest.raises(ValueError, match=r"^the name of a (robot|scenario) must be a string, got"):
         get(name)
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no full device")
+def test_what_is_printed_onto_a_full_disk() -> None:
+    command = [sys.executable, "-m", "cdcr", "list", "--json"]
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+    assert done.returncode == 2
+    assert done.stderr == "cdcr: what is printed: No space left on device\n"

@@ -179,6 +179,12 @@ def test_a_file_must_be_one_that_run_takes(tmp_path: Path) -> None:
     result = cdcr_("new", tmp_path / "no" / "my.toml")
     assert result.exit_code == 2
     assert result.stderr == f"cdcr: the folder {tmp_path / 'no'} does not exist; make it first\n"
+    (tmp_path / "file").touch()
+    result = cdcr_("new", tmp_path / "file" / "my.toml")
+    assert result.stderr == f"cdcr: {tmp_path / 'file'} is a file, not a folder to write to\n"
+    result = cdcr_("run", "step-tension", "--out", tmp_path / "file" / "out")
+    assert result.stderr == f"cdcr: {tmp_path / 'file'} is a file, not a folder to write to\n"
+    (tmp_path / "file").unlink()
     (tmp_path / "folder.toml").mkdir()
     result = cdcr_("new", tmp_path / "folder.toml", "--overwrite")
     assert result.stderr == f"cdcr: {tmp_path / 'folder.toml'} is a folder, not a file\n"

@@ -97,6 +97,7 @@ def test_a_grid_in_logarithmic_steps(tmp_path: Path) -> None:
         ),
         (("--param", "payload=0:1", "--samples", "sobol:3"), "--samples of sobol must be a power"),
         (("--param", "payload=normal:0:0", "--samples", "lhs:4"), "normal:MEAN:SD with SD > 0"),
+        (("--param", "payload=1,2", "--out", "."), "must end in .nc or .zarr, got ''"),
         (("--param", "payload=1,2", "--scheduler", "tcp://a:1"), "jobs are for this machine, and"),
     ],
 )

@@ -92,6 +92,7 @@ def test_two_crossings_within_a_step_are_found(model: cdcr.Model, method: Any) -
         (lambda a, b, c, d: 0, ValueError, "events[0] must take (t, q, qd), (t, y)"),
         (event(lambda t: t, terminal=-1), ValueError, "terminal of events[0] must be True, False"),
         (event(lambda t: t, direction="up"), ValueError, "direction of events[0] must be a number"),
+        (lambda t, q, qd: q[0] > 0.1, TypeError, "events[0] must return a number that goes"),
         (lambda t: math.nan, ValueError, "the value of an event must be finite, got nan"),
         (lambda t: [1.0, 2.0], ValueError, "the value of an event must have shape (), got (2,)"),
     ],
@@ -102,6 +103,12 @@ def test_what_is_no_event_is_refused(
     with pytest.raises(error) as found:
         cdcr.simulate(model, ZEROS, ZEROS, t=[0.0, 1.0], events=events)
     assert str(found.value).startswith(sentence)
+
+
+def test_numbers_of_numpy_are_attributes_too(model: cdcr.Model) -> None:
+    found = event(lambda t: t - 0.25, terminal=np.True_, direction=np.int64(1))
+    assert cdcr.simulate(model, ZEROS, ZEROS, t=[0.0, 1.0], events=found).events[0].time == 0.25
+    assert cdcr.simulate(model, ZEROS, ZEROS, t=[0.0, 1.0], events=None).events == ()
 
 
 @pytest.mark.parametrize("method", METHODS)

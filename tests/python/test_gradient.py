@@ -194,5 +194,16 @@ def test_what_remembers_and_what_fails() -> None:
     with pytest.raises(ValueError, match="no gradient where cables or drives remember"):
         cdcr.gradient(model, [0, 0], [0, 0], model.rest_command(), cost_of(model), **OPTIONS)
     weak = cdcr.Model(cdcr.robots.amouri2020())
+    with (
+        pytest.raises(RuntimeError, match="the gradient became infinite"),
+        np.errstate(all="ignore"),
+    ):
+        cdcr.gradient(
+            weak,
+            *([0, 0], [0, 0], [1.0, 0, 0]),
+            lambda motion: (1.0, {"q": np.full_like(motion.q, 1.7e308)}),
+            step=0.01,
+            steps=300,
+        )
     with pytest.raises(RuntimeError, match="bend"):
         cdcr.gradient(weak, [0, 0], [0, 0], [500.0, 0, 0], cost_of(weak), **OPTIONS)

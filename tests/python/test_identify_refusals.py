@@ -31,6 +31,40 @@ def refused(sentence: str) -> Any:
     return pytest.raises((ValueError, TypeError), match=f"^{re.escape(sentence)}")
 
 
+NO_NUMBERS: dict[str, Any] = {
+    "masked": np.ma.masked_array([1.0, 2.0, 3.0], mask=[True, False, False]),
+    "durations": np.array([1, 2, 3], "m8[ms]"),
+    "dates": np.array([1, 2, 3], "M8[s]"),
+    "complex": np.array([1.0, 2.0, 3.0j]),
+    "text": ["1", "2", "3"],
+    "objects": np.array([1.0, 2.0, "3"], object),
+    "truth": [True, False, True],
+    "none": [None, 1.0, 2.0],
+    "ragged": [[1.0], 2.0, 3.0],
+}
+
+
+@pytest.mark.parametrize("name", NO_NUMBERS)
+def test_what_is_no_plain_number(name: str) -> None:
+    bad, row = NO_NUMBERS[name], np.ones((1, 3))
+    with refused("tip must be an array of numbers, got "):
+        Poses(row, tip=[bad])
+    with refused("command must be an array of numbers, got "):
+        Poses([bad], tip=row)
+    with refused("t must be an array of numbers, got "):
+        Motion(bad, np.ones(3), q=np.ones((3, 2)))
+    with refused("command must be an array of numbers, got "):
+        Motion(T[:3], bad, q=np.ones((3, 2)))
+    with refused("frequency must be an array of numbers, got "):
+        Frequencies(bad, command=np.ones(3))
+    with refused("candidates must be an array of numbers, got "):
+        informative_commands(ROBOT, {MODULUS: None}, [bad], noise=0.1)
+    if name != "truth":  # which counts as 0 and 1 where numbers are given, not measured
+        motion = Motion(T, np.zeros(6), tip=TIPS, start=bad)
+        with refused("motion: start must be numbers, got "):
+            cdcr.identify(motion, ROBOT, {MODULUS: None})
+
+
 @pytest.mark.parametrize(
     ("path", "sentence"),
     [
@@ -246,6 +280,9 @@ def test_files_of_measurements(tmp_path: Path) -> None:
             Poses.load(file, ROBOT)
     written(file, header=HEADER + ",warmth [m]")
     with refused(f"{file}, line 2: must have 10 columns, got 9"):
+        Poses.load(file, ROBOT)
+    file.write_text("root:*:20228:0\ndaemon:*:20228:0\n")  # of somebody who may not read it
+    with refused(f"{file}, line 1: the columns must have units, as in 'tip x [m]', and none has"):
         Poses.load(file, ROBOT)
     lines = good.read_text().splitlines()
     file.write_text("\n".join([f"{lines[0]},tipp x [m]", *(f"{row},0" for row in lines[1:])]))

@@ -12,6 +12,7 @@ from cdcr.base.calls import explain
 
 MODEL = cdcr.Model(cdcr.robots.amouri2020())
 ZERO = [0.0, 0.0]
+TIP = cdcr.Sensor(kind="tip")
 REFERENCE = cdcr.Reference(
     t=np.arange(2.0), q=np.zeros((2, 2)), qd=np.zeros((2, 2)), qdd=np.zeros((2, 2))
 )
@@ -54,6 +55,40 @@ CASES: dict[str, tuple[Callable[[], object], str]] = {
     "many seeds": (
         lambda: MODEL.inverse_kinematics([0.0, 0.0, 0.8], seeds=10**40),
         "seeds must be a whole number of at most 2147483647 in size, got 1000",
+    ),
+    "many steps": (
+        lambda: cdcr.rollout(MODEL, ZERO, ZERO, step=1.0, steps=10**12),
+        "steps must be a whole number >= 0 and at most 2147483647, got 1000000000000 (int)",
+    ),
+    "sensitivities": (
+        lambda: run(sensitivities=5),
+        "sensitivities must be names, such as 'q0', 'tension' or 'payload', got 5",
+    ),
+    "paths of a gradient": (
+        lambda: cdcr.gradient(
+            MODEL, ZERO, ZERO, [0.0] * 3, lambda m: (0.0, {}), step=1.0, steps=1, parameters=NONE
+        ),
+        "parameters must be a path or a sequence of paths, got None (NoneType)",
+    ),
+    "variants": (
+        lambda: cdcr.ExtendedKalman(MODEL, sensors=TIP, variants=NONE),
+        "variants must be a cdcr.Model or a sequence of them, got None (NoneType)",
+    ),
+    "data": (
+        lambda: cdcr.identify(NONE, MODEL.robot, {}),
+        "data must be Poses, a Motion or Frequencies, or a sequence of these, got NoneType",
+    ),
+    "large noise": (
+        lambda: cdcr.identification.Poses([[0.0] * 3], tip=[[0.0] * 3], noise=10**400),
+        "noise of tip must be a number > 0 and finite, got 1000",
+    ),
+    "name of exported C": (
+        lambda: cdcr.export.write_c(MODEL.robot, "here", name=NONE),
+        "name must be an identifier of C, got None (NoneType)",
+    ),
+    "no path": (
+        lambda: MODEL.robot.save("robot\0.toml"),
+        "path must be the path of a file, got 'robot\\x00.toml' (str)",
     ),
     "huge limit": (
         lambda: MODEL.allocate(ZERO, max_tension=10**400),

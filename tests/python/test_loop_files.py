@@ -1,6 +1,9 @@
 """Files of closed loops: what runs save, and logs that C++ writes while a loop runs."""
 
+import copy
 import json
+import os
+import pickle
 from collections import defaultdict
 from pathlib import Path
 from typing import Any
@@ -180,10 +183,25 @@ def test_refusals(tmp_path: Path) -> None:
         cdcr.LoopLog(loop, tmp_path / "loop.nc")
     with pytest.raises(ValueError, match="capacity must be a whole number 1 to 16777216, got 0"):
         cdcr.LoopLog(loop, tmp_path / "new.csv", capacity=0)
-    with pytest.raises(ValueError, match="cannot be written"):
+    with pytest.raises(FileNotFoundError, match="does not exist; make it first"):
         cdcr.LoopLog(loop, tmp_path / "no" / "loop.csv")
     assert [file.name for file in tmp_path.iterdir()] == ["loop.csv"]
     loop.step()
+
+
+def test_a_file_has_one_log(tmp_path: Path) -> None:
+    path = tmp_path / "loop.csv"
+    with cdcr.LoopLog(a_loop(), path) as log:
+        with pytest.raises(FileExistsError, match="another log is written to"):
+            cdcr.LoopLog(a_loop(), path, overwrite=True)
+        assert repr(log) == f"<LoopLog to {path}, open, 0 rows dropped>"
+        for copied in (copy.copy, copy.deepcopy, pickle.dumps):
+            with pytest.raises(TypeError, match="LoopLog can be neither pickled nor copied"):
+                copied(log)
+    pipe = tmp_path / "pipe.csv"
+    os.mkfifo(pipe)
+    with pytest.raises(ValueError, match="is a pipe or a device, not a file to write to"):
+        cdcr.LoopLog(a_loop(), pipe, overwrite=True)
 
 
 def test_scenarios_of_closed_loops_write_it_too(tmp_path: Path) -> None:

@@ -137,6 +137,8 @@ def test_pickled_it_goes_on() -> None:
         ({"min_tension": -1.0}, "min_tension must be a number >= 0 N, got -1"),
         ({"period": 0.0}, "period must be a number > 0 and finite, got 0"),
         ({"period": 0.02, "step": 0.01}, r"step must be at least the period of 0\.02 s, got 0\.01"),
+        ({"period": None}, r"period must be a number > 0 and finite, got None \(NoneType\)"),
+        ({"step": "x"}, r"step must be a number > 0 and finite, got 'x' \(str\)"),
         ({"horizon": 0}, "horizon must be a whole number >= 1, got 0"),
         ({"substeps": 0}, "substeps must be a whole number >= 1, got 0"),
         ({"tip_weight": -1.0}, "tip_weight must be a number > 0 and finite, got -1"),

@@ -36,6 +36,12 @@ def test_wrong_arguments_of_pictures(
         run.plot_robot(**arguments)
 
 
+@pytest.mark.parametrize("alpha", [None, -0.1, 1.5, "x", 10**400])
+def test_wrong_opacities(alpha: Any, run: cdcr.Trajectory) -> None:
+    with pytest.raises(ValueError, match=r"^alpha must be a number 0 to 1, got "):
+        cdcr.plotting.plot_robot(run.model, [0.1, 0.0], alpha=alpha)
+
+
 @pytest.mark.parametrize(
     ("call", "sentence"),
     [

@@ -40,7 +40,7 @@ def test_without_an_argument_it_is_shown(
     [
         (["{}/none/a.png"], "the folder {}/none does not exist; make it first"),
         (["{}/taken.png"], "{}/taken.png is a folder, not a file"),
-        (["{}/file/a.png"], "the folder {}/file does not exist; make it first"),
+        (["{}/file/a.png"], "{}/file is a file, not a folder to write to"),
         (["{}"], FORM + "'{}'"),
         (["{}/a.bad"], FORM + "'{}/a.bad'"),
         (["--help"], FORM + "'--help'"),

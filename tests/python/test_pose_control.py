@@ -43,6 +43,7 @@ def test_rotation_vectors_are_those_of_the_exponential() -> None:
     np.testing.assert_array_equal(cdcr.rotation_vector(np.eye(3)), 0.0)
     for wrong, told in (
         (np.eye(2), r"^R must have shape \(\.\.\., 3, 3\), got \(2, 2\)$"),
+        (np.eye(3) + 1e-4, "^R must be a rotation matrix"),
         (2.0 * np.eye(3), "^R must be a rotation matrix"),
         (np.diag([1.0, 1.0, -1.0]), "^R must be a rotation matrix"),
     ):
@@ -127,3 +128,11 @@ def test_weights_that_do_not_fit(weight: Any, told: str) -> None:
     with pytest.raises(ValueError, match=r"^orientation_weight") as caught:
         cdcr.TaskSpace(MODEL, orientation_weight=weight)
     assert str(caught.value).startswith(told)
+
+
+def test_rotations_of_few_digits() -> None:
+    """Of float32 and of six digits, as `base_orientation` and inverse kinematics take them."""
+    vector = np.array([0.4, -0.3, 0.8])
+    R = rotation_of(vector)
+    for given in (np.float32(R), np.round(R, 6)):
+        np.testing.assert_allclose(cdcr.rotation_vector(given), vector, atol=1e-6)

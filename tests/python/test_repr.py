@@ -13,6 +13,7 @@ SCREEN = 1800  # characters
 ROBOT = cdcr.robots.three_sections()
 MODEL = cdcr.Model(ROBOT)
 ONE = cdcr.Model(cdcr.robots.amouri2020())
+TIP = cdcr.Sensor(kind="tip", noise=1e-3)
 T = np.linspace(0.0, 1.0, 101)
 
 
@@ -47,6 +48,14 @@ THINGS: dict[str, Callable[[], object]] = {
     "inverse run": lambda: cdcr.inverse_run(ONE, reference()),
     "inverse kinematics": lambda: MODEL.inverse_kinematics([0.1, 0.1, 0.6]),
     "pid": lambda: cdcr.Pid(MODEL, kp=1.0),
+    "derivatives": lambda: MODEL.derivatives(np.zeros(6), np.zeros(6), np.zeros(9)),
+    "computed torque": lambda: cdcr.ComputedTorque(MODEL, kp=np.ones(6)),
+    "state feedback": lambda: cdcr.StateFeedback(MODEL, gain=np.zeros((9, 12))),
+    "task space": lambda: cdcr.TaskSpace(MODEL),
+    "extended filter": lambda: cdcr.ExtendedKalman(MODEL, sensors=TIP),
+    "unscented filter": lambda: cdcr.UnscentedKalman(MODEL, sensors=TIP),
+    "observer": lambda: cdcr.MomentumObserver(MODEL),
+    "loop": lambda: cdcr.Loop(MODEL, cdcr.TaskSpace(MODEL)),
     "table": lambda: cdcr.TensionTable(T, np.zeros((101, 9))),
     "scenario": lambda: cdcr.scenarios.get("step-tension"),
     "factors": lambda: cdcr.paper.factors(T),
@@ -64,6 +73,10 @@ def test_a_repr_fits_on_a_screen(name: str) -> None:
 def test_what_the_core_says() -> None:
     assert repr(simulator()) == "<Simulator at t = 2 s, period 0.001 s, q = [0.1, 0.2]>"
     assert repr(cdcr.Pid(ONE, kp=2.0, kd=0.5)) == "<Pid: kp 2, ki 0, kd 0.5, period 0.001 s>"
+    torque = cdcr.ComputedTorque(MODEL, kp=np.ones(6))
+    assert repr(torque) == "<ComputedTorque: kp of shape (6,), kd 20, period 0.001 s>"
+    loop = cdcr.Loop(ONE, cdcr.Pid(ONE, kp=1.0), estimator=cdcr.MomentumObserver(ONE))
+    assert repr(loop) == "<Loop at t = 0 s, Pid, MomentumObserver, status not_started>"
     found = repr(ONE.find_equilibrium([0.0, 0.0, 0.0]))
     assert found == "<Equilibrium at q = [0, 0], stable, residual 0 N m, status ok>"
     nearest = repr(ONE.find_tension([0.19, 0.0], 0.0, 5.0))

@@ -69,7 +69,7 @@ def test_every_chunk_has_the_wrenches_and_tells_how_far_it_is(tmp_path: Path) ->
 def test_a_folder_is_replaced_when_asked(tmp_path: Path) -> None:
     path = tmp_path / "runs.zarr"
     cdcr.rollout_to_zarr(path, MODEL, Q0, QD0, **RUN)
-    with pytest.raises(FileExistsError, match=r"runs\.zarr exists; pass overwrite=True"):
+    with pytest.raises(FileExistsError, match=r"runs\.zarr exists already; pass overwrite=True"):
         cdcr.rollout_to_zarr(path, MODEL, Q0, QD0, **RUN)
     cdcr.rollout_to_zarr(path, MODEL, Q0[:3], QD0[:3], overwrite=True, **RUN)
     with xarray.open_zarr(path) as found:
@@ -92,6 +92,12 @@ def test_what_fails_leaves_nothing(tmp_path: Path) -> None:
         cdcr.rollout_to_zarr(tmp_path / "runs.nc", MODEL, Q0, QD0, **RUN)
     with pytest.raises(FileNotFoundError, match="does not exist; make it first"):
         cdcr.rollout_to_zarr(tmp_path / "no" / "runs.zarr", MODEL, Q0, QD0, **RUN)
+    masked = np.ma.masked_array(Q0, mask=np.eye(N, 2, dtype=bool))
+    for wrong in ({"q0": masked}, {"q0": Q0, "parameters": {"payload": masked[:, 0]}}):
+        with pytest.raises(ValueError, match="must be numbers, got MaskedArray with masked"):
+            cdcr.rollout_to_zarr(tmp_path / "runs.zarr", MODEL, qd0=QD0, **wrong, **RUN)
+    with pytest.raises(TypeError, match="parameters must be a mapping of paths to arrays"):
+        cdcr.rollout_to_zarr(tmp_path / "runs.zarr", MODEL, Q0, QD0, parameters="payload", **RUN)
     with pytest.raises(ValueError, match="chunk must be a whole number >= 1, got 0"):
         cdcr.rollout_to_zarr(tmp_path / "runs.zarr", MODEL, Q0, QD0, chunk=0, **RUN)
     assert list(tmp_path.iterdir()) == []
@@ -99,6 +105,6 @@ def test_what_fails_leaves_nothing(tmp_path: Path) -> None:
 
 def test_a_file_is_not_replaced_by_a_folder(tmp_path: Path) -> None:
     (tmp_path / "runs.zarr").write_text("mine")
-    with pytest.raises(FileExistsError, match="is a file, where a folder is to be: remove it"):
+    with pytest.raises(FileExistsError, match="is no folder of Zarr; remove it"):
         cdcr.rollout_to_zarr(tmp_path / "runs.zarr", MODEL, Q0, QD0, overwrite=True, **RUN)
     assert (tmp_path / "runs.zarr").read_text() == "mine"

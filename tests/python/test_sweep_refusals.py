@@ -38,8 +38,8 @@ ONE = {"a": [1.0]}
         ({"payload": [np.nan]}, "parameter 'payload'"),
         ({}, "a sweep must have a parameter, got none"),
         ("payload", "parameters must be a mapping from names to values, got 'payload'"),
+        (None, "parameters must be a mapping from names to values, got None (NoneType)"),
         (["payload"], "parameters must be a mapping from names to values, got ['payload'] (list)"),
-        (None, "parameters must be a mapping from names to values, got None"),
         ({3: [1.0]}, "a parameter must have a name, got 3 (int)"),
         (
             {"sections.1.damping": [0.01], "sections.*.damping": [0.02]},
@@ -49,7 +49,7 @@ ONE = {"a": [1.0]}
     ],
 )
 def test_parameters(parameters: Any, told: str) -> None:
-    with pytest.raises(ValueError, match=re.escape(told)):
+    with pytest.raises((ValueError, TypeError), match=re.escape(told)):
         cdcr.sweep("step-tension", parameters, metrics="peak_theta")
 
 
@@ -130,10 +130,11 @@ def test_sources(source: Any, parameters: Any, error: type[Exception], told: str
         ({"progress": 3}, "progress must be a function of two numbers, got 3 (int)"),
         (
             {"seed": 2**40, "samples": "lhs:2"},
-            "seed must be a whole number >= 0, at most 2147483647",
+            "seed must be a whole number >= 0 and at most 2147483647",
         ),
         ({"executor": 3, "jobs": 2}, "give either an executor, or scheduler and jobs"),
         ({"scheduler": "tcp://a:1", "jobs": 2}, "jobs are for this machine, and tcp://a:1 has"),
+        ({"progress": 5}, "progress must be a function of two numbers, got 5 (int)"),
         ({"path": "sweep.csv"}, "the file name must end in .nc or .zarr, got 'sweep.csv'"),
         ({"path": "nowhere/sweep.nc"}, "the folder nowhere does not exist; make it first"),
     ],
@@ -144,6 +145,15 @@ def test_options(options: Any, told: str, tmp_path: Path, monkeypatch: pytest.Mo
         cdcr.sweep(pulled, {"pull": (1.0, 2.0)}, metrics=end_x, **options)
     assert told in str(caught.value)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_what_is_no_sweep() -> None:
+    for function in (cdcr.sweeps.plot, cdcr.sweeps.sobol_indices):
+        with pytest.raises(
+            TypeError,
+            match=r"^result must be a Dataset of cdcr\.sweep, or one read from its file, got dict$",
+        ):
+            function({})  # type: ignore[arg-type]
 
 
 def test_another_version_of_cdcr_elsewhere_is_told() -> None:

@@ -93,6 +93,31 @@ def test_a_line_that_is_not_whole_does_not_count(tmp_path: Path, whole: Any, end
     np.testing.assert_array_equal(again.end_x, whole.end_x)
 
 
+DAMAGED = {
+    "a number": b"5",
+    "two numbers": b"[1, 2]",
+    "too few": b"[[0, 1], []]",
+    "a word": b'[[0], [[["a"], "ok", ""]]]',
+    "two metrics": b'[[0], [[[1.0, 2.0], "ok", ""]]]',
+    "another status": b'[[0], [[[1.0], 3, ""]]]',
+    "no value": b'[[0], [[[null], "ok", ""]]]',
+    "nested": b"[" * 100_000,
+}
+
+
+@pytest.mark.parametrize("name", DAMAGED)
+def test_a_damaged_line_does_not_count(name: str, tmp_path: Path, whole: Any) -> None:
+    path, run = tmp_path / "pulls.nc", Counted()
+    with pytest.raises(KeyboardInterrupt):
+        cdcr.sweep(run, {"pull": PULLS}, path=path, progress=interrupted_after(3), **OPTIONS)
+    first = partial(path).read_bytes().split(b"\n")[0]
+    partial(path).write_bytes(first + b"\n" + DAMAGED[name] + b"\n")
+    run.asked.clear()
+    again = cdcr.sweep(run, {"pull": PULLS}, path=path, **OPTIONS)
+    assert run.asked == PULLS
+    np.testing.assert_array_equal(again.end_x, whole.end_x)
+
+
 def test_a_killed_process_of_our_own_loses_nothing(tmp_path: Path, whole: Any) -> None:
     """The process of one run is killed; another computes it, and the runs before stay."""
     from cdcr.sweeps.jobs import Chunk, FunctionSource, Job
@@ -196,6 +221,9 @@ def test_files_that_are_no_sweeps_stay(tmp_path: Path) -> None:
     with pytest.raises(FileExistsError, match="is no part of a sweep that cdcr has written"):
         cdcr.sweep(pulled, {"pull": PULLS}, path=path, overwrite=True, **OPTIONS)
     assert partial(path).read_text() == "my notes\n"
+    pulled(1.0).save(path)
+    with pytest.raises(FileExistsError, match=r"notes\.nc is no sweep that cdcr has written$"):
+        cdcr.sweep(pulled, {"pull": PULLS}, path=path, overwrite=False, **OPTIONS)
     path.write_text("my notes\n")
     with pytest.raises(FileExistsError, match="is no sweep that cdcr has written"):
         cdcr.sweep(pulled, {"pull": PULLS}, path=path, **OPTIONS)

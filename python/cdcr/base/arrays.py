@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import fields
 from typing import Any, cast
@@ -10,10 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cdcr._core import finite
+from cdcr.base.check import format_value
 
 MAX_SAMPLES = 10_000_000  # about a gigabyte of trajectory
 
-__all__ = ["MAX_SAMPLES", "FloatArray", "even_times", "finite", "read_only"]
+__all__ = ["MAX_SAMPLES", "FloatArray", "even_times", "finite", "numbers", "read_only"]
 
 FloatArray = NDArray[np.float64]
 
@@ -22,6 +24,22 @@ def read_only(array: FloatArray) -> FloatArray:
     """Return an array after nobody can write to it any more."""
     array.setflags(write=False)
     return array
+
+
+def numbers(value: object, told: str) -> FloatArray:
+    """Return an array of numbers, NaN and infinite ones too, or refuse what `finite` does.
+
+    Truth values are refused as well; `told` begins the sentence: 'tip must be an array'.
+    """
+    try:
+        finite(value, "it")
+    except ValueError as error:
+        if not re.match(r"it(\[.*\])? must be finite, got ", str(error)):
+            raise ValueError(f"{told}, got {format_value(value)}") from None
+    array = np.asarray(value)
+    if array.dtype.kind == "b":
+        raise ValueError(f"{told}, got {format_value(value)}")
+    return np.array(array, dtype=np.float64)
 
 
 class ReadOnlyArrays:

@@ -43,6 +43,14 @@ def require_kind(item: str, value: object, kind: type) -> None:
         raise TypeError(f"{item} must be a cdcr.{kind.__name__}, got {type(value).__name__}")
 
 
+def as_tuple(item: str, value: object, wanted: str) -> tuple[Any, ...]:
+    """Return what can be gone through as a tuple, or refuse what cannot, and text."""
+    if isinstance(value, Iterable) and not isinstance(value, (str, bytes)):
+        with suppress(TypeError):  # an array of no dimension
+            return tuple(value)
+    raise TypeError(f"{item} must be {wanted}, got {format_value(value)}")
+
+
 def require_like(item: str, value: object, name: str, *members: str) -> None:
     """Refuse what lacks members of a public class that cannot be seen from here."""
     if not all(hasattr(value, member) for member in members):
@@ -115,8 +123,9 @@ class Check:
             count = int(value)
             if low <= count <= high:
                 return count
-            if count > high and str(high) not in requirement:
-                requirement = f"{requirement}, at most {high}"
+            told = str(high) in requirement or " to " in requirement
+            if count > high and not told:
+                requirement = f"{requirement} and at most {high}"
         self.refuse(item, requirement, value)
         return 0
 

@@ -7,7 +7,8 @@ from numpy.typing import ArrayLike
 
 from cdcr.base.arrays import FloatArray, finite
 
-_ORTHONORMAL = 1e-6  # what R^T R may miss of the unit matrix
+_ORTHONORMAL = 1e-5  # float32 and six digits are taken, as elsewhere, and made right
+_EXACT = 1e-12  # what is nearer stays as it is
 
 
 def quaternions(R: FloatArray) -> FloatArray:
@@ -58,6 +59,9 @@ def rotation_vector(R: ArrayLike) -> FloatArray:
     missed = np.abs(np.swapaxes(matrices, -1, -2) @ matrices - np.eye(3)).max(initial=0.0)
     if missed > _ORTHONORMAL or np.any(np.linalg.det(matrices) < 0.0):
         raise ValueError("R must be a rotation matrix, R^T R = 1 and det R = 1")
+    if missed > _EXACT:
+        left, _, right = np.linalg.svd(matrices)
+        matrices = left @ right
     found = quaternions(matrices)
     found = np.where(found[..., :1] < 0.0, -found, found)
     sine = np.linalg.norm(found[..., 1:], axis=-1, keepdims=True)

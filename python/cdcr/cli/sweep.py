@@ -31,7 +31,7 @@ from cdcr.cli.run import DelayedBar, Mistake, RunFailed, check_size, first_as_op
 from cdcr.cli.sweep_values import grid, sampled
 from cdcr.cli.tables import new_table
 from cdcr.files import new_file
-from cdcr.sweeps.result import metric_names, parameter_names
+from cdcr.sweeps.result import check_name, metric_names, parameter_names
 from cdcr.sweeps.store import partial_path
 
 if TYPE_CHECKING:
@@ -112,6 +112,8 @@ def sweep_command(
     target = out or Path("out") / f"{Path(scenario).stem}-sweep.nc"
     was_complete = target.exists() and not overwrite
     with told_plainly():
+        with mistakes():
+            check_name(target)
         drawn = _picture_file(target, size, overwrite=overwrite) if picture else None
         values = grid if samples is None else sampled
         with mistakes():

@@ -127,6 +127,7 @@ class Mpc(_core.Controller):
         self.horizon = check.whole("horizon", horizon, "a whole number >= 1", low=1)
         low = check.number("min_tension", min_tension, "a number >= 0 N", above=-math.ulp(0.0))
         check.number("max_tension", max_tension, "a finite number > min_tension", above=low)
+        check.done()
         if not step >= period * (1.0 - 1e-9):
             check.refuse("step", f"at least the period of {period:g} s", step)
         check.done()
@@ -159,6 +160,10 @@ class Mpc(_core.Controller):
                 f"Mpc has no attribute {name!r} that can be set.{nearest(name, ATTRIBUTES)}"
             )
         super().__setattr__(name, value)
+
+    def __repr__(self) -> str:
+        """Say how far it plans."""
+        return f"<Mpc: horizon {self.horizon}, period {self.period:g} s>"
 
     @property
     def reference(self) -> FloatArray:

@@ -111,7 +111,8 @@ def c_texts(
 ) -> dict[str, str]:
     """Return the header and the sources that `write_c` writes, by the names of their files."""
     require_kind("robot", robot, Robot)
-    if not _IDENTIFIER.fullmatch(str(name)):
+    given: object = name
+    if not (isinstance(given, str) and _IDENTIFIER.fullmatch(given)):
         raise ValueError(f"name must be an identifier of C, got {format_value(name)}")
     check = Check()
     limit = check.number("max_bending", max_bending, "a number > 0 rad and finite", above=0.0)

@@ -22,15 +22,30 @@ _PROCESSES = "/proc"  # where Linux shows the open files of each
 def file_path(path: str | PathLike[str]) -> Path:
     """Return a path as one, or refuse what is none."""
     if isinstance(path, str | PathLike):
+        if "\0" in str(path):
+            raise ValueError(f"path must be the path of a file, got {format_value(str(path))}")
         return Path(path)
     raise TypeError(f"path must be the path of a file, got {format_value(path)}")
+
+
+def check_folder(folder: Path) -> None:
+    """Refuse a folder that is not there to write to."""
+    if not folder.is_dir():
+        _refuse_file(folder)
+        raise FileNotFoundError(f"the folder {folder} does not exist; make it first")
+
+
+def _refuse_file(folder: Path) -> None:
+    """Refuse a folder that is a file, or would be in one."""
+    for one in (folder, *folder.parents):
+        if one.exists() and not one.is_dir():
+            raise NotADirectoryError(f"{one} is a file, not a folder to write to")
 
 
 @contextmanager
 def new_file(path: Path, *, overwrite: bool = False, replace: str = REPLACE) -> Iterator[Path]:
     """Yield a path to write to; what is written becomes `path`, in a folder that exists."""
-    if not path.parent.is_dir():
-        raise FileNotFoundError(f"the folder {path.parent} does not exist; make it first")
+    check_folder(path.parent)
     with new_files([path], overwrite=overwrite, replace=replace) as (part,):
         yield part
 
@@ -71,9 +86,7 @@ def check_files(paths: Sequence[Path], *, overwrite: bool = False, replace: str 
 
 
 def _check(paths: Sequence[Path], overwrite: bool, replace: str) -> None:
-    folder = paths[0].parent
-    if folder.exists() and not folder.is_dir():
-        raise NotADirectoryError(f"{folder} is a file, not a folder to write to")
+    _refuse_file(paths[0].parent)
     for path in paths:
         if path.is_dir():
             raise IsADirectoryError(f"{path} is a folder, not a file")
@@ -131,7 +144,7 @@ def _place(parts: dict[str, Path], overwrite: bool, replace: str) -> None:
     made = [one for one in (folder, *folder.parents) if not one.exists()]
     folder.mkdir(parents=True, exist_ok=True)
     placed: list[Path] = []
-    with _alone(folder):
+    with alone(folder):
         try:
             _check(paths, overwrite, replace)
             for part, path in parts.items():
@@ -147,7 +160,7 @@ def _place(parts: dict[str, Path], overwrite: bool, replace: str) -> None:
 
 
 @contextmanager
-def _alone(folder: Path) -> Iterator[None]:
+def alone(folder: Path) -> Iterator[None]:
     """Keep out others who write to a folder here, and then signals."""
     lock = os.open(folder, os.O_RDONLY)
     try:

@@ -27,7 +27,7 @@ def named_by(where: str) -> Iterator[None]:
 def os_or_value(error: OSError | ValueError) -> str:
     """Return the sentence of an error; the system's own have a file and a reason."""
     if isinstance(error, OSError) and error.strerror:
-        return f"{error.filename}: {error.strerror}"
+        return f"{error.filename or 'what is printed'}: {error.strerror}"
     return str(error)
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from cdcr.base.arrays import FloatArray
+from cdcr.base.arrays import FloatArray, numbers
 from cdcr.base.check import Check, format_value
 from cdcr.model.model import Model
 from cdcr.robot.robot import Robot
@@ -68,12 +68,7 @@ def measured(
     item: str, value: object, shape: tuple[int | None, ...], where: Where, *, gaps: bool = False
 ) -> FloatArray:
     """Return an array of that shape, None for any length, or refuse it by row and column."""
-    try:
-        if np.asarray(value).dtype.kind in "bc":  # NumPy would take them for numbers
-            raise TypeError
-        array = np.array(value, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise ValueError(f"{item} must be an array of numbers, got {format_value(value)}") from None
+    array = numbers(value, f"{item} must be an array of numbers")
     fits = array.ndim == len(shape) and all(
         want in (None, got) for want, got in zip(shape, array.shape, strict=False)
     )
@@ -93,9 +88,10 @@ def measured(
 
 
 def of_numbers(value: object) -> bool:
-    """Whether a value can be an array of numbers; one of bools or of complex ones is none."""
+    """Whether a value can be an array of plain numbers, none of them missing."""
     try:
-        return np.asarray(value).dtype.kind not in "bcSU" and bool(np.array(value, float).size)
+        kind = np.asarray(value).dtype.kind
+        return kind in "iuf" and not np.ma.isMaskedArray(value) and np.asarray(value).size > 0
     except (TypeError, ValueError):
         return False
 
@@ -123,16 +119,17 @@ def noise_levels(noise: Mapping[str, float] | float | None, names: Sequence[str]
         return {}
     levels: Mapping[str, Any]
     levels = noise if isinstance(noise, Mapping) else dict.fromkeys(names, noise)
-    for name, level in levels.items():
+    for name in levels:
         if name not in names:
             known = ", ".join(names)
             raise ValueError(f"noise: there is no channel {name!r}; measured are {known}")
-        fine = isinstance(level, int | float | np.floating) and 0.0 < float(level) < np.inf
-        if not fine or isinstance(level, bool):
-            raise ValueError(
-                f"noise of {name} must be a number > 0 and finite, got {format_value(level)}"
-            )
-    return {name: float(level) for name, level in levels.items()}
+    check = Check()
+    found = {
+        name: check.number(f"noise of {name}", level, "a number > 0 and finite", above=0.0)
+        for name, level in levels.items()
+    }
+    check.done()
+    return found
 
 
 def ask_about_times(t: FloatArray, where: Where) -> None:

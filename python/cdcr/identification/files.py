@@ -84,6 +84,11 @@ class Table:
         self, header: Sequence[str], columns: Mapping[str, str] | None
     ) -> Mapping[str, str]:
         if columns is None:
+            if not any(_COLUMN.fullmatch(one.strip()) for one in header):  # not to be shown, then
+                raise ValueError(
+                    f"{self.file}, line 1: the columns must have units, as in 'tip x [m]', and "
+                    "none has"
+                )
             return {one: one for one in header}
         for label, column in columns.items():
             if column not in header:

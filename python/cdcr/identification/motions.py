@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cdcr import _core
-from cdcr.base.arrays import FloatArray
+from cdcr.base.arrays import FloatArray, numbers
 from cdcr.base.check import Check, format_value, one_of
 from cdcr.identification.channels import (
     Channel,
@@ -148,7 +148,7 @@ class Motion(Data):
             raise ValueError(f"{self.name}: a motion must have at least two times, got {t.size}")
         increasing(t, where)
         ask_about_times(t, where)
-        given_command = np.asarray(self.command)
+        given_command = numbers(self.command, "command must be an array of numbers")
         if given_command.ndim == 1:
             given_command = np.tile(given_command, (len(t), 1))
         command = measured("command", given_command, (len(t), None), where)

@@ -35,3 +35,8 @@ class Derivatives(NamedTuple):
     dqdd_dqd: FloatArray
     dqdd_dtension: FloatArray
     dqdd_dwrench: FloatArray
+
+    def __repr__(self) -> str:
+        """Say the shapes."""
+        shapes = ", ".join(f"{name} {array.shape}" for name, array in self._asdict().items())
+        return f"<Derivatives: {shapes}>"

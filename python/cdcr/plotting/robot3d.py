@@ -151,10 +151,15 @@ def plot_robot(
     """
     require_like("model", model, "Model", "robot", "num_coordinates")
     state = _checked("q", q, model.num_coordinates)
+    check = Check()
+    opacity = check.number("alpha", alpha, "a number 0 to 1")
+    if not 0.0 <= opacity <= 1.0 and not check.sentences:
+        check.refuse("alpha", "a number 0 to 1", alpha)
+    check.done()
     with style():
         axes = _axes(ax, size)
         show_robot(axes, model, [state])
-        robot = RobotArtists(axes, model, state, alpha=alpha)
+        robot = RobotArtists(axes, model, state, alpha=opacity)
         if tension is None:
             robot.name_cables()
         else:

@@ -21,7 +21,7 @@ MAX_GIF_FPS = 50.0  # browsers slow down anything faster
 
 def film_path(path: Path) -> Path:
     """Return the path with the suffix of the format to write, or say why it cannot be written."""
-    if not path.suffix:
+    if not path.suffix and path.name not in ("", ".."):
         return path.with_suffix(".mp4" if find_ffmpeg() else ".gif")
     suffix = path.suffix.lower()
     if suffix not in _WRITERS:

@@ -14,7 +14,7 @@ from cdcr.base.arrays import finite
 from cdcr.base.check import require_kind
 from cdcr.base.keywords import by_keyword
 from cdcr.model.model import Model
-from cdcr.runs.limits import checked
+from cdcr.runs.limits import checked, told
 
 
 def _limits(min_tension: float, max_tension: float, max_rate: float) -> dict[str, Any]:
@@ -91,6 +91,12 @@ class ComputedTorque(_core.ComputedTorque):
         require_kind("model", model, Model)
         super().__init__(model, {"lead": None} | options)
 
+    def __repr__(self) -> str:
+        """Say the gains."""
+        options = self.options
+        gains = {name: options[name] for name in ("kp", "kd")}
+        return told("ComputedTorque", self.period, gains)
+
 
 @by_keyword
 class StateFeedback(_core.StateFeedback):
@@ -157,6 +163,12 @@ class StateFeedback(_core.StateFeedback):
         )
         require_kind("model", model, Model)
         super().__init__(model, options)
+
+    def __repr__(self) -> str:
+        """Say the gains."""
+        options = self.options
+        gains = {name: options[name] for name in ("gain",)}
+        return told("StateFeedback", self.period, gains)
 
 
 @by_keyword
@@ -272,3 +284,9 @@ class TaskSpace(_core.TaskSpace):
         )
         require_kind("model", model, Model)
         super().__init__(model, {"lead": None} | options)
+
+    def __repr__(self) -> str:
+        """Say the gains."""
+        options = self.options
+        gains = {name: options[name] for name in ("kp", "kd")}
+        return told("TaskSpace", self.period, gains)

@@ -10,9 +10,10 @@ from numpy.typing import ArrayLike
 
 from cdcr import _core
 from cdcr.base.arrays import finite
-from cdcr.base.check import Check, require_kind
+from cdcr.base.check import Check, as_tuple, require_kind
 from cdcr.base.keywords import by_keyword
 from cdcr.model.model import Model
+from cdcr.runs.limits import told
 from cdcr.runs.parts import Actuator, Sensor, as_dicts
 
 
@@ -46,7 +47,8 @@ def _kalman(
     given["substeps"] = check.whole("substeps", substeps, "a whole number >= 1")
     given["force_at"] = _place(check, force_at)
     check.done()
-    models = (variants,) if isinstance(variants, Model) else tuple(variants)
+    wanted = "a cdcr.Model or a sequence of them"
+    models = (variants,) if isinstance(variants, Model) else as_tuple("variants", variants, wanted)
     for i, variant in enumerate(models):
         require_kind(f"variants[{i}]", variant, Model)
     noise = np.atleast_1d(finite(acceleration_noise, "acceleration_noise"))
@@ -159,6 +161,10 @@ class ExtendedKalman(_core.ExtendedKalman):
         )
         super().__init__(model, options)
 
+    def __repr__(self) -> str:
+        """Say how many sensors it hears."""
+        return told("ExtendedKalman", self.period, {"sensors": len(self.options["sensors"])})
+
 
 @by_keyword
 class UnscentedKalman(_core.UnscentedKalman):
@@ -247,6 +253,10 @@ class UnscentedKalman(_core.UnscentedKalman):
         )
         super().__init__(model, options)
 
+    def __repr__(self) -> str:
+        """Say how many sensors it hears."""
+        return told("UnscentedKalman", self.period, {"sensors": len(self.options["sensors"])})
+
 
 @by_keyword
 class MomentumObserver(_core.MomentumObserver):
@@ -325,3 +335,7 @@ class MomentumObserver(_core.MomentumObserver):
         check.done()
         options |= {"actuators": as_dicts("actuators", actuators, Actuator), "states": states}
         super().__init__(model, options)
+
+    def __repr__(self) -> str:
+        """Say the bandwidth."""
+        return told("MomentumObserver", self.period, {"bandwidth": self.options["bandwidth"]})

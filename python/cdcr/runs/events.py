@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import inspect
+import math
 from collections.abc import Callable, Sequence
+from numbers import Integral, Real
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -52,7 +54,7 @@ class SlackEvent(NamedTuple):
     slack: bool
 
 
-def watched(events: EventFunction | Sequence[EventFunction]) -> list[Watched]:
+def watched(events: EventFunction | Sequence[EventFunction] | None) -> list[Watched]:
     """Return what the core looks for, of functions with attributes as SciPy's solve_ivp has them.
 
     Raises
@@ -60,7 +62,7 @@ def watched(events: EventFunction | Sequence[EventFunction]) -> list[Watched]:
     TypeError, ValueError
         For what is no function, takes other arguments, or has other attributes.
     """
-    if isinstance(events, tuple) and not events:
+    if events is None or (isinstance(events, tuple) and not events):
         return []
     check = Check()
     functions = [events] if callable(events) else events
@@ -74,14 +76,22 @@ def _watched(function: EventFunction, i: int) -> Watched:
     if not callable(function):
         raise TypeError(f"{item} must be a function, got {type(function).__name__}")
     direction = getattr(function, "direction", 0)
-    if not isinstance(direction, (int, float)) or not np.isfinite(direction):
+    if not isinstance(direction, Real) or not math.isfinite(direction):
         raise ValueError(f"direction of {item} must be a number, got {direction!r}")
     terminal = getattr(function, "terminal", False)
-    if not isinstance(terminal, int) or terminal < 0:
+    if not isinstance(terminal, (Integral, np.bool_)) or terminal < 0:
         raise ValueError(
             f"terminal of {item} must be True, False or a number of times, got {terminal!r}"
         )
-    return _of_state(function, item), int(np.sign(direction)), int(terminal)
+    told = _of_state(function, item)
+
+    def number(t: float, q: FloatArray, qd: FloatArray) -> Any:
+        value = told(t, q, qd)
+        if isinstance(value, (bool, np.bool_)):
+            raise TypeError(f"{item} must return a number that goes through zero, got {value}")
+        return value
+
+    return number, int(np.sign(float(direction))), int(terminal)
 
 
 def _of_state(function: EventFunction, item: str) -> EventFunction:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cdcr.base.arrays import FloatArray, ReadOnlyArrays, finite, read_only
-from cdcr.base.check import Check, format_value, require_kind
+from cdcr.base.check import Check, as_tuple, format_value, require_kind
 from cdcr.model.model import Model
 from cdcr.model.steps import AnyDynamics, Steps
 from cdcr.model.wrench import Wrench
@@ -176,7 +176,10 @@ def gradient(
             f"tension must have shape ({model.num_cables},) or ({steps}, {model.num_cables}), got "
             f"{pulls.shape}"
         )
-    names = (parameters,) if isinstance(parameters, str) else tuple(parameters)
+    wanted = "a path or a sequence of paths"
+    names = (
+        (parameters,) if isinstance(parameters, str) else as_tuple("parameters", parameters, wanted)
+    )
     moves = Steps(AnyDynamics(model, pushing, names), step)
     walk = _Walk(moves, np.broadcast_to(pulls, (steps, model.num_cables)))
     start = np.concatenate([finite(q0, "q0"), finite(qd0, "qd0")])
@@ -188,6 +191,8 @@ def gradient(
     by_start, by_tension, by_parameter = walk.backwards(
         checkpoints, _state_slopes(model, motion, slopes), record_every
     )
+    if not all(np.isfinite(one).all() for one in (by_start, by_tension, by_parameter)):
+        raise RuntimeError("the gradient became infinite or not a number: use a smaller step")
     return Gradient(
         value=value,
         q0=read_only(by_start[:d]),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -45,3 +45,16 @@ def checked(
         ]
     check.done()
     return given | (others or {})
+
+
+def told(kind: str, period: float, values: Mapping[str, Any]) -> str:
+    """Return what a controller or an estimator says of itself; of arrays, their shapes."""
+    words = [
+        f"{name} {value:g}"
+        if isinstance(value, float)
+        else f"{name} of shape {np.shape(value)}"
+        if isinstance(value, (list, tuple, np.ndarray))
+        else f"{name} {value}"
+        for name, value in values.items()
+    ]
+    return f"<{kind}: {', '.join([*words, f'period {period:g} s'])}>"

@@ -203,6 +203,11 @@ class Loop(_core.Loop):
         options["sensors"] = as_dicts("sensors", sensors, Sensor)
         super().__init__(model, controller, options, estimator)
 
+    def __repr__(self) -> str:
+        """Say where it is, and what closes it."""
+        names = [type(one).__name__ for one in (self.controller, self.estimator) if one is not None]
+        return f"<Loop at t = {self.time:g} s, {', '.join(names)}, status {self.status.name}>"
+
     def run(
         self,
         duration: float,

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import fcntl
 from os import PathLike
 from pathlib import Path
 from types import TracebackType
+from typing import BinaryIO, NoReturn
 
 from cdcr.base.check import Check, require_kind
 from cdcr.base.keywords import by_keyword
-from cdcr.files.new_file import check_files, file_path
+from cdcr.files.new_file import REPLACE, check_files, check_folder, file_path
 from cdcr.runs.loop import Loop
 
 MOST_ROWS = 2**24
@@ -39,7 +41,7 @@ class LoopLog:
     ValueError
         For another suffix, and a loop that writes a log already.
     FileExistsError
-        If the file exists and ``overwrite`` is false.
+        If the file exists and ``overwrite`` is false, or another log is written to it.
     RuntimeError
         At its end, where the file could not be written.
 
@@ -79,8 +81,17 @@ class LoopLog:
         file = file_path(path)
         if file.suffix not in (".csv", ".npy", ".mcap"):
             raise ValueError(f"the file name must end in .csv, .npy or .mcap, got {file.name!r}")
+        check_folder(file.parent)
         check_files([file], overwrite=overwrite)
-        loop._open_log(str(file), rows)
+        made = not file.exists()
+        self._claim = _claimed(file, overwrite=overwrite)
+        try:
+            loop._open_log(str(file), rows)
+        except BaseException:
+            self._claim.close()
+            if made:
+                file.unlink()
+            raise
         self._loop = loop
         self._file = file
         self._dropped: int | None = None  # once it is closed
@@ -121,7 +132,19 @@ class LoopLog:
         """
         if self._dropped is None:
             self._dropped = self._loop._dropped()
-            self._loop._close_log()
+            try:
+                self._loop._close_log()
+            finally:
+                self._claim.close()
+
+    def __reduce__(self) -> NoReturn:
+        """Refuse: a file has one log."""
+        raise TypeError("a cdcr LoopLog can be neither pickled nor copied: it writes to a file")
+
+    def __repr__(self) -> str:
+        """Return the file, and whether it is open."""
+        state = "open" if self._dropped is None else "closed"
+        return f"<LoopLog to {self._file}, {state}, {self.dropped} rows dropped>"
 
     def __enter__(self) -> LoopLog:
         """Return itself, which is open."""
@@ -135,3 +158,21 @@ class LoopLog:
     ) -> None:
         """Close it."""
         self.close()
+
+
+def _claimed(file: Path, *, overwrite: bool) -> BinaryIO:
+    """Open a file that nobody else logs to; it is made here unless it may be replaced."""
+    if file.exists() and not file.is_file():
+        raise ValueError(f"{file} is a pipe or a device, not a file to write to")
+    try:
+        opened = file.open("ab" if overwrite else "xb")
+    except FileExistsError:  # since a moment ago
+        raise FileExistsError(f"{file} exists already; {REPLACE}") from None
+    try:
+        fcntl.flock(opened, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        opened.close()
+        raise FileExistsError(f"another log is written to {file}; close it first") from None
+    except OSError:  # a file system without locks
+        pass
+    return opened

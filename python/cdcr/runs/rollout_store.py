@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import secrets
-import shutil
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from os import PathLike
@@ -18,7 +16,8 @@ from cdcr import _core
 from cdcr.base.arrays import finite
 from cdcr.base.check import Check
 from cdcr.base.extras import require
-from cdcr.files.new_file import REPLACE, file_path
+from cdcr.files.new_file import file_path
+from cdcr.files.new_folder import new_folder
 from cdcr.model.model import Model
 from cdcr.runs.rollout import agree, rollout
 from cdcr.runs.rollout_result import Rollout
@@ -43,7 +42,7 @@ def rollout_to_zarr(
 
     Memory is needed for one chunk, not for all. The folder is what `Rollout.to_xarray` of all of
     them would give: ``xarray.open_zarr(path)`` reads of it what is used. It appears when it is
-    complete; Ctrl-C leaves nothing.
+    complete; Ctrl-C and other signals leave nothing.
 
     Parameters
     ----------
@@ -95,9 +94,9 @@ def rollout_to_zarr(
     size = check.whole("chunk", chunk, "a whole number >= 1", low=1)
     check.done()
     folder = file_path(path)
-    _check(folder, overwrite)
-    part = folder.with_name(f".{folder.stem}-{secrets.token_hex(4)}.zarr")
-    try:
+    if folder.suffix != ".zarr":
+        raise ValueError(f"the folder's name must end in .zarr, got {folder.name!r}")
+    with new_folder(folder, overwrite=overwrite) as part:
         done = 0
         costs, failures = [], []
         whole = {"model": model, "q0": q0, "qd0": qd0, "tension": tension, **options}
@@ -111,23 +110,7 @@ def rollout_to_zarr(
             done += len(runs)
         cost = {name: getattr(total(costs), name) for name in STATS}
         _note(part, {"failures": json.dumps(failures), **cost})
-        if overwrite and folder.exists():
-            shutil.rmtree(folder)
-        part.rename(folder)
-    finally:
-        shutil.rmtree(part, ignore_errors=True)
     return folder
-
-
-def _check(folder: Path, overwrite: bool) -> None:
-    if folder.suffix != ".zarr":
-        raise ValueError(f"the folder's name must end in .zarr, got {folder.name!r}")
-    if not folder.parent.is_dir():
-        raise FileNotFoundError(f"the folder {folder.parent} does not exist; make it first")
-    if folder.exists() and not folder.is_dir():
-        raise FileExistsError(f"{folder} is a file, where a folder is to be: remove it")
-    if folder.exists() and not overwrite:
-        raise FileExistsError(f"{folder} exists; {REPLACE}")
 
 
 def _chunks(size: int, whole: Mapping[str, Any]) -> Iterator[dict[str, Any]]:

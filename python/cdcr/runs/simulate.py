@@ -112,7 +112,7 @@ def simulate(
     max_step: float | None = None,
     max_steps: int | None = None,
     break_points: Sequence[float] = (),
-    events: EventFunction | Sequence[EventFunction] = (),
+    events: EventFunction | Sequence[EventFunction] | None = (),
     sensitivities: str | Sequence[str] | Asked = (),
     progress: Callable[[float], object] | None = None,
     throw: bool = False,

@@ -57,7 +57,8 @@ def make_design(
 ) -> Design:
     """Return the values of a sweep, as `cdcr.sweep` takes them, or refuse them in a sentence."""
     if isinstance(parameters, str) or not isinstance(parameters, Iterable):
-        raise ValueError(f"parameters must be a mapping from names to values, got {parameters!r}")
+        got = format_value(parameters)
+        raise ValueError(f"parameters must be a mapping from names to values, got {got}")
     names = tuple(parameters)
     for name in names:
         if not isinstance(name, str):

@@ -18,7 +18,7 @@ from cdcr.plotting.letters import shrink_letters
 from cdcr.plotting.sizes import COLUMN, TEXT, Size, checked_size, is_narrow
 from cdcr.plotting.style import COLORS, GREY, LIGHT_GREY, NARROW, StyledFigure, style
 from cdcr.sweeps.indices import sobol_indices
-from cdcr.sweeps.result import metric_names, parameter_names
+from cdcr.sweeps.result import metric_names, parameter_names, require_sweep
 
 if TYPE_CHECKING:
     import xarray
@@ -64,6 +64,7 @@ def plot(result: xarray.Dataset, *, size: Size = None) -> Figure:
     >>> cdcr.sweeps.plot(found).axes[0].get_xlabel()
     'sections.1.damping [N m s/rad]'
     """
+    require_sweep(result)
     sides = checked_size(size)
     narrow = is_narrow(sides)
     with style():

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from cdcr.base.extras import require
-from cdcr.sweeps.result import metric_names, parameter_names
+from cdcr.sweeps.result import metric_names, parameter_names, require_sweep
 
 if TYPE_CHECKING:
     import xarray
@@ -49,6 +49,7 @@ def sobol_indices(result: xarray.Dataset) -> xarray.Dataset:
     >>> ["payload", "tension.1"][int(matters.values.argmax())]
     'tension.1'
     """
+    require_sweep(result)
     stats: Any = require("scipy.stats", "sweep")
     xr: Any = require("xarray", "sweep")
     parameters = parameter_names(result)

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import secrets
-import shutil
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,7 +11,8 @@ import numpy as np
 
 from cdcr.base.extras import require
 from cdcr.files.netcdf import write_netcdf
-from cdcr.files.new_file import new_file
+from cdcr.files.new_file import check_folder, new_file
+from cdcr.files.new_folder import ZARR, new_folder
 from cdcr.sweeps.design import Design
 from cdcr.sweeps.jobs import Outcome
 from cdcr.sweeps.metrics import Asked
@@ -23,8 +22,20 @@ if TYPE_CHECKING:
 
 SUFFIXES = (".nc", ".zarr")
 ZARR_FORMAT = 2  # in which strings are specified
-_ZARR = (".zgroup", "zarr.json")  # one of which stands in its folder
 _BESIDE = ("status", "message")  # variables that are no metrics
+
+
+def require_sweep(result: object) -> None:
+    """Refuse what is no result of a sweep."""
+    if "sweep" not in getattr(result, "attrs", ()):
+        raise _no_sweep(result)
+
+
+def _no_sweep(result: object) -> TypeError:
+    got = type(result).__name__
+    return TypeError(
+        f"result must be a Dataset of cdcr.sweep, or one read from its file, got {got}"
+    )
 
 
 def metric_names(result: xarray.Dataset) -> list[str]:
@@ -37,10 +48,7 @@ def parameter_names(result: xarray.Dataset) -> list[str]:
     try:
         return list(json.loads(result.attrs["sweep"])["parameters"])
     except (AttributeError, KeyError, TypeError, ValueError):
-        got = type(result).__name__
-        raise TypeError(
-            f"result must be a Dataset of cdcr.sweep, or one read from its file, got {got}"
-        ) from None
+        raise _no_sweep(result) from None
 
 
 def make_dataset(
@@ -86,14 +94,18 @@ def _attributes(metric: Asked) -> dict[str, str]:
     return {key: value for key, value in told.items() if value}
 
 
-def check_path(path: Path) -> None:
-    """Refuse a name that no result can have, for want of an extra too."""
+def check_name(path: Path) -> None:
+    """Refuse a name that no result can have."""
     if path.suffix not in SUFFIXES:
         raise ValueError(f"the file name must end in .nc or .zarr, got {path.name!r}")
+
+
+def check_path(path: Path) -> None:
+    """Refuse a path that no result can have, for want of an extra too."""
+    check_name(path)
     require("zarr", "zarr") if path.suffix == ".zarr" else require("h5netcdf", "sweep")
-    if not path.parent.is_dir():
-        raise FileNotFoundError(f"the folder {path.parent} does not exist; make it first")
-    is_zarr = any((path / name).exists() for name in _ZARR)
+    check_folder(path.parent)
+    is_zarr = any((path / name).exists() for name in ZARR)
     if path.is_dir() and not (path.suffix == ".zarr" and is_zarr):
         raise IsADirectoryError(f"{path} is a folder, not a sweep")
 
@@ -101,22 +113,11 @@ def check_path(path: Path) -> None:
 def write(result: xarray.Dataset, path: Path, *, overwrite: bool) -> None:
     """Write a result, which appears whole or not at all."""
     if path.suffix == ".zarr":
-        _write_zarr(result, path, overwrite=overwrite)
+        with new_folder(path, overwrite=overwrite) as folder:
+            result.to_zarr(folder, zarr_format=ZARR_FORMAT)
         return
     with new_file(path, overwrite=overwrite) as part:
         write_netcdf(result, part)
-
-
-def _write_zarr(result: xarray.Dataset, path: Path, *, overwrite: bool) -> None:
-    """Write a folder beside its place, and move it there."""
-    part = path.with_name(f".{path.stem}-{secrets.token_hex(4)}{path.suffix}")
-    try:
-        result.to_zarr(part, zarr_format=ZARR_FORMAT)
-        if overwrite and path.exists():
-            shutil.rmtree(path)
-        part.rename(path)
-    finally:
-        shutil.rmtree(part, ignore_errors=True)
 
 
 def read(path: Path) -> xarray.Dataset:
@@ -127,6 +128,8 @@ def read(path: Path) -> xarray.Dataset:
         with xr.open_dataset(path, engine=engine) as stored:
             found: xarray.Dataset = stored.load()
         json.loads(found.attrs["sweep"])
-    except (OSError, KeyError, ValueError) as error:
+    except KeyError:
+        raise FileExistsError(f"{path} is no sweep that cdcr has written") from None
+    except (OSError, ValueError) as error:
         raise FileExistsError(f"{path} is no sweep that cdcr has written: {error}") from None
     return found

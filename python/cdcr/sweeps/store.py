@@ -47,8 +47,7 @@ class Store:
     def keep(self, done: Done) -> None:
         """Keep a chunk that has been computed."""
         self.outcomes.update(zip(done.numbers, done.outcomes, strict=True))
-        self._file.write(_line([done.numbers, done.outcomes]))
-        self._file.flush()
+        _append(self.path, self._file, [done.numbers, done.outcomes])
 
     def remove(self) -> None:
         """Remove the file, when all runs have another place."""
@@ -70,14 +69,22 @@ def store(path: Path, sweep: Mapping[str, Any], *, overwrite: bool) -> Iterator[
         file.truncate(whole)
         file.seek(whole)
         if not whole:
-            file.write(_line(sweep))
-            file.flush()
+            _append(path, file, sweep)
         kept = Store(path, file, outcomes)
         try:
             yield kept
         finally:
             if not outcomes:
                 kept.remove()
+
+
+def _append(path: Path, file: BinaryIO, thing: Any) -> None:
+    """Write a line, or say of which file it is that it cannot be."""
+    try:
+        file.write(json.dumps(thing).encode() + b"\n")
+        file.flush()
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(path)) from None
 
 
 @contextmanager
@@ -128,23 +135,28 @@ def _read(
         raise FileExistsError(f"{path} holds finished runs of a sweep with {different}; {REPLACE}")
     whole = len(first)
     for line in file:
-        found = _outcomes(_parsed(line))
+        found = _chunk(_parsed(line), len(sweep["metrics"]))
         if found is None:
             break
-        outcomes |= found
+        outcomes.update(found)
         whole += len(line)
     return whole
 
 
-def _outcomes(line: Any) -> dict[int, Outcome] | None:
-    """Return the runs of a line, None where it is no line of runs; what follows does not count."""
+def _chunk(line: Any, num_metrics: int) -> dict[int, Outcome] | None:
+    """Return the outcomes that stand in a line, None where `Store.keep` has not written it."""
     try:
-        return {
-            int(number): Outcome(tuple(map(float, values)), str(status), str(message))
-            for number, (values, status, message) in zip(*line, strict=True)
+        numbers, ended = line
+        found = {
+            number: Outcome(tuple(float(value) for value in values), status, message)
+            for number, (values, status, message) in zip(numbers, ended, strict=True)
         }
+        words = all(isinstance(word, str) for one in ended for word in one[1:])
     except (TypeError, ValueError):
         return None
+    whole = all(isinstance(number, int) for number in numbers)
+    sizes = all(len(one.values) == num_metrics for one in found.values())
+    return found if words and whole and sizes else None
 
 
 def _parsed(line: bytes) -> Any:
@@ -153,9 +165,5 @@ def _parsed(line: bytes) -> Any:
         return None
     try:
         return json.loads(line)
-    except ValueError:
+    except (ValueError, RecursionError):
         return None
-
-
-def _line(thing: Any) -> bytes:
-    return json.dumps(thing).encode() + b"\n"

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from cdcr.base.arrays import FloatArray, finite
+from cdcr.base.arrays import FloatArray, finite, numbers
 from cdcr.base.check import format_value
 
 WANTED = (
@@ -38,11 +38,11 @@ class Markers:
                 raise ValueError(f"markers must be measured, and {given.name} has none, nor a tip")
             self.t, self.positions = finite(given.t, "markers"), np.stack(seen, axis=1)
         elif isinstance(given, tuple) and len(given) == 2:
-            self.t, self.positions = finite(given[0], "times of markers"), _numbers(given[1])
+            self.t, self.positions = finite(given[0], "times of markers"), numbers(given[1], WANTED)
             if self.positions.ndim == 2:
                 self.positions = self.positions[:, None]
         else:
-            self.positions = _numbers(given)[None]
+            self.positions = numbers(given, WANTED)[None]
         shape = self.positions.shape
         if len(shape) != 3 or shape[2] != 3 or (self.t is not None and self.t.shape != shape[:1]):
             raise ValueError(f"{WANTED}, got {format_value(given)}")
@@ -63,10 +63,3 @@ class Markers:
                 share = (time - start) / (end - start)
                 now = (1.0 - share) * self.positions[right - 1] + share * now
         return np.asarray(now[np.isfinite(now).all(axis=1)])
-
-
-def _numbers(value: Any) -> FloatArray:
-    try:
-        return np.array(value, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise ValueError(f"{WANTED}, got {format_value(value)}") from None
