@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include "cdcr/robot_ode.hpp"
@@ -92,8 +93,11 @@ class Rollout {
     times_ = VectorXd::NullaryExpr(options.rows(), [&](Index i) {
       return time(i * static_cast<Index>(options.record_every));
     });
-    if (motions.commands.between_steps == 0) return;
-    step_times_ = VectorXd::NullaryExpr(std::max(1L, options.steps), time);
+    if (motions.commands.between_steps != 0) {
+      step_times_ = VectorXd::NullaryExpr(std::max(1L, options.steps), time);
+    }
+    const bool alike = motions.controllers.empty() && motions.commands.between_motions == 0;
+    if (alike && motions.size() > 0) alike_ = commands(0);
   }
 
   RolloutOutcome go(const RolloutProgress& progress) {
@@ -163,8 +167,8 @@ class Rollout {
     try {
       const Model& model = motions_.model(i);
       if (motions_.controllers.empty()) {
-        return simulate(model, q0, qd0, times_, commands(i), options_.method, tolerances_,
-                        options_.factory, progress, motions_.loads);
+        return simulate(model, q0, qd0, times_, alike_ ? *alike_ : commands(i), options_.method,
+                        tolerances_, options_.factory, progress, motions_.loads);
       }
       return simulate(model, q0, qd0, times_, *motions_.controllers[static_cast<std::size_t>(i)],
                       options_.method, tolerances_, options_.factory, progress, motions_.loads);
@@ -188,7 +192,8 @@ class Rollout {
   const RolloutOptions& options_;
   detail::RowWriter rows_;
   Options tolerances_;
-  VectorXd times_, step_times_;  // of the rows, of the commands
+  VectorXd times_, step_times_;        // of the rows, of the commands
+  std::optional<CommandInput> alike_;  // where all motions have the same
   std::vector<char> is_begun_;
   std::mutex mutex_;  // of the outcome
   RolloutOutcome outcome_;
