@@ -61,7 +61,7 @@ def test_what_is_no_plain_number(name: str) -> None:
         informative_commands(ROBOT, {MODULUS: None}, [bad], noise=0.1)
     if name != "truth":  # which counts as 0 and 1 where numbers are given, not measured
         motion = Motion(T, np.zeros(6), tip=TIPS, start=bad)
-        with refused("motion: start must be numbers, got "):
+        with refused("motion: start must be None, 6 commands, or a pair (q0, qd0) of 4 numbers"):
             cdcr.identify(motion, ROBOT, {MODULUS: None})
 
 

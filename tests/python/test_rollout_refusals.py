@@ -65,7 +65,7 @@ REFUSED: list[tuple[dict[str, Any], type[Exception], str]] = [
     ({"control_every": 5}, ValueError, "control_every is for a function as controller"),
     ({"model": []}, TypeError, "or a sequence of them, got no one"),
     ({"command": np.ones((3, 3))}, ValueError, "5 of q0, 5 of qd0, 3 of command"),
-    ({"steps": 2**40}, ValueError, "a whole number >= 0, at most 2147483647, got 1099511627776"),
+    ({"steps": 2**40}, ValueError, "a whole number >= 0 and at most 2147483647, got 1099511627776"),
     (
         {"parameters": {"gravity.z": np.ones(N), "gravity.3": np.ones(N)}},
         ValueError,

@@ -248,13 +248,12 @@ class Motion(Data):
         """Return how the motion begins: 'held' with commands, or 'state' with q0 and qd0."""
         if self.start is None:
             return "held", np.asarray(self.command)[0]
-        state = isinstance(self.start, tuple) and len(self.start) == 2 and np.ndim(self.start[0])
-        if state:
-            shapes = [np.shape(one) for one in self.start]
-            if shapes == [(num_q,), (num_q,)] and all(map(of_numbers, self.start)):
-                return "state", tuple(np.asarray(one, float) for one in self.start)
-        elif np.shape(self.start) == (robot.num_cables,) and of_numbers(self.start):
+        if of_numbers(self.start) and np.shape(self.start) == (robot.num_cables,):
             return "held", np.asarray(self.start, float)
+        if isinstance(self.start, tuple) and all(map(of_numbers, self.start)):
+            state = tuple(np.asarray(one, float) for one in self.start)
+            if [one.shape for one in state] == [(num_q,), (num_q,)]:
+                return "state", state
         raise ValueError(
             f"{self.name}: start must be None, {robot.num_cables} commands, or a pair (q0, qd0) of "
             f"{num_q} numbers each, got {format_value(self.start)}"
