@@ -81,27 +81,48 @@ void measure_sections(const Harness& harness) {
               [&](long /*i*/) { keep(search.solve(force)); });
 }
 
-/// A thousand poses on a smooth way, with friction in the holes: a millisecond is a microsecond
-/// each.
+/// How cables of the three sections are driven and rub, and how commands go.
+struct SlowWay {
+  const char* name;
+  double holes, entry, stiffness;  // friction, friction at the entry [N]; by length [N/m]
+  bool jumps = false;
+};
+
+/// A thousand poses, so that a millisecond is a microsecond each.
 void measure_slow_ways(const Harness& harness) {
-  for (const double friction : {0.0, 0.1, 0.3}) {
+  const SlowWay ways[] = {
+      {"no friction", 0.0, 0.0, 0.0},
+      {"friction 0.1 in the holes", 0.1, 0.0, 0.0},
+      {"friction 0.3 in the holes", 0.3, 0.0, 0.0},
+      {"friction 0.3 in the holes, jumps", 0.3, 0.0, 0.0, true},
+      {"friction 0.1 N at the entry", 0.0, 0.1, 0.0},
+      {"by length, friction 0.1 in the holes", 0.1, 0.0, 2e4},
+      {"by length, friction 0.1 N at the entry", 0.0, 0.1, 2e4},
+  };
+  for (const SlowWay& way : ways) {
     Robot robot = arm(3);
-    for (Section& section : robot.sections) section.cable_friction = friction;
+    for (Section& section : robot.sections) {
+      section.cable_friction = way.holes;
+      section.cable_entry_friction = way.entry;
+      section.cable_stiffness = way.stiffness;
+    }
     const Model model(robot);
+    VectorXd straight = VectorXd::Zero(model.num_cables());
+    if (way.stiffness > 0.0) cable_lengths(model, model.rest(), straight);
+    std::mt19937_64 engine(2021);
+    std::uniform_real_distribution<double> uniform(0.0, 2.0);
     RowMatrixXd commands(1000, model.num_cables());
     for (Index i = 0; i < commands.rows(); ++i) {
       for (Index j = 0; j < commands.cols(); ++j) {
         const double turns = static_cast<double>((1 + j % 3) * i) / 1000.0;
-        commands(i, j) = 2.0 + 2.0 * std::sin(2.0 * M_PI * turns + static_cast<double>(j));
+        const double smooth = 1.0 + std::sin(2.0 * M_PI * turns + static_cast<double>(j));
+        const double pull = way.jumps ? uniform(engine) : smooth;  // 0 to 2
+        commands(i, j) = straight[j] + (way.stiffness > 0.0 ? -2e-3 : 2.0) * pull;
       }
     }
-    const std::string name = "quasi_static, three sections, 1000 poses, friction ";
     harness.run(
-        {name + (friction == 0.0  ? "0"
-                 : friction < 0.2 ? "0.1"
-                                  : "0.3"),
-         "ms", 1, 50},
-        [] {}, [&](long /*i*/) { keep(quasi_static(model, commands)); });
+        {std::string("quasi_static, 1000 poses, ") + way.name, "ms", 1, 50}, [] {},
+        [&](long /*i*/) { keep(quasi_static(model, commands)); });
   }
 }
 
