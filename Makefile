@@ -4,7 +4,7 @@ VENV := .venv
 # OFF builds without SUNDIALS and its hundreds of packages: without the methods bdf and adams.
 CVODE ?= ON
 export PYTHON VENV CVODE
-# Python keeps what it has compiled: tests start it hundreds of times, in half the time then.
+# Python keeps what it has compiled, since tests start it hundreds of times.
 unexport PYTHONDONTWRITEBYTECODE
 # Tools come from the venv; make's own PATH stays, so that PYTHON means the same throughout.
 IN_VENV := PATH="$(CURDIR)/$(VENV)/bin:$$PATH"

@@ -167,6 +167,25 @@ class Meddler(cdcr.Controller):
         return [0.0, 0.0, 0.0]
 
 
+def test_an_estimator_serves_one_loop_at_a_time() -> None:
+    sensor = cdcr.Sensor(kind="coordinates", noise=1e-3, period=1e-3)
+    kalman = cdcr.ExtendedKalman(MODEL, sensors=sensor)
+
+    def loop_of(controller: cdcr.Controller) -> cdcr.Loop:
+        loop = cdcr.Loop(MODEL, controller, sensors=[sensor], estimator=kalman)
+        loop.reset([0.0, 0.0], [0.0, 0.0])
+        return loop
+
+    first, second = loop_of(cdcr.Pid(MODEL, kp=1.0)), loop_of(cdcr.Pid(MODEL, kp=1.0))
+    second.step()
+    with pytest.raises(ValueError, match="the estimator has served another run since this loop"):
+        first.step()
+    second.step()
+    meddling = loop_of(Meddler(second.step))
+    with pytest.raises(ValueError, match="the estimator serves another run at this moment"):
+        meddling.step()
+
+
 def test_what_drives_a_run_is_left_alone_meanwhile() -> None:
     loops: list[cdcr.Loop] = []
     meddler = Meddler(lambda: loops[0].step())

@@ -25,6 +25,8 @@ constexpr int slow_steps = 6;
 constexpr double worth_refining = 1.5;
 // Step of the differences that give the true curvature [rad].
 constexpr double difference = 1e-5;
+// Steps by a tenth of the way back, after which a shape is at rest but for rounding.
+constexpr int max_retreats = 400;
 // Random starts bend a section by no more than the one, and in every other by the other [rad].
 constexpr double usual_start = 2.5, widest_start = detail::full_circle;
 
@@ -104,8 +106,10 @@ void InverseSolver::keep_within_limits(VectorXd& q) const noexcept {
     const double theta = bend.norm();
     if (theta > inside * max_theta_[i]) bend *= inside * max_theta_[i] / theta;
   }
-  if (!model_->has_rods() || !q.allFinite()) return;
-  while (check_shape(*model_, q) != Status::ok) q += 0.1 * (model_->rest() - q);
+  if (!model_->has_rods()) return;
+  for (int i = 0; i < max_retreats && check_shape(*model_, q) != Status::ok; ++i) {
+    q += 0.1 * (model_->rest() - q);
+  }
 }
 
 bool InverseSolver::stands_at_limit(const VectorXd& q, Index section) const noexcept {
