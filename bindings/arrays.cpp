@@ -320,6 +320,16 @@ void bind_arrays(py::module_& m) {
            "name : str\n    What a refusal calls it.\n"},
           "(...) array\n    In that unit [-]; the value itself where it is such an array.",
           docs::bad_argument));
+  m.def(
+      "numbers",
+      [](const py::object& value, const std::string& name) {
+        return convert(value, name.c_str(), {leading});
+      },
+      py::arg("value"), py::arg("name"),
+      Doc("A value as `finite` has it, but for numbers that are not finite, which are taken.",
+          {"value : (...) array_like\n    Real numbers of any type, in any unit [-].\n",
+           "name : str\n    What a refusal calls it.\n"},
+          "(...) array\n    In that unit [-].", docs::bad_argument));
 }
 
 Data& scratch(const Model& model) {

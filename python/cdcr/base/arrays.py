@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import fields
 from typing import Any, cast
@@ -10,6 +9,7 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from cdcr import _core
 from cdcr._core import finite
 from cdcr.base.check import format_value
 
@@ -32,14 +32,12 @@ def numbers(value: object, told: str) -> FloatArray:
     Truth values are refused as well; `told` begins the sentence: 'tip must be an array'.
     """
     try:
-        finite(value, "it")
-    except ValueError as error:
-        if not re.match(r"it(\[.*\])? must be finite, got ", str(error)):
-            raise ValueError(f"{told}, got {format_value(value)}") from None
-    array = np.asarray(value)
-    if array.dtype.kind == "b":
+        array = _core.numbers(value, "it")
+    except ValueError:
+        raise ValueError(f"{told}, got {format_value(value)}") from None
+    if np.asarray(value).dtype.kind == "b":
         raise ValueError(f"{told}, got {format_value(value)}")
-    return np.array(array, dtype=np.float64)
+    return np.array(array)
 
 
 class ReadOnlyArrays:

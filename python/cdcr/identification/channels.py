@@ -90,9 +90,8 @@ def measured(
 def of_numbers(value: object) -> bool:
     """Whether a value can be an array of plain numbers, none of them missing."""
     try:
-        kind = np.asarray(value).dtype.kind
-        return kind in "iuf" and not np.ma.isMaskedArray(value) and np.asarray(value).size > 0
-    except (TypeError, ValueError):
+        return numbers(value, "it").size > 0
+    except ValueError:
         return False
 
 

@@ -20,7 +20,6 @@ from cdcr.identification.search import search
 from cdcr.identification.setup import Place, plain_setup
 from cdcr.robot.robot import Robot
 
-_DATA = "Poses, a Motion or Frequencies"
 LOSSES = ("linear", "soft_l1", "huber", "cauchy")
 ROUNDS = 3  # in which the noise of channels is found
 SETTLED = 0.02  # relative change of a noise that needs no further round
