@@ -130,10 +130,10 @@ void bind_dynamics(PyModel& model) {
             require_inertia(self);
             return accelerations(self, q, qd, tension, read_wrenches(self, wrenches));
           },
-          "q"_a, "qd"_a, "tension"_a, "wrenches"_a = py::tuple(),
+          "q"_a, "qd"_a, "tension"_a = py::none(), "wrenches"_a = py::tuple(),
           Doc("Accelerations under cables and wrenches: cpp/README.md eqs. (12), (16),\n"
               "cpp/several-sections.md eq. (32).",
-              {docs::q, docs::qd, docs::tension, docs::wrenches},
+              {docs::q, docs::qd, docs::tension_or_rest, docs::wrenches},
               "(..., d) array\n    Accelerations qdd [rad/s^2].", docs::bad_states))
       .def(
           "inverse_dynamics",
@@ -171,11 +171,12 @@ void bind_dynamics(PyModel& model) {
               "frame.",
               docs::bad_states))
       .def(
-          "linearize", &linearize_states, "q"_a, "qd"_a, "tension"_a, "wrenches"_a = py::tuple(),
+          "linearize", &linearize_states, "q"_a, "qd"_a, "tension"_a = py::none(),
+          "wrenches"_a = py::tuple(),
           Doc("Derivatives A, B of d(q, qd)/dt by state and command, cpp/README.md eq. (19).\n\n"
               "Exact, at rest or moving, through cables and wrenches too. At the kinks of a cable\n"
               "(just slack; friction at a straight section) one side is taken.",
-              {docs::q, docs::qd, docs::tension, docs::wrenches},
+              {docs::q, docs::qd, docs::tension_or_rest, docs::wrenches},
               "A : (..., 2d, 2d) array\n"
               "    By the state (q, qd) [rad, rad/s], of its rate [rad/s, rad/s^2].\n"
               "B : (..., 2d, num_cables) array\n"

@@ -178,10 +178,10 @@ void bind_statics(py::module_& m, PyModel& model) {
                   static_stiffness(self, x, command, loads, K);
                 });
           },
-          "q"_a, "tension"_a, "wrenches"_a = py::tuple(),
+          "q"_a, "tension"_a = py::none(), "wrenches"_a = py::tuple(),
           Doc("Stiffness of the robot at rest, springs of cables and wrenches included:\n"
               "cpp/several-sections.md eq. (41).",
-              {docs::q, docs::tension, docs::wrenches},
+              {docs::q, docs::tension_or_rest, docs::wrenches},
               "(..., d, d) array\n    Stiffness K [N m/rad].", docs::bad_states))
       .def(
           "commands",

@@ -43,6 +43,9 @@ inline constexpr const char* qd =
 inline constexpr const char* tension =
     "tension : (..., num_cables) array_like\n"
     "    Cable tensions [N]; lengths [m] for cables driven by length.\n";
+inline constexpr const char* tension_or_rest =
+    "tension : (..., num_cables) array_like, optional\n"
+    "    Cable tensions [N]; lengths [m] for cables driven by length; by default `rest_command`.\n";
 inline constexpr const char* wrenches =
     "wrenches : Wrench or sequence of Wrench, optional\n"
     "    Constant forces [N] and moments [N m] on the backbone, the same for all states.\n";

@@ -123,7 +123,7 @@ class Model(metaclass=_Bound):
         self,
         q: ArrayLike,
         qd: ArrayLike,
-        tension: ArrayLike,
+        tension: ArrayLike | None = None,
         wrenches: Wrench | Sequence[Wrench] = (),
     ) -> _FloatArray: ...
     def inverse_dynamics(
@@ -150,14 +150,14 @@ class Model(metaclass=_Bound):
         self,
         q: ArrayLike,
         qd: ArrayLike,
-        tension: ArrayLike,
+        tension: ArrayLike | None = None,
         wrenches: Wrench | Sequence[Wrench] = (),
     ) -> tuple[_FloatArray, _FloatArray]: ...
     def _derivatives(
         self,
         q: ArrayLike,
         qd: ArrayLike,
-        tension: ArrayLike,
+        tension: ArrayLike | None,
         wrenches: Wrench | Sequence[Wrench],
     ) -> tuple[_FloatArray, _FloatArray, _FloatArray, _FloatArray]: ...
     def _tables(self) -> tuple[_FloatArray, list[_FloatArray]]: ...
@@ -196,7 +196,10 @@ class Model(metaclass=_Bound):
         wrenches: Wrench | Sequence[Wrench] = (),
     ) -> Equilibrium: ...
     def static_stiffness(
-        self, q: ArrayLike, tension: ArrayLike, wrenches: Wrench | Sequence[Wrench] = ()
+        self,
+        q: ArrayLike,
+        tension: ArrayLike | None = None,
+        wrenches: Wrench | Sequence[Wrench] = (),
     ) -> _FloatArray: ...
     def commands(self, q: ArrayLike, tension: ArrayLike) -> _FloatArray: ...
     def _modes(

@@ -119,6 +119,11 @@ def test_no_command_is_that_of_the_straight_robot_at_rest(model: cdcr.Model) -> 
     )
     np.testing.assert_array_equal(model.equilibrium(None), model.equilibrium(np.zeros(3)))
     assert bare.find_equilibrium().status is cdcr.Status.ok
+    q, qd = [0.1, 0.0], [0.2, 0.3]
+    for ask in (bare.forward_dynamics, bare.linearize, bare.derivatives):
+        for mine, given in zip(ask(q, qd), ask(q, qd, []), strict=True):
+            np.testing.assert_array_equal(mine, given)
+    np.testing.assert_array_equal(model.static_stiffness(q), model.static_stiffness(q, np.zeros(3)))
     np.testing.assert_array_equal(
         model.modes([0.1, 0.0]).frequency, model.modes([0.1, 0.0], np.zeros(3)).frequency
     )

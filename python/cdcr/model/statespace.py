@@ -32,7 +32,7 @@ class StateSpaceModel(ShapeModel):
         self,
         q: ArrayLike,
         qd: ArrayLike,
-        tension: ArrayLike,
+        tension: ArrayLike | None = None,
         wrenches: Wrench | Sequence[Wrench] = (),
     ) -> Derivatives:
         """Differentiate `forward_dynamics` by all that it takes, cpp/derivatives.md eq. (71).
@@ -44,8 +44,9 @@ class StateSpaceModel(ShapeModel):
         ----------
         q, qd : (..., d) array_like
             Coordinates [rad, m] and their rates; or arrays of states.
-        tension : (..., num_cables) array_like
-            Cable tensions [N]; lengths [m] for cables driven by length.
+        tension : (..., num_cables) array_like, optional
+            Cable tensions [N]; lengths [m] for cables driven by length; by default
+            `rest_command`.
         wrenches : Wrench or sequence of Wrench, optional
             Forces and moments on the backbone; of no size where only their slopes are asked for.
 
