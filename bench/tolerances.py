@@ -9,8 +9,8 @@ of the package by auto, dop853 and bdf.
 
 from __future__ import annotations
 
+import argparse
 import statistics
-import sys
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
@@ -180,7 +180,15 @@ def choices() -> str:
 def main() -> None:
     """Print the tables asked for, or all."""
     tables = {"stiffness": stiffness, "choices": choices, "errors": errors}
-    for name in sys.argv[1:] or tables:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("tables", nargs="*", metavar="TABLE", help=f"of {', '.join(tables)}")
+    names = parser.parse_args().tables or list(tables)
+    for name in names:
+        if name not in tables:
+            parser.error(f"'{name}' is no table: {', '.join(tables)} are")
+    for name in names:
         print(tables[name](), flush=True)
         print()
 

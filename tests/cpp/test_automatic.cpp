@@ -1,6 +1,8 @@
 // The method that chooses: dop853, and bdf from where on it pays.
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "support/cases.hpp"
 #include "support/cvode_runs.hpp"
 #include "support/split.hpp"
@@ -109,6 +111,28 @@ TEST_CASE("in stretches too short for a start of bdf it stays explicit") {
   CHECK(chosen.stats.stiff);
   CHECK(chosen.stats.method == Method::dop853);
   CHECK(chosen.stats.switches == 0);
+}
+
+TEST_CASE("where friction makes a robot stiffer later on, bdf is taken in short stretches too") {
+  Robot robot = amouri2020();
+  robot.sections[0].cable_friction = 0.3;
+  robot.sliding_speed = 1e-6;
+  const Model model(robot);
+  const Index count = 201;  // stretches of 0.05 s
+  const VectorXd times = even_times(2.0, 12.0, count);
+  MatrixXd rows = MatrixXd::Zero(count, 3);
+  for (Index i = 0; i < count; ++i) rows(i, 0) = 4.0 - 4.0 * std::cos(1.25 * (times[i] - 2.0));
+  const CommandInput input = CommandInput::table(times, rows, CommandInput::Interpolation::linear);
+  const auto run = [&](Method method) {
+    const Trajectory found = simulate(model, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(),
+                                      times, input, method, {}, make_cvode_integrator);
+    REQUIRE(found.status == Status::ok);
+    return found;
+  };
+  const Trajectory chosen = run(Method::automatic), implicit_run = run(Method::bdf);
+  CHECK(chosen.stats.method == Method::bdf);
+  CHECK(chosen.stats.evaluations < 2 * implicit_run.stats.evaluations);
+  CHECK(distance(chosen, implicit_run) <= by_default);
 }
 
 TEST_CASE("without an implicit method it stays explicit, and tells that this is dear") {

@@ -239,6 +239,23 @@ TEST_CASE("the statistics count") {
   CHECK(adaptive.stats.newton_failures == 0);
 }
 
+TEST_CASE("a robot that is straight but for rounding starts as a straight one does") {
+  const Model model = upright();
+  const VectorXd times = even_times(1.0, 2.0, 11), rest = VectorXd::Zero(2);
+  const CommandInput pull = CommandInput::constant(Eigen::Vector3d(5.0, 0.0, 0.0));
+  for (const Method method : own_methods) {
+    for (const double off : {1e-15, 1e-14, 1e-13, 1e-12}) {
+      CAPTURE(off);
+      const auto from = [&](double q) {
+        return simulate(model, Eigen::Vector2d(q, 0.0), rest, times, pull, method);
+      };
+      const Trajectory run = from(off);
+      REQUIRE(run.status == Status::ok);
+      CHECK(largest(run.q - from(0.0).q) < 1e-6);
+    }
+  }
+}
+
 TEST_CASE("max_step bounds the steps of Dormand-Prince") {
   const Model model = upright();
   Options options = tolerances(1e-3, 1e-3);

@@ -47,16 +47,21 @@ Status Automatic::step() {
     if (status != Status::ok) return status;
   }
   const Status status = active_->step();
-  if (status == Status::ok && active_ == &explicit_ && !own_.stiff) watch();
+  if (status == Status::ok && active_ == &explicit_) watch();
   return status;
 }
 
-/// Looks at the step just made.
+/// Looks at the step just made. Friction that sticks can make stable steps shorter yet later on, so
+/// that they are watched after the first that hold back too.
 void Automatic::watch() noexcept {
-  held_ = explicit_.is_held_by_stability() ? held_ + 1 : std::max(held_ - 2, 0);
-  if (held_ < most_held) return;
-  own_.stiff = explicit_.time();
-  held_step_ = explicit_.last_step();
+  if (!explicit_.is_held_by_stability()) {
+    held_ = std::max(held_ - 2, 0);
+    return;
+  }
+  held_ = std::min(held_ + 1, most_held);
+  const double h = explicit_.last_step();
+  held_step_ += held_step_ > 0.0 ? (h - held_step_) / most_held : h;
+  if (held_ == most_held && !own_.stiff) own_.stiff = explicit_.time();
 }
 
 Stats Automatic::stats() const noexcept {

@@ -33,8 +33,8 @@ class Automatic final : public Integrator {
   std::unique_ptr<Integrator> implicit_;
   Integrator* active_;
   double stop_ = 0.0;
-  int held_ = 0;            // explicit steps that stability held back, less twice the others
-  double held_step_ = 0.0;  // of dop853, where it was found to be held back
+  int held_ = 0;            // explicit steps that stability held back, less twice others
+  double held_step_ = 0.0;  // of dop853 that stability held back, a running mean [s]
   Stats own_;               // what this class counts itself
 };
 

@@ -48,7 +48,8 @@ Status EmbeddedPair::restart(double t, const VectorXd& y, double t_stop) {
 double EmbeddedPair::first_step() {
   const double rtol = tolerances_.rtol, atol = tolerances_.atol;
   const double d0 = weighted_norm(y_, y_, rtol, atol), d1 = weighted_norm(slope_, y_, rtol, atol);
-  const double h0 = d0 < 1e-5 || d1 < 1e-5 ? 1e-6 : 0.01 * d0 / d1;
+  const double wanted = d0 < 1e-5 || d1 < 1e-5 ? 1e-6 : 0.01 * d0 / d1;  // tiny near straight
+  const double h0 = std::min(std::max(wanted, resolution()), stop_ - t_);
   trial_ = y_ + h0 * slope_;
   derivative(t_ + h0, trial_.data(), new_slope_.data());
   trial_ = new_slope_ - slope_;
@@ -60,6 +61,10 @@ double EmbeddedPair::first_step() {
   return max_step_ > 0.0 ? std::min(h1, max_step_) : h1;
 }
 
+double EmbeddedPair::resolution() const noexcept {
+  return 4.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(t_), std::abs(stop_));
+}
+
 Status EmbeddedPair::failure_status() const {
   if (trial_.allFinite() && new_slope_.allFinite()) return Status::step_too_small;
   const VectorXd beyond = 1.001 * y_;
@@ -68,8 +73,7 @@ Status EmbeddedPair::failure_status() const {
 }
 
 Status EmbeddedPair::step() {
-  const double smallest =
-      4.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(t_), std::abs(stop_));
+  const double smallest = resolution();
   for (bool rejected = false;; rejected = true) {
     double h = max_step_ > 0.0 ? std::min(h_, max_step_) : h_;
     const double left = stop_ - t_;
