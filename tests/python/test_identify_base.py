@@ -74,6 +74,40 @@ def test_slopes_are_those_of_solved_answers(data: Data, margin: float) -> None:
         assert np.abs(found[:, k] - solved).max() <= margin * (1.0 + np.abs(solved).max()), k
 
 
+def test_a_push_over_time_is_known_in_motions_and_refused_at_rest() -> None:
+    t = np.linspace(2.0, 2.3, 16)
+    times, factors = [2.0, 2.1, 2.3], [1.0, -1.0, 0.5]
+    push = cdcr.Wrench(section=1, force=(0.1, 0.05, 0.0), profile=(times, factors))
+    model, told = cdcr.Model(TRUE), np.zeros(6)
+    q0 = model.equilibrium(told, wrenches=push.at(2.0))
+    run = cdcr.simulate(
+        model, q0, 0.0 * q0, t=t, tension=told, wrenches=push, rtol=1e-10, method="dop853"
+    )
+    seen = []
+    for now, q, qd in zip(t, run.q, run.qd, strict=True):
+        pushed = replace(push.at(now), force=np.interp(now, times, factors) * np.array(push.force))
+        qdd = model.forward_dynamics(q, qd, told, pushed)
+        seen.append(model.base_wrench(q, qd, qdd, pushed))
+    measured = Motion(
+        t, told, tip=run.tip, base_force=np.array(seen)[:, :3], wrenches=push, rtol=1e-10,
+        noise={"tip": 1e-4, "base_force": FORCE},
+    )  # fmt: skip
+    sought = dict.fromkeys(["sections[*].youngs_modulus", "payload", "time shift"])
+    problem = prepared(measured, TRUE, sought, enough=False)
+    x = np.zeros(3)
+    assert np.abs(problem.residuals(x)).max() < 1e-3  # of the noise
+    x[2], h = 0.013, 1e-5  # between the samples
+    found = problem.jacobian(x)
+    for k in range(3):
+        step = h * np.eye(3)[k]
+        solved = (problem.residuals(x + step) - problem.residuals(x - step)) / (2.0 * h)
+        assert np.abs(found[:, k] - solved).max() <= SLOPE_RUN * (1.0 + np.abs(solved).max()), k
+    with pytest.raises(ValueError, match="has a profile, which a run follows"):
+        cdcr.identify(
+            Poses(COMMANDS, tip=np.zeros((12, 3)), wrenches=push), ROBOT, {"payload": None}
+        )
+
+
 def test_a_file_has_them_and_friction_with_a_memory_is_refused(tmp_path: Path) -> None:
     names = [*(f"cable {j} [N]" for j in range(1, 7)), *(f"base force {one} [mN]" for one in "xyz")]
     table = np.hstack([COMMANDS, 1e3 * on_base(ROBOT, COMMANDS)[:, :3]])

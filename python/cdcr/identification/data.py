@@ -21,14 +21,13 @@ from cdcr.identification.channels import (
     measured,
     noise_levels,
 )
+from cdcr.identification.loads import Wrenches, check_wrenches, under
 from cdcr.identification.setup import Place, Setup
 from cdcr.model.model import Model
-from cdcr.model.wrench import Wrench
 
 if TYPE_CHECKING:
     from cdcr.robot.robot import Robot
 
-Wrenches = Wrench | Sequence[Wrench]
 Noise = Mapping[str, float] | float | None
 MEASURED = {  # what may be measured beside markers, and its unit
     "tip": "m", "tension": "N", "length": "m", "q": "rad", "base_force": "N", "base_moment": "N m",
@@ -150,17 +149,16 @@ def channels_of(
     return tuple(Channel(name, unit, values, levels.get(name)) for name, unit, values in found)
 
 
-def check_wrenches(wrenches: Wrenches, robot: Robot) -> None:
-    """Refuse what is no wrench on this robot."""
-    model = Model(robot)
-    model.wrench_force(np.zeros(model.num_coordinates), wrenches)
-
-
 def check_channels(
-    data: Data, command: FloatArray, robot: Robot, where: Where, wrenches: Wrenches
+    data: Data,
+    command: FloatArray,
+    robot: Robot,
+    where: Where,
+    wrenches: Wrenches,
+    over_time: bool = False,
 ) -> None:
     """Refuse columns, places and loads that the robot has not, and numbers that ask for a unit."""
-    check_wrenches(wrenches, robot)
+    check_wrenches(wrenches, robot, over_time)
     for section, fraction in data.places:
         if not (0 <= section < len(robot.sections) and 0.0 <= fraction <= 1.0):
             raise ValueError(
@@ -193,10 +191,11 @@ def answers_of(
     tension: FloatArray | None = None,
     qd: FloatArray | None = None,
     wrenches: Wrenches = (),
+    times: FloatArray | None = None,
 ) -> list[FloatArray]:
     """Return what channels of poses or of a motion would show at shapes q (N, 2n).
 
-    Without rates the robot is at rest.
+    Without rates and the times of the shapes [s] the robot is at rest.
     """
     model = setup.model
     found: list[FloatArray] = []
@@ -213,7 +212,7 @@ def answers_of(
             found.append(model.cable_tensions(q, still, command) if tension is None else tension)
         elif channel.name in ("base_force", "base_moment"):
             if on_base is None:
-                on_base = _on_base(model, q, qd, command, wrenches)
+                on_base = _on_base(model, q, qd, command, wrenches, times)
             found.append(on_base[:, :3] if channel.name == "base_force" else on_base[:, 3:])
         else:
             place = places[int(channel.name.rpartition(" ")[2]) - 1]
@@ -222,18 +221,23 @@ def answers_of(
 
 
 def _on_base(
-    model: Model, q: FloatArray, qd: FloatArray | None, command: FloatArray, wrenches: Wrenches
+    model: Model,
+    q: FloatArray,
+    qd: FloatArray | None,
+    command: FloatArray,
+    wrenches: Wrenches,
+    times: FloatArray | None,
 ) -> FloatArray:
     """Return force and moment of the robot on its base (N, 6) [N], [N m]."""
-    if qd is None:
+    if qd is None or times is None:
         return model.base_wrench(q, np.zeros_like(q), np.zeros_like(q), wrenches)
     if model.num_deflections > 0 or model.has_backlash:
         raise UnsolvedError(
             "what a moving robot does to its base is not known where friction or play remembers: "
             "presliding_stiffness and backlash must be 0"
         )
-    qdd = model.forward_dynamics(q, qd, command, wrenches)
-    return model.base_wrench(q, qd, qdd, wrenches)
+    qdd = under(model.forward_dynamics, (q, qd, command), wrenches, times)
+    return under(model.base_wrench, (q, qd, qdd), wrenches, times)
 
 
 def markers_of(markers: Mapping[Place, ArrayLike] | None) -> dict[Place, ArrayLike]:

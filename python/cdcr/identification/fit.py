@@ -176,7 +176,8 @@ def prepared(
     if enough and problem.num_residuals < len(unknowns):
         raise ValueError(
             f"{count(problem.num_measurements, 'number')} measured cannot tell "
-            f"{count(len(unknowns), 'parameter')}; measure more, or seek fewer"
+            f"{count(len(unknowns), 'parameter')}; measure more than in "
+            f"{', '.join(one.name for one in every)}, or seek fewer"
         )
     return problem
 

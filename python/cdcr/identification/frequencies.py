@@ -18,7 +18,8 @@ from cdcr.identification.channels import (
     noise_levels,
     row_of,
 )
-from cdcr.identification.data import Noise, Wrenches, check_wrenches
+from cdcr.identification.data import Noise
+from cdcr.identification.loads import Wrenches, check_wrenches
 from cdcr.identification.rest import AtRest
 from cdcr.identification.setup import Place, Setup
 from cdcr.model.model import Model

@@ -7,7 +7,8 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from cdcr.base.arrays import FloatArray
-from cdcr.identification.data import Side, UnsolvedError, Wrenches
+from cdcr.identification.data import Side, UnsolvedError
+from cdcr.identification.loads import Wrenches
 from cdcr.identification.setup import Setup
 from cdcr.model.quasi_static import QuasiStatic, quasi_static
 

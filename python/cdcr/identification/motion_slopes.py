@@ -11,6 +11,7 @@ import numpy as np
 from cdcr import _core
 from cdcr.base.arrays import FloatArray
 from cdcr.identification.data import Side, answers_of
+from cdcr.identification.loads import under
 from cdcr.identification.rest import shifts
 from cdcr.identification.setup import Setup
 from cdcr.runs.sensitivities import Asked
@@ -57,7 +58,8 @@ def motion_slopes(
         on_qd = run.rate_sensitivities[name][rows, :, 0]
         if late:
             model, wrenches = setup.model, motion.wrenches
-            qdd = model.forward_dynamics(state.q, state.qd, state.command, wrenches)
+            now = state.q, state.qd, state.command
+            qdd = under(model.forward_dynamics, now, wrenches, _when(motion, setup, rows))
             on_qd = on_qd - late * np.where(moving, qdd, still)
         ends = []
         for there, share in zip((side.above, side.below), side.shares, strict=True):
@@ -65,13 +67,16 @@ def motion_slopes(
             qd = state.qd + share * side.width * on_qd
             command = _commands(motion, there, state, rows, setup)
             tension = there.model.cable_tensions(q, qd, command) if tense else None
-            ends.append(
-                answers_of(
-                    there, motion.channels, motion.places, q, command, tension, qd, motion.wrenches
-                )
-            )
+            shown = there, motion.channels, motion.places, q, command, tension, qd
+            ends.append(answers_of(*shown, motion.wrenches, _when(motion, there, rows)))
         found.append([(a - b) / side.width for a, b in zip(*ends, strict=True)])
     return [np.stack(columns, axis=-1) for columns in zip(*found, strict=True)]
+
+
+def _when(motion: Motion, there: Setup, rows: FloatArray) -> FloatArray:
+    """Return the times of the run in another laboratory at which it was measured here."""
+    t = np.asarray(motion.t)
+    return np.where(rows > 0, t - there.time_shift, t[0])
 
 
 def _commands(
@@ -81,7 +86,7 @@ def _commands(
     if not _moves_commands(motion, setup, there):
         return state.command
     t = np.asarray(motion.t)
-    wanted = np.where(rows > 0, t - there.time_shift, t[0])
+    wanted = _when(motion, there, rows)
     told = motion._told(there)
     if motion.interpolation == "previous":
         found: FloatArray = told[np.searchsorted(t, wanted, side="right") - 1]
@@ -115,11 +120,11 @@ def _asked(motion: Motion, setup: Setup, sides: Sequence[Side]) -> Asked:
     start = np.zeros((2 * d, len(sides)))
     held = motion._held(setup)
     if held is not None:
-        q = setup.model.find_equilibrium(held, None, motion.wrenches).q
+        q = setup.model.find_equilibrium(held, None, motion._wrenches_at_start).q
 
         def commands(there: Setup) -> FloatArray:
             return np.asarray(motion._held(there))
 
-        for k, shift in enumerate(shifts(setup, q, commands, motion.wrenches, sides)):
+        for k, shift in enumerate(shifts(setup, q, commands, motion._wrenches_at_start, sides)):
             start[:d, k] = shift
     return Asked(names, parameters, start, slopes)

@@ -29,7 +29,6 @@ from cdcr.identification.data import (
     Noise,
     Side,
     UnsolvedError,
-    Wrenches,
     answers_of,
     channels_of,
     check_channels,
@@ -37,6 +36,7 @@ from cdcr.identification.data import (
     measured_in,
 )
 from cdcr.identification.files import read_measured
+from cdcr.identification.loads import Wrenches, wrenches_at
 from cdcr.identification.motion_slopes import NOTHING, Samples, motion_slopes
 from cdcr.identification.setup import Place, Setup
 from cdcr.model.model import Model
@@ -79,7 +79,7 @@ class Motion(Data):
     command : (N, num_cables) or (num_cables,) array_like
         Tensions [N], or lengths [m], at these times, or all the time.
     tip, markers, tension, length, q, base_force, base_moment, pulled, wrenches, noise, gaps, name
-        As in `Poses`; tensions are those at the base.
+        As in `Poses`; tensions are those at the base, and wrenches may have profiles over the time.
     start : optional
         How the motion begins: None at rest under the first command; (num_cables,) numbers at rest
         under these commands, which are then let go; a pair ``(q0, qd0)`` [rad], [rad/s] as it says.
@@ -223,7 +223,7 @@ class Motion(Data):
         """Refuse what does not fit a robot."""
         command = np.asarray(self.command)
         check_commands(command, robot, self._named, self.name, pulled=self.pulled)
-        check_channels(self, command, robot, self._named, self.wrenches)
+        check_channels(self, command, robot, self._named, self.wrenches, over_time=True)
         self._check_start(robot)
 
     def _check_start(self, robot: Robot) -> None:
@@ -272,12 +272,22 @@ class Motion(Data):
         kind, value = self._start(setup.robot, setup.model.num_coordinates)
         return setup.commands(value, pulled=self.pulled) if kind == "held" else None
 
+    def _times(self, setup: Setup) -> FloatArray:
+        """Return the time of the run at which each row was measured [s]."""
+        t = cast("FloatArray", self.t)
+        times: FloatArray = np.maximum(t - setup.time_shift, t[0])
+        return times  # before the start it is as it begins
+
+    @property
+    def _wrenches_at_start(self) -> Wrenches:
+        return wrenches_at(self.wrenches, float(np.asarray(self.t)[0]))
+
     def _run(self, setup: Setup, by: Asked = NOTHING) -> tuple[Trajectory, FloatArray]:
         """Return a run, and which of its rows each time measured is."""
         model = setup.model
         held = self._held(setup)
         if held is not None:
-            found = model.find_equilibrium(held, None, self.wrenches)
+            found = model.find_equilibrium(held, None, self._wrenches_at_start)
             if found.status is not _core.Status.ok:
                 raise UnsolvedError(f"{self._named(0, 'equilibrium')}: no start at rest was found")
             q0, qd0 = found.q, np.zeros(model.num_coordinates)
@@ -285,7 +295,7 @@ class Motion(Data):
             q0, qd0 = self._start(setup.robot, model.num_coordinates)[1]
         t = cast("FloatArray", self.t)
         commands = self._told(setup)
-        wanted = t - setup.time_shift
+        wanted = self._times(setup)
         moving = wanted > t[0]
         times = np.concatenate([[t[0]], wanted[moving]])
         if not np.ptp(commands, axis=0).any():
@@ -303,13 +313,13 @@ class Motion(Data):
         )  # fmt: skip
         if not run.success:
             raise UnsolvedError(f"{self.name}: {run.message}")
-        return run, np.where(moving, np.cumsum(moving), 0)  # before the start it is as it begins
+        return run, np.where(moving, np.cumsum(moving), 0)
 
     def _answers(self, setup: Setup, state: Samples) -> list[FloatArray]:
         """Return what the model says, an array for each channel."""
         return answers_of(
             setup, self.channels, self.places, state.q, state.command, state.tension, state.qd,
-            self.wrenches,
+            self.wrenches, self._times(setup),
         )  # fmt: skip
 
     def _slopes(self, setup: Setup, state: Samples, sides: Sequence[Side]) -> list[FloatArray]:

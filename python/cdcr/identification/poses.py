@@ -23,7 +23,6 @@ from cdcr.identification.data import (
     MEASURED,
     Noise,
     Side,
-    Wrenches,
     answers_of,
     channels_of,
     check_channels,
@@ -32,6 +31,7 @@ from cdcr.identification.data import (
 )
 from cdcr.identification.files import read_measured
 from cdcr.identification.history import differences, follow
+from cdcr.identification.loads import Wrenches
 from cdcr.identification.rest import AtRest
 from cdcr.identification.setup import Place, Setup
 

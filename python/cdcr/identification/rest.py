@@ -9,7 +9,8 @@ import numpy as np
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray
-from cdcr.identification.data import Data, Side, UnsolvedError, Wrenches
+from cdcr.identification.data import Data, Side, UnsolvedError
+from cdcr.identification.loads import Wrenches
 from cdcr.identification.setup import Setup
 
 
