@@ -1,5 +1,6 @@
-"""Options of ``cdcr run``: --film, --max-steps."""
+"""Options of ``cdcr run``: --film, --max-steps; numbers in options of every command."""
 
+import re
 import shutil
 import sys
 from pathlib import Path
@@ -63,3 +64,38 @@ def test_max_steps_is_a_whole_number_however_it_is_written(tmp_path: Path) -> No
     half = cdcr_("run", "step-tension", "--out", tmp_path, "--max-steps", "1.5")
     assert half.exit_code == 2
     assert "'--max-steps': must be a whole number, got '1.5'" in half.stderr
+
+
+def test_numbers_are_plain_decimals(tmp_path: Path) -> None:
+    wrong = ["1_0", "\u0661", "\uff11", "0x10", "nan", "inf", "1 0", ""]
+    options = {
+        "--t-end": ("run", "pid"),
+        "--rtol": ("run", "pid"),
+        "--atol": ("run", "pid"),
+        "--max-steps": ("run", "pid"),
+        "--max-bending": ("export-c", "amouri2020"),
+        "--acados": ("export-c", "amouri2020"),
+        "--steps": ("export-c", "amouri2020"),
+        "--fmi": ("export-fmu", "amouri2020"),
+        "--step": ("export-fmu", "amouri2020"),
+        "--links": ("export-mjcf", "amouri2020"),
+        "--seed": ("sweep", "pid"),
+        "--jobs": ("sweep", "pid"),
+        "--speed": ("view", "amouri2020"),
+        "--port": ("view", "amouri2020"),
+    }
+    for option, command in options.items():
+        for text in wrong:
+            out = () if command[0] == "view" else ("--out", tmp_path / "x")
+            told = cdcr_(*command, *out, option, text)
+            assert told.exit_code == 2
+            kind = rf"'{option}': must be a (whole )?number[^,]*, got {re.escape(repr(text))}"
+            assert re.search(kind, " ".join(told.stderr.split())), told.stderr
+    assert everything_in(tmp_path) == []
+
+
+def test_limits_of_whole_numbers_are_told() -> None:
+    jobs = cdcr_("figures", "--jobs", "0").stderr
+    assert "'--jobs': must be a whole number >= 1, got '0'" in jobs
+    port = cdcr_("view", "amouri2020", "--port", "65536").stderr
+    assert "'--port': must be a whole number 0 to 65535, got '65536'" in port

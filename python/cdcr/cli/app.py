@@ -35,6 +35,7 @@ from cdcr.cli.plain import (
     Robot,
     Scenario,
     Size,
+    number,
     print_json,
     told_plainly,
     whole,
@@ -110,14 +111,19 @@ def run_command(
     ] = None,
     t_end: Annotated[
         float | None,
-        typer.Option(metavar="SECONDS", help="End of the run; samples keep their spacing."),
+        typer.Option(
+            metavar="SECONDS", parser=number, help="End of the run; samples keep their spacing."
+        ),
     ] = None,
     rtol: Annotated[
-        float | None, typer.Option(metavar="NUMBER", help="Relative tolerance of one step.")
+        float | None,
+        typer.Option(metavar="NUMBER", parser=number, help="Relative tolerance of one step."),
     ] = None,
     atol: Annotated[
         float | None,
-        typer.Option(metavar="NUMBER", help="Absolute tolerance of one step [rad], [rad/s]."),
+        typer.Option(
+            metavar="NUMBER", parser=number, help="Absolute tolerance of one step [rad], [rad/s]."
+        ),
     ] = None,
     max_steps: Annotated[
         int | None,

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from cdcr import _core
-from cdcr.cli.plain import Overwrite, Robot, told_plainly
+from cdcr.cli.plain import Overwrite, Robot, number, told_plainly, whole
 from cdcr.cli.run import find_robot, first_as_option, mistakes
 from cdcr.export.c import c_texts
 from cdcr.export.fmu import fmu_bytes
@@ -30,7 +30,9 @@ def export_c_command(
     max_bending: Annotated[
         float,
         typer.Option(
-            metavar="RAD", help="Largest bending angle of a section; the tables grow with it."
+            metavar="RAD",
+            parser=number,
+            help="Largest bending angle of a section; the tables grow with it.",
         ),
     ] = _core.max_bending,
     casadi: Annotated[
@@ -44,11 +46,13 @@ def export_c_command(
         float | None,
         typer.Option(
             metavar="SECONDS",
+            parser=number,
             help="Write NAME_acados.c too: discrete dynamics over shooting intervals of so long.",
         ),
     ] = None,
     steps: Annotated[
-        int, typer.Option(metavar="NUMBER", help="Of Runge-Kutta 4 in such an interval.")
+        int,
+        typer.Option(metavar="NUMBER", parser=whole, help="Of Runge-Kutta 4 in such an interval."),
     ] = 1,
     overwrite: Overwrite = False,
 ) -> None:
@@ -79,11 +83,14 @@ def export_c_command(
 def export_fmu_command(
     robot: Robot,
     out: Annotated[Path, typer.Option(metavar="FILE.fmu", help="The file to write.")],
-    fmi: Annotated[int, typer.Option(metavar="3|2", help="Version of the standard.")] = 3,
+    fmi: Annotated[
+        int, typer.Option(metavar="3|2", parser=whole, help="Version of the standard.")
+    ] = 3,
     step: Annotated[
         float | None,
         typer.Option(
             metavar="SECONDS",
+            parser=number,
             help="Fixed step of Runge-Kutta 4 inside; without it, dopri5 with its tolerances.",
         ),
     ] = None,
@@ -108,7 +115,8 @@ def export_mjcf_command(
     robot: Robot,
     out: Annotated[Path, typer.Option(metavar="FILE.xml", help="The file to write.")],
     links: Annotated[
-        int, typer.Option(metavar="NUMBER", help="Rigid links of each section, from 1.")
+        int,
+        typer.Option(metavar="NUMBER", parser=whole, help="Rigid links of each section, from 1."),
     ] = 10,
     overwrite: Overwrite = False,
 ) -> None:

@@ -3,17 +3,47 @@
 from __future__ import annotations
 
 import json
+import math
 import warnings
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Annotated, Any, NoReturn
 
 import typer
 
+from cdcr.base import decimals
 from cdcr.cli import complete, run
 from cdcr.files.refusals import os_or_value
 
 INTERRUPTED = 130  # exit code of what Ctrl-C ended
+
+
+def number(text: object) -> float:
+    """Return the number that is written, or refuse the option."""
+    value = decimals.number(str(text))  # a default is a number already
+    if math.isnan(value):
+        raise typer.BadParameter(f"must be a number such as 0.5 or 1e-3, got {text!r}")
+    return value
+
+
+def whole_from(low: int | None = None, high: int | None = None) -> Callable[[object], int]:
+    """Return what reads a whole number from `low` to `high`, as 1e6 too, or refuses the option."""
+    allowed = "" if low is None else f" >= {low}" if high is None else f" {low} to {high}"
+
+    def whole(text: object) -> int:
+        value = decimals.whole(str(text))
+        if (
+            value is None
+            or (low is not None and value < low)
+            or (high is not None and value > high)
+        ):
+            raise typer.BadParameter(f"must be a whole number{allowed}, got {text!r}")
+        return value
+
+    return whole
+
+
+whole = whole_from()
 
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace files that are there.")]
 
@@ -45,7 +75,7 @@ Jobs = Annotated[
     int | None,
     typer.Option(
         metavar="NUMBER",
-        min=1,
+        parser=whole_from(1),
         help="Processes of this machine; by default as many as there are processors to use.",
     ),
 ]
@@ -56,16 +86,6 @@ AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object in p
 def print_json(table: dict[str, Any]) -> None:
     """Print one JSON object."""
     typer.echo(json.dumps(table, indent=2, allow_nan=False))
-
-
-def whole(text: str) -> int:
-    """Return the whole number that is written, as 1e6 too, or refuse the option."""
-    with suppress(ValueError):
-        return int(text)
-    with suppress(ValueError):
-        if (value := float(text)).is_integer() and abs(value) < 2**53:
-            return int(value)
-    raise typer.BadParameter(f"must be a whole number, got {text!r}")
 
 
 def end(code: int, sentence: object) -> NoReturn:

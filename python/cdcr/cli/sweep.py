@@ -26,6 +26,7 @@ from cdcr.cli.plain import (
     end,
     print_json,
     told_plainly,
+    whole,
 )
 from cdcr.cli.run import DelayedBar, Mistake, RunFailed, check_size, first_as_option, mistakes
 from cdcr.cli.sweep_values import grid, sampled
@@ -76,7 +77,7 @@ def sweep_command(
             autocompletion=complete.samples,
         ),
     ] = None,
-    seed: Annotated[int, typer.Option(metavar="NUMBER", help="Of the samples.")] = 0,
+    seed: Annotated[int, typer.Option(metavar="NUMBER", parser=whole, help="Of the samples.")] = 0,
     out: Annotated[
         Path | None,
         typer.Option(

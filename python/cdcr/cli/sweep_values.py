@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from cdcr.base import decimals
 from cdcr.base.arrays import FloatArray
 from cdcr.base.extras import require
 
@@ -24,7 +25,7 @@ def grid(text: str) -> tuple[str, FloatArray]:
     if len(parts) != 3:
         _refuse(text, _GRID)
     low, high = (_number(text, one, _GRID) for one in parts[:2])
-    count = int(parts[2]) if parts[2].isascii() and parts[2].isdigit() else 0
+    count = decimals.whole(parts[2]) or 0
     if not 2 <= count <= _MOST:
         _refuse(text, f"{_GRID}, with a COUNT of 2 to {_MOST}")
     _check_range(text, low, high, is_log)
@@ -63,10 +64,7 @@ def _parts(values: str) -> tuple[list[str], bool]:
 
 
 def _number(text: str, one: str, must: str) -> float:
-    try:
-        value = float(one)
-    except ValueError:
-        value = math.nan
+    value = decimals.number(one)
     if not math.isfinite(value):
         _refuse(text, must)
     return value

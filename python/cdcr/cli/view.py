@@ -17,7 +17,7 @@ from cdcr._core import Controller, TrackingController
 from cdcr.base.check import nearest
 from cdcr.base.extras import require
 from cdcr.cli import complete
-from cdcr.cli.plain import Overwrite, told_plainly
+from cdcr.cli.plain import Overwrite, number, told_plainly, whole_from
 from cdcr.cli.run import (
     DelayedBar,
     Mistake,
@@ -199,10 +199,18 @@ def view_command(
         str | None, typer.Option(metavar="FILE.nc", help="A run to show beside it, faintly.")
     ] = None,
     speed: Annotated[
-        float, typer.Option(metavar="NUMBER", help="Time simulated or played over real time.")
+        float,
+        typer.Option(
+            metavar="NUMBER", parser=number, help="Time simulated or played over real time."
+        ),
     ] = 1.0,
     port: Annotated[
-        int, typer.Option(min=0, max=65535, help="On this machine; 0 for any free one.")
+        int,
+        typer.Option(
+            metavar="NUMBER",
+            parser=whole_from(0, 65535),
+            help="On this machine; 0 for any free one.",
+        ),
     ] = 8080,
     browser: Annotated[
         bool, typer.Option("--browser/--no-browser", help="Open it in the browser.")

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from cdcr.base.check import count
+from cdcr.base.decimals import number
 from cdcr.files.text import read_text
 
 if TYPE_CHECKING:
@@ -15,7 +16,6 @@ if TYPE_CHECKING:
 
 FloatRows = list[list[float]]
 RUN_TIME = "t [s]"  # the column of times in the files of runs
-_NUMBER = re.compile(r"[ \t]*[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?[ \t]*")
 
 
 class Layout(NamedTuple):
@@ -80,11 +80,6 @@ def read_rows(path: Path, what: str) -> tuple[list[str], list[tuple[str, list[st
             wanted = count(len(header), "column")
             raise ValueError(f"{where}: must have {wanted}, got {len(row)}")
     return header, rows
-
-
-def number(text: str) -> float:
-    """Return the number that a cell holds, NaN where it holds none in ASCII digits."""
-    return float(text) if _NUMBER.fullmatch(text) else math.nan
 
 
 def _layout(header: list[str], layouts: Sequence[Layout], path: Path) -> tuple[Layout, list[int]]:

@@ -14,8 +14,9 @@ import numpy as np
 
 from cdcr.base.arrays import FloatArray
 from cdcr.base.check import nearest
+from cdcr.base.decimals import number
 from cdcr.files.new_file import file_path
-from cdcr.files.number_csv import number, read_rows
+from cdcr.files.number_csv import read_rows
 from cdcr.identification.channels import whole
 from cdcr.identification.setup import Place
 from cdcr.model.model import Model

@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.legend import Legend
 from matplotlib.text import Annotation, Text
 
+from cdcr.base.decimals import number
 from cdcr.plotting import space
 from cdcr.plotting.legend import legend_of, redraw_above
 from cdcr.plotting.letters import arrange, find_room, shrink_letters
@@ -47,7 +48,7 @@ def checked_size(size: Any) -> tuple[float, float] | Literal["journal"] | None:
         return SLIDE
     told = size
     if isinstance(size, str):
-        size = re.split("[x,]", size)
+        size = [number(side) for side in re.split("[x,]", size)]
     try:
         width, height = (float(side) for side in size)
     except (TypeError, ValueError):

@@ -12,9 +12,10 @@ import numpy as np
 
 from cdcr._core import Status
 from cdcr.base.arrays import FloatArray, read_only
+from cdcr.base.decimals import number
 from cdcr.base.extras import require
 from cdcr.files.new_file import file_path
-from cdcr.files.number_csv import RUN_TIME, number, read_rows
+from cdcr.files.number_csv import RUN_TIME, read_rows
 from cdcr.model.model import Model
 from cdcr.robot.cable import Cable
 from cdcr.robot.robot import Robot

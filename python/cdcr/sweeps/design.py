@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from cdcr.base.arrays import MAX_SAMPLES, FloatArray, finite
 from cdcr.base.check import Check, format_value, nearest
+from cdcr.base.decimals import whole
 from cdcr.base.extras import require
 
 Kind = Literal["grid", "rows", "sobol", "lhs", "random", "saltelli"]
@@ -116,7 +117,7 @@ def _kind_and_number(samples: str, d: int) -> tuple[Kind, int]:
     if kind not in SAMPLED:
         guess = nearest(kind, SAMPLED)
         raise ValueError(f"samples must be {_SHAPE}, got {samples!r}{'.' if guess else ''}{guess}")
-    number = int(text) if text.isascii() and text.isdigit() else 0
+    number = whole(text) or 0
     if number < 1:
         raise ValueError(f"samples must be {_SHAPE}, got {samples!r}")
     if kind in _POWER_OF_TWO and number & (number - 1):
