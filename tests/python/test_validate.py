@@ -2,6 +2,7 @@
 
 import json
 import re
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from command import cdcr_, refused
 
 LIBRARY = sorted((Path(cdcr.__file__).parent / "scenarios" / "library").glob("*.toml"))
 RUN = "robot = 'amouri2020'\nt_end = 1.0\n"
+SHAPE = "[[{}]]\ncable = 1\nshape = 'step'\nvalue = 0.81"
 FAULTY = """\
 title = "faulty"
 robot = "amouri2020"
@@ -131,12 +133,59 @@ def test_what_is_wrong_with_a_named_file_says_where_it_is_named(
             "[trajectory]\nshape = 'line'\ntheta_rate_deg = 10\nsimulate = true\nstep = 10",
             "7: trajectory.step must be at most t_end, 1 s, got 10",
         ),
+        (
+            f"[tension]\nstep = 1e-12\n{SHAPE.format('tension.shapes')}",
+            "4, [tension]: step must be at least 1e-07 s in a run of 1 s, got 1e-12 s",
+        ),
+        (
+            "[trajectory]\nshape = 'line'\ntheta_rate_deg = 10\nsimulate = true\nstep = 1e-12",
+            "7, [trajectory]: step must be at least 1e-07 s in a run of 1 s, got 1e-12 s",
+        ),
     ],
 )
 def test_what_a_run_would_refuse_or_ignore(tmp_path: Path, text: str, told: str) -> None:
     path = tmp_path / "my.toml"
     path.write_text(RUN + text)
-    assert refused(cdcr_("validate", path)).startswith(f"{path}, line {told}")
+    found = refused(cdcr_("validate", path))
+    assert found.startswith(f"{path}, line {told}")
+    assert refused(cdcr_("run", path, "--out", tmp_path / "out")) == found
+
+
+@pytest.mark.parametrize(
+    ("text", "where", "instead"),
+    [
+        (
+            SHAPE.format("tension"),
+            "3, [[tension]]",
+            "write [[tension.shapes]], and [tension] with step, which samples them",
+        ),
+        (
+            "[trajectory]\nshape = 'line'\ntheta_rate_deg = 10\nsimulate = true",
+            "3, [trajectory]",
+            "give step, which samples the commands",
+        ),
+    ],
+)
+def test_drives_with_backlash_take_no_function_of_time(
+    tmp_path: Path, text: str, where: str, instead: str
+) -> None:
+    robot, path = tmp_path / "robot.toml", tmp_path / "my.toml"
+    section = replace(
+        cdcr.robots.amouri2020().sections[0], cable_stiffness=2e4, cable_backlash=1e-3
+    )
+    cdcr.Robot(sections=[section]).save(robot)
+    run = RUN.replace("amouri2020", "robot.toml")
+    path.write_text(run + text)
+    for command in (("validate", path), ("run", path, "--out", tmp_path / "out")):
+        assert refused(cdcr_(*command)) == (
+            f"{path}, line {where}: a drive with backlash takes tables and constants, whose turns "
+            f"are known, and no function of time; cable 1 has 0.001 m: {instead}"
+        )
+    sampled = text + "\nstep = 1e-3"  # as the sentence says
+    if "[[tension]]" in text:
+        sampled = "[tension]\nstep = 1e-3\n" + SHAPE.format("tension.shapes")
+    path.write_text(run + sampled)
+    assert cdcr_("run", path, "--out", tmp_path / "out", "--format", "csv").exit_code == 0
 
 
 def test_a_robot_for_a_scenario_and_the_reverse(tmp_path: Path) -> None:

@@ -15,7 +15,15 @@ from cdcr.base.check import format_value
 
 MAX_SAMPLES = 10_000_000  # about a gigabyte of trajectory
 
-__all__ = ["MAX_SAMPLES", "FloatArray", "even_times", "finite", "numbers", "read_only"]
+__all__ = [
+    "MAX_SAMPLES",
+    "FloatArray",
+    "check_step",
+    "even_times",
+    "finite",
+    "numbers",
+    "read_only",
+]
 
 FloatArray = NDArray[np.float64]
 
@@ -55,9 +63,14 @@ class ReadOnlyArrays:
                 read_only(value)
 
 
-def even_times(end: float, step: float) -> FloatArray:
-    """Return times from 0 to the end [s], as near to that step as they divide it evenly."""
+def check_step(end: float, step: float) -> None:
+    """Refuse a step that makes more samples than a run may have."""
     least = end / MAX_SAMPLES
     if step < least:
         raise ValueError(f"step must be at least {least:g} s in a run of {end:g} s, got {step:g} s")
+
+
+def even_times(end: float, step: float) -> FloatArray:
+    """Return times from 0 to the end [s], as near to that step as they divide it evenly."""
+    check_step(end, step)
     return np.linspace(0.0, end, max(1, round(end / step)) + 1)

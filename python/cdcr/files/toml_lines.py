@@ -118,7 +118,8 @@ def line_of(lines: dict[str, int], sentence: str, home: str = "") -> int | None:
     if key := re.match(r"(\w+(?:\[\d+\])?(?:\.\w+(?:\[\d+\])?)*):? ", sentence):
         path = f"{path}.{key[1]}" if path else key[1]
     while path:
-        if path in lines:
-            return lines[path]
+        for one in (path, f"{path}[0]"):  # of a list of tables, the first
+            if one in lines:
+                return lines[one]
         path = path[: path.rindex("[")] if path.endswith("]") else path.rpartition(".")[0]
     return None

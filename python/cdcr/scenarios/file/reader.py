@@ -234,7 +234,7 @@ def _input(table: Mapping[str, Any], model: Model, file: Path) -> dict[str, Any]
             "qd0": qd0,
         }
         return fields if motion.simulate else fields | {"method": "inverse dynamics"}
-    tension = read_tension(table.get("tension"), model, file)
+    tension = read_tension(table.get("tension"), model, table["t_end"], file)
     return {"input_source" if isinstance(tension, TensionShapes) else "tension": tension}
 
 

@@ -14,7 +14,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from cdcr.base.arrays import FloatArray, even_times
+from cdcr.base.arrays import FloatArray, check_step, even_times
 from cdcr.base.check import count
 from cdcr.files.refusals import named_by
 from cdcr.files.toml import format_toml, refuse, schema_errors
@@ -80,15 +80,22 @@ Sampled: TypeAlias = Callable[[Model, float], TensionTable]
 
 
 def read_tension(
-    value: Any, model: Model, file: Path
+    value: Any, model: Model, t_end: float, file: Path
 ) -> tuple[float, ...] | TensionTable | TensionShapes | Sampled:
     """Return the tensions of a scenario file; `value` is None where it has none."""
     if isinstance(value, dict):
         if "hold" in value:
             return _hold(value, model, file)
-        return _sampled(value, model, file) if "shapes" in value else _over_time(value, model, file)
+        if "shapes" in value:
+            return _sampled(value, model, t_end, file)
+        return _over_time(value, model, file)
     if value and isinstance(value[0], dict):
-        return _shapes(value, model, file, "tension")
+        shapes = _shapes(value, model, file, "tension")
+        with values.error_prefix(f"{file}, [[tension]]"):
+            values.refuse_function(
+                model, "write [[tension.shapes]], and [tension] with step, which samples them"
+            )
+        return shapes
     num_cables = model.num_cables
     tension = model.rest_command() if value is None else value
     if len(tension) != num_cables:
@@ -158,11 +165,13 @@ def _hold(table: dict[str, Any], model: Model, file: Path) -> Hold:
     return held
 
 
-def _sampled(table: dict[str, Any], model: Model, file: Path) -> Sampled:
+def _sampled(table: dict[str, Any], model: Model, t_end: float, file: Path) -> Sampled:
     from cdcr.scenarios.file.schema import TensionSampled
 
     refuse(str(file), schema_errors(TensionSampled, table, "tension"))
     shapes = _shapes(table["shapes"], model, file, "tension.shapes")
+    with values.error_prefix(f"{file}, [tension]"):
+        check_step(t_end, table["step"])
 
     def rows(model: Model, t_end: float) -> TensionTable:
         with values.error_prefix(f"{file}, [tension]"):

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from cdcr.base.arrays import FloatArray
+from cdcr.base.arrays import FloatArray, check_step
 from cdcr.base.check import count, nearest
 from cdcr.files.number_csv import RUN_TIME, Layout, read_numbers
 from cdcr.files.refusals import named_by
@@ -27,7 +27,13 @@ from cdcr.motion.reference import Reference
 from cdcr.motion.splines import Motion, bending_vectors
 from cdcr.runs.export import all_bend_evenly, columns_of
 from cdcr.scenarios.file.tracking import TrackedMotion, driven_by_length
-from cdcr.scenarios.file.values import error_prefix, numbers_of, of_sections, rival_errors
+from cdcr.scenarios.file.values import (
+    error_prefix,
+    numbers_of,
+    of_sections,
+    refuse_function,
+    rival_errors,
+)
 
 AT = "trajectory"
 _LIMITS = ("min_tension", "max_tension", "infeasible")
@@ -60,7 +66,14 @@ def read_trajectory(table: dict[str, Any], model: Model, t_end: float, file: Pat
     if low > high:
         sentence = f"{AT}.max_tension must be at least min_tension, {low:g} N, got {high:g}"
         refuse(str(file), [sentence])
-    return TrackedMotion(motion=motion, derivative_error=error, where=f"{file}, [{AT}]", **options)
+    where = f"{file}, [{AT}]"
+    if table.get("simulate", False):
+        with error_prefix(where):
+            if "step" in table:
+                check_step(t_end, table["step"])
+            else:
+                refuse_function(model, "give step, which samples the commands")
+    return TrackedMotion(motion=motion, derivative_error=error, where=where, **options)
 
 
 def _drive_errors(table: Mapping[str, Any], model: Model) -> list[str]:

@@ -86,6 +86,16 @@ def _bent(table: Mapping[str, Any], model: Model) -> FloatArray:
     return bending(theta, phi)
 
 
+def refuse_function(model: Model, instead: str) -> None:
+    """Refuse commands as a function of time for drives with backlash, and say what to write."""
+    for j, cable in enumerate(model.robot.all_cables):
+        if cable.backlash > 0.0:
+            raise ValueError(
+                "a drive with backlash takes tables and constants, whose turns are known, and no "
+                f"function of time; cable {j + 1} has {cable.backlash:g} m: {instead}"
+            )
+
+
 def of_sections(
     table: Mapping[str, Any], key: str, num_sections: int, at: str, default: float | None = None
 ) -> FloatArray:
