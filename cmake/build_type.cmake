@@ -18,4 +18,18 @@ if(NOT is_multi_config AND NOT CMAKE_BUILD_TYPE)
       "-DCMAKE_BUILD_TYPE=Release gives the program and cdcr theirs."
     )
   endif()
+elseif(NOT is_multi_config AND PROJECT_IS_TOP_LEVEL)
+  # A type that CMake does not know has no flags, unless they are given with it. None is for
+  # packages of distributions, whose flags are all in CMAKE_CXX_FLAGS.
+  string(TOUPPER "${CMAKE_BUILD_TYPE}" type)
+  if(
+    NOT type MATCHES "^(DEBUG|RELEASE|RELWITHDEBINFO|MINSIZEREL|NONE)$"
+    AND "${CMAKE_CXX_FLAGS_${type}}" STREQUAL ""
+  )
+    message(
+      FATAL_ERROR
+      "CMAKE_BUILD_TYPE is \"${CMAKE_BUILD_TYPE}\": it must be Debug, Release, RelWithDebInfo, "
+      "MinSizeRel or None, or a type whose flags CMAKE_CXX_FLAGS_${type} are given."
+    )
+  endif()
 endif()

@@ -5,6 +5,18 @@ if(CDCR_WITH_CVODE)
   string(REGEX MATCH "^[0-9]+" sundials_end ${SUNDIALS_VERSION})
   math(EXPR sundials_end "${sundials_end} + 1") # the interface of SUNDIALS ends there
 endif()
+# Each has targets and a file for pkg-config of its own.
+set(components "")
+if(CDCR_WITH_CVODE)
+  list(APPEND components cvode)
+endif()
+if(CDCR_WITH_TOML)
+  list(APPEND components toml)
+endif()
+if(CDCR_BUILD_C)
+  list(APPEND components c)
+endif()
+list(JOIN components " " package_components)
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/cdcr)
 set(build_dir ${PROJECT_BINARY_DIR}/cmake)
 
@@ -23,14 +35,15 @@ set(
   ${build_dir}/cdcr-config-version.cmake
 )
 
-# Relative to where the file lies, so that the prefix can be moved.
+# Relative to where the file lies, so that the prefix can be moved; a folder for libraries that is
+# absolute lies in no prefix, and does not move.
 cmake_path(APPEND CMAKE_INSTALL_LIBDIR pkgconfig OUTPUT_VARIABLE pc_dir)
-cmake_path(
-  ABSOLUTE_PATH pc_dir
-  BASE_DIRECTORY /prefix
-  OUTPUT_VARIABLE pc_dir_in_prefix
-)
-file(RELATIVE_PATH pc_prefix ${pc_dir_in_prefix} /prefix)
+if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}")
+  set(pc_prefix "${CMAKE_INSTALL_PREFIX}")
+else()
+  file(RELATIVE_PATH pc_prefix "/prefix/${pc_dir}" /prefix)
+  string(PREPEND pc_prefix "\${pcfiledir}/")
+endif()
 cmake_path(APPEND pc_libdir "\${prefix}" ${CMAKE_INSTALL_LIBDIR})
 cmake_path(APPEND pc_includedir "\${prefix}" ${CMAKE_INSTALL_INCLUDEDIR})
 set(pc_flags "")
@@ -51,18 +64,6 @@ configure_file(
 set(pc_files ${build_dir}/cdcr.pc)
 
 if(CDCR_WITH_CVODE)
-  install(
-    TARGETS cdcr_cvode
-    EXPORT cdcr-cvode-targets
-    COMPONENT cpp
-    FILE_SET HEADERS COMPONENT cpp
-  )
-  install(
-    EXPORT cdcr-cvode-targets
-    NAMESPACE cdcr::
-    DESTINATION ${config_dir}
-    COMPONENT cpp
-  )
   list(APPEND package_files ${PROJECT_SOURCE_DIR}/cmake/FindSUNDIALS.cmake)
   # Only a static library leaves it to the program to link SUNDIALS.
   set(pc_sundials "")
@@ -75,22 +76,8 @@ if(CDCR_WITH_CVODE)
     )
     list(JOIN pc_sundials " " pc_sundials)
   endif()
-  configure_file(
-    ${PROJECT_SOURCE_DIR}/cmake/cdcr-cvode.pc.in
-    ${build_dir}/cdcr-cvode.pc
-    @ONLY
-  )
-  list(APPEND pc_files ${build_dir}/cdcr-cvode.pc)
 endif()
 
-# Components with nothing to ask for, each with targets and a file for pkg-config of its own.
-set(components "")
-if(CDCR_WITH_TOML)
-  list(APPEND components toml)
-endif()
-if(CDCR_BUILD_C)
-  list(APPEND components c)
-endif()
 foreach(component IN LISTS components)
   install(
     TARGETS cdcr_${component}
@@ -124,6 +111,21 @@ install(
   DESTINATION ${config_dir}
   COMPONENT cpp
 )
+# CMake 3.25 writes the prefix before an absolute folder of headers: it is taken away again.
+if(IS_ABSOLUTE "${CMAKE_INSTALL_INCLUDEDIR}")
+  cmake_path(APPEND installed_config "\${CMAKE_INSTALL_PREFIX}" ${config_dir})
+  install(
+    CODE
+      "
+      file(GLOB exports \"\$ENV{DESTDIR}${installed_config}/cdcr*-targets.cmake\")
+      foreach(export IN LISTS exports)
+        file(READ \"\${export}\" text)
+        string(REPLACE [[\"\${_IMPORT_PREFIX}//]] [[\"/]] text \"\${text}\")
+        file(WRITE \"\${export}\" \"\${text}\")
+      endforeach()"
+    COMPONENT cpp
+  )
+endif()
 install(FILES ${package_files} DESTINATION ${config_dir} COMPONENT cpp)
 install(FILES ${pc_files} DESTINATION ${pc_dir} COMPONENT cpp)
 install(
