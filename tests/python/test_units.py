@@ -35,6 +35,8 @@ def test_angles_of_cables_in_degrees() -> None:
 def test_a_modulus_in_gigapascals(modulus: float) -> None:
     with pytest.warns(UserWarning, match=r"^section 2: youngs_modulus = .* is it in GPa\?"):
         robot(youngs_modulus=modulus)
+    with pytest.warns(UserWarning, match=r"^section 2: shear_modulus = .* is it in GPa\?"):
+        robot(shear_modulus=modulus)
 
 
 @pytest.mark.parametrize(
@@ -89,6 +91,14 @@ def test_a_file_asks_too(tmp_path: Path) -> None:
         cdcr.Robot.load(path)
 
 
+def test_a_file_asks_about_a_shear_modulus(tmp_path: Path) -> None:
+    path = tmp_path / "robot.toml"
+    cdcr.Robot(sections=[replace(SECTION, shear_modulus=27e9)]).save(path)
+    path.write_text(path.read_text().replace("27000000000.0", "27.0"))
+    with pytest.warns(UserWarning, match=r"section 1: shear_modulus = 27 Pa .* is it in GPa\?"):
+        cdcr.Robot.load(path)
+
+
 def driven() -> cdcr.Model:
     return cdcr.Model(cdcr.Robot(sections=[replace(SECTION, cable_stiffness=5e3)]))
 
@@ -118,6 +128,8 @@ def test_newtons_for_a_cable_driven_by_length(tension: list[float]) -> None:
         lambda: cdcr.simulate(model, zeros, zeros, t=[0.0, 1e-3], tension=tension),
         lambda: cdcr.simulate(model, zeros, zeros, t=[0.0, 1e-3], tension=lambda t: tension),
         lambda: model.equilibrium(tension, throw=False),
+        lambda: cdcr.quasi_static(model, [tension], throw=False),
+        lambda: cdcr.quasi_static(model, np.array([model.rest_command(), tension]), throw=False),
         lambda: cdcr.rollout(model, zeros, zeros, step=1e-4, steps=2, tension=tension),
         lambda: looped(model, tension),
     ]
@@ -130,11 +142,12 @@ def test_what_is_sound_is_not_asked_about() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         robot(cable_angles=[-2.0 * math.pi, 2.0 * math.pi, math.radians(359.0)])
-        robot(youngs_modulus=1e3)
+        robot(youngs_modulus=1e3, shear_modulus=1e3)
         model, zeros = driven(), np.zeros(2)
         for length in (model.rest_command(), [0.802, 0.79, 8.0]):
             cdcr.simulate(model, zeros, zeros, t=[0.0, 1e-3], tension=length)
             model.equilibrium(length, throw=False)
+            cdcr.quasi_static(model, np.array([length]), throw=False)
             cdcr.rollout(model, zeros, zeros, step=1e-4, steps=2, tension=length)
             looped(model, list(length))
         cdcr.simulate(cdcr.Model(robot()), np.zeros(4), np.zeros(4), t=[0.0], tension=np.zeros(6))

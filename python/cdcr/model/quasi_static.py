@@ -15,6 +15,7 @@ from cdcr.base.arrays import FloatArray, ReadOnlyArrays, read_only
 from cdcr.base.check import count, require_kind
 from cdcr.model.model import Model
 from cdcr.model.statics import ConvergenceError
+from cdcr.robot.units import ask_about_commands
 
 if TYPE_CHECKING:
     from cdcr.model.wrench import Wrench
@@ -162,7 +163,9 @@ def quasi_static(
         q, deflection, felt = after.q[-1], after.deflection[-1], after.felt[-1]
     found = _core.quasi_static(model, command, q, deflection, felt, wrenches)
     reached = len(found["q"])
-    asked = np.array(command, dtype=np.float64)[:reached]
+    every = np.array(command, dtype=np.float64)
+    ask_about_commands(model.robot, every)
+    asked = every[:reached]
     run = QuasiStatic(model=model, command=asked, **found)
     if throw and run.status is not _core.Status.ok:
         raise ConvergenceError(run.message)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from cdcr.robot.section import Section
 
 FULL_TURN = 2.0 * math.pi * (1.0 + 1e-9)  # [rad]
-SOFTEST = (1e-3, 1e3)  # Young's moduli that nothing has, but in GPa or MPa much [Pa]
+SOFTEST = (1e-3, 1e3)  # Young's and shear moduli that nothing has, but in GPa or MPa much [Pa]
 # Lengths in mm, masses in g: a thousand times what they are, so that few are asked in vain.
 LONG, SLENDEREST = 5.0, 2e4  # a section longer than that [m] and than so many diameters
 WIDE, WIDEST = 0.3, 5.0  # whatever is wider than that [m] and than so many lengths of the robot
@@ -38,12 +38,13 @@ def _questions(robot: Robot) -> Iterator[str]:
         at = entry("sections", i)
         for j, angle in enumerate(section.cable_angles):
             yield from _about_angle(f"{at}: cable_angles[{j}]", angle, "cable_angles_deg")
-        modulus = section.youngs_modulus
-        if SOFTEST[0] <= modulus < SOFTEST[1]:
-            yield (
-                f"{at}: youngs_modulus = {modulus:g} Pa is softer than any backbone: is it in GPa? "
-                f"{modulus:g} GPa are {1e9 * modulus:g} Pa"
-            )
+        for name in ("youngs_modulus", "shear_modulus"):
+            modulus = getattr(section, name)
+            if modulus is not None and SOFTEST[0] <= modulus < SOFTEST[1]:
+                yield (
+                    f"{at}: {name} = {modulus:g} Pa is softer than any backbone: is it in GPa? "
+                    f"{modulus:g} GPa are {1e9 * modulus:g} Pa"
+                )
         yield from _about_sizes(at, section, robot.length)
     for j, cable in enumerate(robot.cables):
         if isinstance(cable.angle, float):  # one that winds may wind more than once
