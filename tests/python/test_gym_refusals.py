@@ -26,6 +26,11 @@ from cdcr.gym import RobotEnv, RobotVectorEnv
         ({"limit": -1.0}, "limit must be one number > 0 N or 3 of them, got -1.0"),
         ({"limit": [1.0, 2.0]}, "limit must be one number > 0 N or 3 of them, got [1.0, 2.0]"),
         ({"action": "length", "limit": 0.0}, "limit must be one number > 0 m or 3 of them, got 0"),
+        (
+            {"action": "length", "limit": 20.0},
+            "limit must be at most 0.802 m for cable 1, its length on the straight robot, got 20 m",
+        ),
+        ({"action": "length", "limit": [0.1, 0.2, 0.81]}, "at most 0.802 m for cable 3, its"),
         ({"control_cost": -0.1}, "control_cost must be a number >= 0 and finite, got -0.1"),
         ({"period": 0.0}, "period must be a number > 0 s and finite, got 0.0"),
         ({"randomization": {"colour": (1, 2)}}, "there is no range of randomization 'colour'."),

@@ -42,8 +42,8 @@ class Drive:
                 "action must be 'length' for a robot whose cables are driven by length, "
                 "got 'tension'"
             )
-        self._limit = self._usual_limit() if limit is None else self._checked(limit)
         self._rest = Model(self.robot).rest_command()
+        self._limit = self._usual_limit() if limit is None else self._checked(limit)
 
     def share(self, action: ArrayLike) -> FloatArray:
         """Return actions (..., num_cables), clipped, as shares of the largest command."""
@@ -74,7 +74,15 @@ class Drive:
             raise ValueError(
                 f"limit must be one number > 0 {unit} or {cables} of them, got {given.tolist()}"
             )
-        return np.broadcast_to(given, cables)
+        limits = np.broadcast_to(given, cables)
+        too_far = np.flatnonzero(limits > self._rest)
+        if self.by_length and too_far.size:
+            j = too_far[0]
+            raise ValueError(
+                f"limit must be at most {self._rest[j]:g} m for cable {j + 1}, its length on the "
+                f"straight robot, got {limits[j]:g} m"
+            )
+        return limits
 
 
 def _driven_by_length(robot: Robot) -> Robot:
