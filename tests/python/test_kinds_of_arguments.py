@@ -35,6 +35,22 @@ CASES: dict[str, tuple[Callable[[], object], str]] = {
     ),
     "formulation": (lambda: cdcr.Model(MODEL.robot, cast("Any", [])), "formulation must be one of"),
     "stable_step": (lambda: cdcr.stable_step(NONE), "model must be a cdcr.Model, got NoneType"),
+    "robot of a wrench": (
+        lambda: cdcr.subdivide_wrench(NONE, 2, cdcr.Wrench(section=0, force=(1.0, 0.0, 0.0))),
+        "robot must be a cdcr.Robot, got NoneType",
+    ),
+    "wrench of parts": (
+        lambda: cdcr.subdivide_wrench(MODEL.robot, 2, NONE),
+        "wrench must be a cdcr.Wrench, got NoneType",
+    ),
+    "wrenches of parts": (
+        lambda: cdcr.subdivide_wrench(MODEL.robot, 2, cast("Any", [])),
+        "wrench must be a cdcr.Wrench, got list",
+    ),
+    "progress of an audit": (
+        lambda: cdcr.paper.audit(cast("Any", 5)),
+        "progress must be a function of a number, got int",
+    ),
     "simulate": (lambda: run(model=None), "model must be a cdcr.Model, got NoneType"),
     "least tension": (
         lambda: MODEL.allocate(ZERO, cast("Any", "a")),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from cdcr.base.check import require_kind
 from cdcr.model.wrench import Wrench
 from cdcr.robot.parts import Parts, part_counts
 from cdcr.robot.robot import Robot
@@ -28,6 +29,8 @@ def subdivide_wrench(robot: Robot, parts: Parts, wrench: Wrench) -> Wrench:
 
     Raises
     ------
+    TypeError
+        For a robot or a wrench that is none.
     ValueError
         For wrong `parts`, or a section that the robot has not.
 
@@ -39,6 +42,8 @@ def subdivide_wrench(robot: Robot, parts: Parts, wrench: Wrench) -> Wrench:
     >>> moved.section, moved.fraction
     (2, 0.5)
     """
+    require_kind("robot", robot, Robot)
+    require_kind("wrench", wrench, Wrench)
     counts = part_counts(len(robot.sections), parts)
     if wrench.section >= len(counts):
         raise ValueError(

@@ -80,6 +80,11 @@ def audit(progress: Callable[[int], object] | None = None) -> list[Claim]:
     list of Claim
         In the order of the paper.
 
+    Raises
+    ------
+    TypeError
+        For a progress that is none.
+
     Examples
     --------
     >>> from cdcr.paper import audit
@@ -89,6 +94,8 @@ def audit(progress: Callable[[int], object] | None = None) -> list[Claim]:
     >>> print(f"{claims['step-tension'].values['degrees']:.3f} deg")
     14.978 deg
     """
+    if progress is not None and not callable(progress):
+        raise TypeError(f"progress must be a function of a number, got {type(progress).__name__}")
     claims = []
     for done, check in enumerate(CHECKS, start=1):
         claims.append(replace(check(), name=check.__name__.replace("_", "-")))
