@@ -123,4 +123,10 @@ int main(int argc, char** argv) {
   Robot rubbing = bench::arm(3);
   for (Section& section : rubbing.sections) section.cable_friction = 0.2;
   bench::measure_second(harness, "1 s of 3 sections with friction, RK4", rubbing);
+  rubbing.presliding_stiffness = 2e4;
+  bench::measure_second(harness, "1 s of 3 sections with friction that remembers, RK4", rubbing);
+  for (Section& section : by_length.sections) section.cable_friction = 0.2;
+  by_length.presliding_stiffness = 2e4;
+  bench::measure_second(
+      harness, "1 s of 3 sections driven by length with friction that remembers, RK4", by_length);
 }

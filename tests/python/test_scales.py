@@ -53,6 +53,28 @@ def test_a_robot_beyond_all_sizes_has_no_equilibrium() -> None:
     assert found.status is not cdcr.Status.ok or math.isfinite(found.residual)
 
 
+@pytest.mark.parametrize("scale", [1e-5, 5.0])
+def test_friction_that_remembers_knows_no_size_of_forces(scale: float) -> None:
+    """All forces and masses in other units, and the motion is the same."""
+    robot = cdcr.robots.amouri2020(damping=0.02, gravity=(0.0, 0.0, 0.0))
+    (section,) = robot.sections
+    forces = ("backbone_mass", "disk_mass", "youngs_modulus", "damping")
+
+    def run(by: float) -> cdcr.Trajectory:
+        other = replace(
+            section, cable_entry_friction=0.1 * by, cable_friction=0.2,
+            **{name: by * getattr(section, name) for name in forces},
+        )  # fmt: skip
+        rubbing = replace(robot, sections=(other,), presliding_stiffness=1e4 * by)
+        tension = cdcr.TensionTable([0.0, 0.5, 1.0], by * np.outer([0.0, 3.0, 1.0], [1.0, 0.2, 0]))
+        model, t = cdcr.Model(rubbing), np.linspace(0.0, 1.0, 21)
+        return cdcr.simulate(model, [0.0, 0.0], [0.0, 0.0], t=t, tension=tension, rtol=1e-9)
+
+    one, other = run(1.0), run(scale)
+    assert np.ptp(one.q[:, 0]) > 0.1
+    np.testing.assert_allclose(other.q, one.q, atol=1e-6)
+
+
 def test_a_force_of_rounding_is_met() -> None:
     section = cdcr.Section(
         length=0.2,

@@ -74,10 +74,11 @@ class Model {
   [[nodiscard]] bool has_friction() const noexcept { return has_friction_; }
   /// Deflections that friction remembers: one for each cable, or none without memory.
   [[nodiscard]] Index num_deflections() const noexcept { return num_deflections_; }
+  /// Friction below which a cable that remembers goes over to none [N]: cpp/friction.md eq. (107).
+  [[nodiscard]] double least_friction() const noexcept { return least_friction_; }
   /// e^-mu phi of the sheath of each cable (num_cables).
   [[nodiscard]] const VectorXd& sheath_decay() const noexcept { return sheath_decay_; }
-  /// How much longer than commanded each length-driven cable is without pull, -F_0/k
-  /// (num_cables) [m].
+  /// What a length-driven cable is longer than commanded without pull, -F_0/k (num_cables) [m].
   [[nodiscard]] const VectorXd& slack_offset() const noexcept { return slack_offset_; }
   /// Whether the drive of some cable has play.
   [[nodiscard]] bool has_backlash() const noexcept { return has_backlash_; }
@@ -92,8 +93,7 @@ class Model {
   [[nodiscard]] const Vector3d& root_gravity() const noexcept { return root_gravity_; }
   [[nodiscard]] bool has_gravity() const noexcept { return has_gravity_; }
 
-  /// Weight of the whole robot at base_position [J], where the energy of a robot that stands at the
-  /// origin is zero.
+  /// Energy of the robot's weight at base_position over that at the origin [J].
   [[nodiscard]] double base_energy() const noexcept { return base_energy_; }
   /// Whether the frame of the tip is another one than that at the end of the last section.
   [[nodiscard]] bool has_tool() const noexcept { return has_tool_; }
@@ -121,7 +121,7 @@ class Model {
   MatrixXd actuation_, friction_;
   Vector3d root_gravity_ = Vector3d::Zero();
   Index singular_section_ = -1, num_deflections_ = 0;
-  double base_energy_ = 0.0;
+  double base_energy_ = 0.0, least_friction_ = 0.0;
   bool has_gravity_ = false, has_friction_ = false, has_plain_cables_ = true, has_tool_ = false,
        has_closed_form_ = false, has_rods_ = false, has_constant_actuation_ = true,
        has_nested_cables_ = true, has_backlash_ = false;

@@ -10,7 +10,6 @@
 #include "section/inertia_series.hpp"
 
 namespace cdcr {
-
 namespace {
 
 detail::SectionSeries series_of(const Section& section, double payload, Formulation formulation) {
@@ -34,7 +33,6 @@ Model::Model(Robot robot, Formulation formulation, const Model* like) : formulat
   has_tool_ = robot.tool != Transform::Identity();
   robot.tool.topLeftCorner<3, 3>() = detail::nearest_rotation(robot.tool.topLeftCorner<3, 3>());
   robot_ = std::make_shared<const Robot>(std::move(robot));
-  const auto n = static_cast<Index>(robot_->sections.size());
   const detail::KnownTables known =
       like == nullptr ? detail::KnownTables()
                       : detail::KnownTables{&like->robot_->sections, &like->parts_->chain};
@@ -50,7 +48,7 @@ Model::Model(Robot robot, Formulation formulation, const Model* like) : formulat
   const Section& first = robot_->sections[0];
   const bool alike =
       first.disk_positions.empty() && first.disk_masses.empty() && first.disk_diameters.empty();
-  if (n == 1 && point && !has_rods_ && (alike || formulation == Formulation::exact)) {
+  if (num_sections() == 1 && point && !has_rods_ && (alike || formulation == Formulation::exact)) {
     const bool known_shape = like != nullptr && like->has_closed_form_ &&
                              like->robot_->payload == robot_->payload &&
                              detail::moves_alike(like->robot_->sections[0], first);
@@ -134,6 +132,8 @@ void Model::set_cables(Parts& parts) {
   }
   has_friction_ = has_friction_ || (friction_.array() > 0.0).any();
   if (has_friction_ && robot_->presliding_stiffness > 0.0) num_deflections_ = num_cables;
+  const double arm = num_deflections_ > 0 ? actuation_.lpNorm<Eigen::Infinity>() : 0.0;
+  if (arm > 0.0) least_friction_ = 1e-4 * stiffness_.minCoeff() / arm;
   has_plain_cables_ = has_plain_cables_ && !has_friction_ && has_constant_actuation_;
   has_nested_cables_ = has_nested_cables_ && !has_rods_;
 }

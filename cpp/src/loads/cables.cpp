@@ -1,11 +1,12 @@
 #include "cdcr/cables.hpp"
 
 #include "base/sizes.hpp"
+#include "cdcr/kinematics.hpp"
 #include "loads/cable_force.hpp"
 
 namespace cdcr {
 
-using detail::of_cables, detail::of_coordinates;
+using detail::chain_of, detail::of_cables, detail::of_coordinates, detail::path_of;
 
 void actuation_matrix(const Model& model, const ConstVectorRef& q, MatrixRef B) noexcept {
   assert(of_coordinates(model, q));
@@ -15,8 +16,7 @@ void actuation_matrix(const Model& model, const ConstVectorRef& q, MatrixRef B) 
     return;
   }
   for (Index j = 0; j < model.num_cables(); ++j) {
-    const detail::CableSlope<double> slope(detail::chain_of(model), detail::path_of(model, j),
-                                           q.data());
+    const detail::CableSlope<double> slope(chain_of(model), path_of(model, j), q.data());
     for (Index i = 0; i < q.size(); ++i) B(i, j) = slope.column[i];
   }
 }
@@ -29,9 +29,7 @@ void cable_lengths(const Model& model, const ConstVectorRef& q, VectorRef length
     return;
   }
   for (Index j = 0; j < model.num_cables(); ++j) {
-    lengths[j] =
-        detail::CableSlope<double>(detail::chain_of(model), detail::path_of(model, j), q.data())
-            .length;
+    lengths[j] = detail::CableSlope<double>(chain_of(model), path_of(model, j), q.data()).length;
   }
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "loads/cable_force.hpp"
 
@@ -8,8 +10,6 @@
 
 namespace cdcr::detail {
 
-/// Friction below which a cable counts as free [N].
-inline constexpr double least_friction = 1e-3;
 /// Share of the full friction up to which a cable that sticks springs back all the way.
 inline constexpr double elastic_share = 0.5;
 /// What a deflection loses of the way slid, where friction is beyond full; and so at most.
@@ -29,9 +29,14 @@ template <class S>
 /// where it enters: pulled in, and paid out. Eq. (103).
 template <class S>
 struct CapstanFactors {
-  S decay{1.0}, mean_in{1.0}, growth{1.0}, mean_out{1.0};
+  S decay, mean_in, growth, mean_out;
 
-  CapstanFactors() = default;
+  CapstanFactors() = default;  // not set: there are as many as sections at most
+  [[nodiscard]] static CapstanFactors free() {
+    CapstanFactors factors;
+    factors.decay = factors.mean_in = factors.growth = factors.mean_out = S(1.0);
+    return factors;
+  }
   explicit CapstanFactors(const S& turn) {
     using std::exp;
     decay = exp(S(-turn));
@@ -62,9 +67,12 @@ class FrictionProfile {
   FrictionProfile(const S& F, double entry, double sheath_decay, const CapstanFactors<S>* factors,
                   int first, int last, double least = 0.0)
       : F_(F), first_(first), last_(last) {
-    const S left = F - entry;
-    S in = left > 0.0 ? S(left * sheath_decay) : S(0.0);
-    S out = (F + entry) / sheath_decay;
+    S in = F - entry, out = F + entry;
+    if (!(in > 0.0)) in = S(0.0);
+    if (sheath_decay < 1.0) {
+      in *= sheath_decay;
+      out /= sheath_decay;
+    }
     for (int k = first; k <= last; ++k) {
       lost_in_[k] = F - in * factors[k].mean_in;
       lost_out_[k] = out * factors[k].mean_out - F;
@@ -73,24 +81,25 @@ class FrictionProfile {
     }
     most_in_ = F - in + least;
     most_out_ = out - F + least;
+    if (most_in_ > 0.0) of_most_in_ = 1.0 / most_in_;
+    if (most_out_ > 0.0) of_most_out_ = 1.0 / most_out_;
   }
 
   /// Full friction where the cable is pulled in, and where it is paid out [N].
   [[nodiscard]] const S& most_in() const { return most_in_; }
   [[nodiscard]] const S& most_out() const { return most_out_; }
 
+  /// One over these, or 0 where there is none.
+  [[nodiscard]] const S& of_most_in() const { return of_most_in_; }
+  [[nodiscard]] const S& of_most_out() const { return of_most_out_; }
+
   /// Sets the friction f, within the full ones.
   void set_friction(const S& f) {
     friction_ = f;
-    const bool in = f > 0.0;
-    const S most = in ? most_in_ : most_out_;
-    const S share = most > 0.0 ? S(f / most) : S(0.0);
+    const S share = f * (f > 0.0 ? of_most_in_ : of_most_out_);
     const bool blends = most_in_ > 0.0 && most_out_ > 0.0;
-    of_in_ = !(most_in_ > 0.0) ? S(0.0) : (0.5 + 0.5 * share) / most_in_;
-    of_out_ = !(most_out_ > 0.0) ? S(0.0) : (0.5 - 0.5 * share) / most_out_;
-    if (blends) return;
-    if (most_in_ > 0.0) of_in_ = 1.0 / most_in_;
-    if (most_out_ > 0.0) of_out_ = 1.0 / most_out_;
+    of_in_ = blends ? S((0.5 + 0.5 * share) * of_most_in_) : of_most_in_;
+    of_out_ = blends ? S((0.5 - 0.5 * share) * of_most_out_) : of_most_out_;
   }
   [[nodiscard]] const S& friction() const { return friction_; }
   /// c_k of eq. (107): what section k misses of the tension, over the friction.
@@ -102,18 +111,20 @@ class FrictionProfile {
 
  private:
   S F_, most_in_, most_out_, friction_{0.0}, of_in_{0.0}, of_out_{0.0};
+  S of_most_in_{0.0}, of_most_out_{0.0};  // one over it, 0 where it is 0
   int first_, last_;
   S lost_in_[max_sections], lost_out_[max_sections];
 };
 
 /// Rate of a deflection w at a speed u, where k w is the friction that its spring asks for.
 template <class S>
-[[nodiscard]] S deflection_rate(const S& spring, const S& u, const S& most_in, const S& most_out) {
+[[nodiscard]] S deflection_rate(const S& spring, const S& u, const FrictionProfile<S>& profile) {
   if (!(spring * u > 0.0)) return u;
-  const S most = spring > 0.0 ? most_in : most_out;
-  const S asked = spring > 0.0 ? spring : S(-spring);
+  const bool in = spring > 0.0;
+  const S most = in ? profile.most_in() : profile.most_out();
+  const S asked = in ? spring : S(-spring);
   if (!(asked < greatest_loss * most)) return u * (1.0 - greatest_loss);
-  return u * (1.0 - lost_share(S(asked / most)));
+  return u * (1.0 - lost_share(S(asked * (in ? profile.of_most_in() : profile.of_most_out()))));
 }
 
 /// Friction within what is possible.
@@ -136,7 +147,7 @@ class CableGeometry {
       const S sigma = ConstantCurvature<S>::squared_angle(q + model.first_coordinate(k));
       turn_[k] = sigma > 0.0 ? S(sqrt(sigma)) : S(0.0);
       mu_[k] = 0.0;
-      factors_[k] = CapstanFactors<S>();
+      factors_[k] = CapstanFactors<S>::free();
     }
   }
 
@@ -145,58 +156,73 @@ class CableGeometry {
     const Cable& cable = model_.cables()[static_cast<std::size_t>(j)];
     first_ = cable.start_section;
     last_ = cable.end_section;
-    if (model_.has_rods()) {
-      const CableSlope<S> slope(chain_of(model_), path_of(model_, j), q_);
-      length_ = slope.length;
-      for (Index i = 0; i < model_.num_coordinates(); ++i) column_[i] = slope.column[i];
+    if (model_.has_rods()) return set_path(j);
+    const double* column = model_.actuation_matrix().data() + j * model_.num_coordinates();
+    if constexpr (std::is_same_v<S, double>) {
+      column_ = column;
     } else {
-      const double* column = model_.actuation_matrix().data() + j * model_.num_coordinates();
-      const Index rows = model_.first_coordinate(last_ + 1);
+      std::copy_n(column, model_.num_coordinates(), own_column_);
+    }
+    if (cable.length_driven()) {
       length_ = S(model_.straight_lengths()[j]);
-      for (Index i = 0; i < rows; ++i) {
-        column_[i] = S(column[i]);
-        length_ -= column[i] * q_[i];
-      }
+      for (Index i = 0; i < model_.first_coordinate(last_ + 1); ++i) length_ -= column[i] * q_[i];
     }
     for (int k = first_; k <= last_; ++k) {
       const double mu = model_.friction()(k, j);
-      if (model_.has_rods()) {
-        turn_[k] = mu > 0.0 ? path_of(model_, j).turn(chain_of(model_), k, q_) : S(0.0);
-      } else if (mu == mu_[k]) {
-        continue;
-      }
-      mu_[k] = mu;
-      factors_[k] = mu > 0.0 ? CapstanFactors<S>(S(mu * turn_[k])) : CapstanFactors<S>();
+      if (mu != mu_[k]) set_factors(k, mu);
     }
   }
 
   /// How fast the cable is pulled into section k by these rates of q, or how far by changes of q.
   [[nodiscard]] S pulled_in(int k, const S* rates) const {
+    const Index first = model_.first_coordinate(k), end = model_.first_coordinate(k + 1);
+    if (end - first == 2)
+      return column_[first] * rates[first] + column_[first + 1] * rates[first + 1];
     S sum(0.0);
-    for (Index i = model_.first_coordinate(k); i < model_.first_coordinate(k + 1); ++i) {
-      sum += column_[i] * rates[i];
-    }
+    for (Index i = first; i < end; ++i) sum += column_[i] * rates[i];
     return sum;
   }
   void add_pull(int k, const S& tension, S* force) const {
-    for (Index i = model_.first_coordinate(k); i < model_.first_coordinate(k + 1); ++i) {
-      force[i] += column_[i] * tension;
+    const Index first = model_.first_coordinate(k), end = model_.first_coordinate(k + 1);
+    if (end - first == 2) {  // mostly: no loop for two
+      force[first] += column_[first] * tension;
+      force[first + 1] += column_[first + 1] * tension;
+      return;
     }
+    for (Index i = first; i < end; ++i) force[i] += column_[i] * tension;
   }
 
   [[nodiscard]] int first() const { return first_; }
   [[nodiscard]] int last() const { return last_; }
+  /// Of a cable driven by length [m].
   [[nodiscard]] const S& length() const { return length_; }
   [[nodiscard]] const S* column() const { return column_; }
   [[nodiscard]] const S& turn(int k) const { return turn_[k]; }
   [[nodiscard]] const CapstanFactors<S>* factors() const { return factors_; }
 
  private:
+  /// A cable through rods, whose path bends otherwise from shape to shape.
+  [[gnu::noinline]] void set_path(Index j) {
+    const CableSlope<S> slope(chain_of(model_), path_of(model_, j), q_);
+    length_ = slope.length;
+    std::copy_n(slope.column, model_.num_coordinates(), own_column_);
+    for (int k = first_; k <= last_; ++k) {
+      const double mu = model_.friction()(k, j);
+      turn_[k] = mu > 0.0 ? path_of(model_, j).turn(chain_of(model_), k, q_) : S(0.0);
+      set_factors(k, mu);
+    }
+  }
+  void set_factors(int k, double mu) {
+    mu_[k] = mu;
+    factors_[k] = mu > 0.0 ? CapstanFactors<S>(S(mu * turn_[k])) : CapstanFactors<S>::free();
+  }
+
   const Model& model_;
   const S* q_;
   int first_ = 0, last_ = 0;
   S length_{0.0};
-  S column_[max_coordinates], turn_[max_sections];
+  S own_column_[max_coordinates], turn_[max_sections];
+  const S* column_ = own_column_;
   double mu_[max_sections];
   CapstanFactors<S> factors_[max_sections];
 };
@@ -226,7 +252,7 @@ CableMotion<S> add_memory_force(const Model& model, const CableGeometry<S>& at, 
     if (!(tension > 0.0)) tension = S(0.0);
   }
   FrictionProfile<S> profile(tension, cable.entry_friction, model.sheath_decay()[j], at.factors(),
-                             at.first(), at.last(), least_friction);
+                             at.first(), at.last(), model.least_friction());
   const S spring = model.robot().presliding_stiffness * deflection;
   profile.set_friction(limited(spring, profile.most_in(), profile.most_out()));
   const S viscous = cable.viscosity * speed;
@@ -236,7 +262,7 @@ CableMotion<S> add_memory_force(const Model& model, const CableGeometry<S>& at, 
     slid += share * speeds[k];
     at.add_pull(k, S(tension - profile.friction() * share - viscous), force);
   }
-  rate = deflection_rate(spring, slid, profile.most_in(), profile.most_out());
+  rate = deflection_rate(spring, slid, profile);
   return {tension, S(profile.end() - viscous), profile.friction(),
           S(profile.friction() * slid + viscous * speed - spring * rate)};
 }
