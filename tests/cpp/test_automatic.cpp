@@ -135,6 +135,39 @@ TEST_CASE("where friction makes a robot stiffer later on, bdf is taken in short 
   CHECK(distance(chosen, implicit_run) <= by_default);
 }
 
+TEST_CASE("cables that stick and slip by a memory are left to bdf") {
+  Robot robot;
+  Section section;
+  section.length = 0.05;
+  section.backbone_mass = 3e-4;
+  section.backbone_diameter = 1e-3;
+  section.youngs_modulus = 5e10;
+  section.damping = 1e-4;
+  section.cable_radius = 0.01;
+  section.cable_angles = {0.0, 2.0 * pi / 3.0, 4.0 * pi / 3.0};
+  section.cable_stiffness = 5e4;
+  section.cable_damping = 1.0;
+  section.cable_friction = 0.7;
+  robot.sections = {section};
+  robot.presliding_stiffness = 1e4;
+  const Model model(robot);
+  MatrixXd rows = MatrixXd::Constant(3, 3, section.length);
+  rows(1, 2) -= 2e-3;
+  const CommandInput input =
+      CommandInput::table(Vector3d(0.0, 2.0, 4.0), rows, CommandInput::Interpolation::linear);
+  const auto run = [&](Method method) {
+    const Trajectory found =
+        simulate(model, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(), even_times(0.0, 4.0, 41),
+                 input, method, {}, make_cvode_integrator);
+    REQUIRE(found.status == Status::ok);
+    return found;
+  };
+  const Trajectory chosen = run(Method::automatic), implicit_run = run(Method::bdf);
+  CHECK(chosen.stats.stiff);
+  CHECK(chosen.stats.evaluations < 2 * implicit_run.stats.evaluations);
+  CHECK(distance(chosen, implicit_run) <= by_default);
+}
+
 TEST_CASE("without an implicit method it stays explicit, and tells that this is dear") {
   const Model model = cut(8);
   const Trajectory chosen = go(model, Method::automatic, pull(2.0), 0.2, {}, make_integrator);

@@ -222,6 +222,19 @@ TEST_CASE("the Jacobian of the motion holds through springs, dampers and frictio
   }
 }
 
+TEST_CASE("a cable that is paid out by no tension is dragged as by next to none") {
+  Robot robot = amouri2020();
+  robot.sections[0].cable_viscosity = 5.0;
+  robot.sections[0].cable_friction = 0.7;
+  const Model model(robot);
+  const Eigen::Vector2d q(0.3, 0.2), qd(-0.4, 0.1);
+  VectorXd none(2), next_to_none(2);
+  cable_force(model, q, qd, VectorXd::Zero(3), none);
+  cable_force(model, q, qd, VectorXd::Constant(3, 1e-12), next_to_none);
+  CHECK(none.norm() > 1e-4);
+  CHECK(residual(next_to_none, none) <= 1e-9L);
+}
+
 TEST_SUITE_END();
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <limits>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -13,6 +12,7 @@
 #include "dynamics/bending.hpp"
 #include "integration/half_newton.hpp"
 #include "integration/small_vector.hpp"
+#include "integration/step_size.hpp"
 #include "integration/streak.hpp"
 #include "integration/sundials_handles.hpp"
 #include "integration/sundials_spare.hpp"
@@ -83,9 +83,8 @@ class Cvode final : public Integrator {
   int guarded(Function function) noexcept;
 
   Status begin(double t, const VectorXd& y, double t_stop);
-  void reinitialise();
+  void reinitialise(double share = 1.0);
   Status evaluate(double t, const double* y, VectorRef slope);
-  [[nodiscard]] double norm(const VectorXd& v) const noexcept;
   double first_step();
   Status advance();
   Status attempt();
@@ -203,10 +202,11 @@ Status Cvode::begin(double t, const VectorXd& y, double t_stop) {
   return Status::ok;
 }
 
-/// Starts from state_, whose slope is slope_, and forgets what came before.
-void Cvode::reinitialise() {
+/// Starts from state_, whose slope is slope_, and forgets what came before; with a share of the
+/// first step that would be right if all were smooth.
+void Cvode::reinitialise(double share) {
   void* const cvode = cvode_.get();
-  const double h = first_step();
+  const double h = std::max(share * first_step(), detail::time_resolution(time_, stop_));
   stats_ = stats();  // CVodeReInit sets CVODE's counts to zero
   view(trial_) = state_;
   require(CVodeReInit(cvode, time_, trial_.get()), "CVodeReInit");
@@ -223,32 +223,24 @@ Status Cvode::evaluate(double t, const double* y, VectorRef slope) {
   return slope.allFinite() ? Status::ok : Status::non_finite_state;
 }
 
-/// Root mean square in units of the tolerances at the present state.
-double Cvode::norm(const VectorXd& v) const noexcept {
-  double sum = 0.0;
-  for (Index i = 0; i < v.size(); ++i) {
-    const double scaled = v[i] / (tolerances_.atol + tolerances_.rtol * std::abs(state_[i]));
-    sum += scaled * scaled;
-  }
-  return std::sqrt(sum / static_cast<double>(v.size()));
-}
-
 /// First step h, of order 1, with an error h^2 |y''|/2 of a quarter of the tolerance.
 ///
 /// y'' is the difference of the slopes over a small Euler step h0 (after Hairer, Norsett, Wanner,
 /// "Solving Ordinary Differential Equations I", section II.4), which also bounds h where y'' is
 /// zero, as it is at rest. CVODE's own estimate would depend on the stop time.
 double Cvode::first_step() {
+  const auto norm = [this](const VectorXd& v) {
+    return detail::weighted_norm(v, state_, tolerances_.rtol, tolerances_.atol);
+  };
   const double d0 = norm(state_), d1 = norm(slope_);
   const double wanted = d0 < 1e-5 || d1 < 1e-5 ? 1e-6 : 0.01 * d0 / d1;
-  const double resolution =
-      4.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(time_), std::abs(stop_));
-  const double h0 = std::min(std::max(wanted, resolution), stop_ - time_);
+  const double h0 =
+      std::min(std::max(wanted, detail::time_resolution(time_, stop_)), stop_ - time_);
   moved_ = state_ + h0 * slope_;
   if (evaluate(time_ + h0, moved_.data(), slope_there_) != Status::ok) return h0;
   moved_ = (slope_there_ - slope_) / h0;
   const double h = std::min(std::sqrt(0.5 / norm(moved_)), 100.0 * h0);
-  return std::max(h, resolution);
+  return std::max(h, detail::time_resolution(time_, stop_));
 }
 
 Status Cvode::step() {
@@ -262,16 +254,18 @@ Status Cvode::step() {
 }
 
 /// Where CVODE gives a step up, a new start with small steps of order 1 passes most of what no
-/// step of the method passes: a jump of the commands, a kink of friction.
+/// step of the method passes: a jump of the commands, a kink of friction. Each that comes no
+/// further is followed by a tenth of its step.
 Status Cvode::advance() {
-  while (true) {
+  for (double share = 1.0;; share *= 0.1) {
     const Status status = attempt();
     const bool may_pass = status == Status::step_too_small || status == Status::tolerance_not_met;
-    if (!may_pass || exception_ || restarts_.too_long()) return status;
+    if (!may_pass || exception_) return status;
+    if (restarts_.too_long()) return detail::is_shape_limit(rhs_status_) ? rhs_status_ : status;
     restarts_.happens();
     const Status at_start = evaluate(time_, state_.data(), slope_);
     if (at_start != Status::ok) return at_start;
-    reinitialise();
+    reinitialise(share);
   }
 }
 

@@ -26,6 +26,7 @@ class Dop853 final : public EmbeddedPair {
   template <int N>
   void prepare_interpolation_of(double h);
 
+  double of_decay_;         // step times eigenvalue from which a mode that decays may hold it back
   MatrixXd slopes_;         // 0 and 12 those of the ends, from 13 on for dense output
   MatrixXd dense_;          // coefficients in its columns
   VectorXd last_argument_;  // where slope 11 was taken, at the end of the step

@@ -2,24 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "dynamics/bending.hpp"
+#include "integration/step_size.hpp"
 
 namespace cdcr::detail {
-namespace {
-
-double weighted_norm(const VectorXd& v, const VectorXd& y, double rtol, double atol) {
-  double sum = 0.0;
-  for (Index i = 0; i < v.size(); ++i) {
-    const double scaled = v[i] / (atol + rtol * std::abs(y[i]));
-    sum += scaled * scaled;
-  }
-  return std::sqrt(sum / static_cast<double>(v.size()));
-}
-
-}  // namespace
-
 EmbeddedPair::EmbeddedPair(RobotOde& ode, Method method, const Options& options,
                            const Control& control)
     : ode_(ode), tolerances_(options, method), max_step_(options.max_step), control_(control) {
@@ -49,7 +36,7 @@ double EmbeddedPair::first_step() {
   const double rtol = tolerances_.rtol, atol = tolerances_.atol;
   const double d0 = weighted_norm(y_, y_, rtol, atol), d1 = weighted_norm(slope_, y_, rtol, atol);
   const double wanted = d0 < 1e-5 || d1 < 1e-5 ? 1e-6 : 0.01 * d0 / d1;  // tiny near straight
-  const double h0 = std::min(std::max(wanted, resolution()), stop_ - t_);
+  const double h0 = std::min(std::max(wanted, time_resolution(t_, stop_)), stop_ - t_);
   trial_ = y_ + h0 * slope_;
   derivative(t_ + h0, trial_.data(), new_slope_.data());
   trial_ = new_slope_ - slope_;
@@ -61,10 +48,6 @@ double EmbeddedPair::first_step() {
   return max_step_ > 0.0 ? std::min(h1, max_step_) : h1;
 }
 
-double EmbeddedPair::resolution() const noexcept {
-  return 4.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(t_), std::abs(stop_));
-}
-
 Status EmbeddedPair::failure_status() const {
   if (trial_.allFinite() && new_slope_.allFinite()) return Status::step_too_small;
   const VectorXd beyond = 1.001 * y_;
@@ -73,7 +56,7 @@ Status EmbeddedPair::failure_status() const {
 }
 
 Status EmbeddedPair::step() {
-  const double smallest = resolution();
+  const double smallest = time_resolution(t_, stop_);
   for (bool rejected = false;; rejected = true) {
     double h = max_step_ > 0.0 ? std::min(h_, max_step_) : h_;
     const double left = stop_ - t_;

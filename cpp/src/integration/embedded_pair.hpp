@@ -55,8 +55,6 @@ class EmbeddedPair : public Integrator {
 
  private:
   [[nodiscard]] double first_step();
-  /// Steps below it are lost in the time [s].
-  [[nodiscard]] double resolution() const noexcept;
   [[nodiscard]] Status failure_status() const;
 
   RobotOde& ode_;

@@ -18,7 +18,7 @@ template <class S>
   using std::tanh;
   const S way = tanh(S(speed * (1.0 / model.robot().sliding_speed)));
   const S left = tension - cable.entry_friction * way;
-  if (!(left > 0.0)) return S(0.0);
+  if (left < 0.0) return S(0.0);  // at 0 a cable paid out is dragged, as it is just above
   const S within = left * exp(S(-cable.sheath_friction * way)) - cable.viscosity * speed;
   return within > 0.0 ? within : S(0.0);
 }

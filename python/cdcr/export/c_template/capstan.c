@@ -61,7 +61,7 @@ static real smaller(real a, real b) {
 static real entered(int j, real tension, real speed) {
   const real way = hyperbolic_tangent(speed / SLIDING_SPEED);
   tension -= ENTRY[j] * way;
-  if (!((number)tension > 0)) return 0;
+  if ((number)tension < 0) return 0;
   tension = tension * decays(SHEATH[j] * way).all - VISCOSITY[j] * speed;
   return (number)tension > 0 ? tension : 0;
 }
