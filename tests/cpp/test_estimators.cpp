@@ -99,16 +99,16 @@ TEST_CASE("what does not fit is refused in a sentence") {
   refuses("noise of sensor 1 must be > 0 for an estimator, got 0");
   options.sensors[0].delay = 1.5e-3;
   refuses(
-      "delay of a sensor, for an estimator, must be a whole number of steps of 0.001 s, 0 or more, "
+      "delay of a sensor, for an estimator, must be a whole number of steps of 0.001 s, 0 to 1e9, "
       "got 0.0015 s");
   options.sensors[0].period = 1.5e-3;
   refuses(
-      "period of a sensor, for an estimator, must be a whole number of steps of 0.001 s, 1 or "
-      "more, got 0.0015 s");
+      "period of a sensor, for an estimator, must be a whole number of steps of 0.001 s, 1 to "
+      "1e9, got 0.0015 s");
   options.period = 0.0;
   refuses("period must be > 0 s and finite, got 0");
   options.substeps = 0;
-  refuses("substeps must be at least 1, got 0");
+  refuses("substeps must be 1 to 1000000, got 0");
   options.acceleration_noise = Vector3d(1.0, 2.0, 3.0);
   refuses("acceleration_noise must be one value, or 2, >= 0 rad/s^1.5, got [1 2 3]");
   options.force_at = Place{1, 0.5};

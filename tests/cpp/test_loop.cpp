@@ -208,8 +208,8 @@ TEST_CASE("what does not fit is refused in a sentence") {
   CHECK_THROWS_SENTENCE(Loop(model, steady, how), "step must be > 0 s and finite, got 0");
   how.step = 7e-4;
   CHECK_THROWS_SENTENCE(Loop(model, steady, how),
-                        "the controller's period must be a whole number of steps of 0.0007 s, 1 or "
-                        "more, got 0.001 s");
+                        "the controller's period must be a whole number of steps of 0.0007 s, 1 to "
+                        "1e9, got 0.001 s");
   how.step = step;
   how.actuators.resize(2);
   CHECK_THROWS_SENTENCE(Loop(model, steady, how),
@@ -223,8 +223,8 @@ TEST_CASE("what does not fit is refused in a sentence") {
   how.actuators[0] = {};
   how.actuators[0].dead_time = 1.5e-3;
   CHECK_THROWS_SENTENCE(Loop(model, steady, how),
-                        "dead_time of actuator 1 must be a whole number of steps of 0.001 s, 0 or "
-                        "more, got 0.0015 s");
+                        "dead_time of actuator 1 must be a whole number of steps of 0.001 s, 0 to "
+                        "1e9, got 0.0015 s");
   how.actuators[0] = {};
   how.actuators[0].winch = Winch{0.01, 1.0, 1e-5, 50.0, 1.0, 1.0};
   CHECK_THROWS_SENTENCE(Loop(model, steady, how),

@@ -1,5 +1,6 @@
 """Estimators from Python: the linear filter of books, loops by hand, what they refuse."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -127,6 +128,28 @@ def test_an_observer_hears_a_force_by_hand_and_by_a_filter() -> None:
 def test_what_does_not_fit_is_refused(make: Any, words: str) -> None:
     with pytest.raises(ValueError, match=words):
         make()
+
+
+def test_estimators_of_another_robot_are_refused() -> None:
+    larger = cdcr.Model(cdcr.robots.three_sections())
+    kalman = cdcr.ExtendedKalman(larger, sensors=LENGTHS)
+    sizes = "was made for a robot of 6 coordinates and 9 cables, but the model has 2 coordinates"
+    with pytest.raises(ValueError, match=f"the estimator {sizes}"):
+        cdcr.MomentumObserver(MODEL, states=kalman)
+    controller = cdcr.Pid(MODEL, kp=1.0)
+    with pytest.raises(ValueError, match=f"the estimator {sizes}"):
+        cdcr.Loop(MODEL, controller, sensors=LENGTHS, estimator=kalman)
+    (section,) = MODEL.robot.sections
+    driven = cdcr.Model(replace(MODEL.robot, sections=(replace(section, cable_stiffness=2e4),)))
+    for by_tension in (
+        cdcr.ExtendedKalman(MODEL, sensors=LENGTHS),
+        cdcr.UnscentedKalman(MODEL, sensors=LENGTHS),
+        cdcr.MomentumObserver(MODEL),
+    ):
+        with pytest.raises(
+            ValueError, match="expects cables driven by tension, but cable 1 of the"
+        ):
+            cdcr.Loop(driven, cdcr.Pid(driven, kp=1.0), sensors=LENGTHS, estimator=by_tension)
 
 
 def test_what_is_of_another_kind_is_refused() -> None:

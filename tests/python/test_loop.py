@@ -217,7 +217,7 @@ REFUSALS: dict[str, tuple[Any, str]] = {
     "actuator": (lambda: cdcr.Loop(MODEL, PID, actuators=[NONE]), "actuators[0] must be a cdcr."),
     "period": (
         lambda: cdcr.Loop(MODEL, PID, step=7e-4),
-        "the controller's period must be a whole number of steps of 0.0007 s, 1 or more, got",
+        "the controller's period must be a whole number of steps of 0.0007 s, 1 to 1e9, got",
     ),
     "kind": (
         lambda: cdcr.Sensor(kind=cast("Any", "gps")),

@@ -42,7 +42,10 @@ class Estimator {
                                       VectorRef qd) noexcept = 0;
   /// [s]; 0: each step of the loop.
   [[nodiscard]] virtual double period() const noexcept { return 0.0; }
-  /// Throws std::invalid_argument where it cannot hear these sensors of a robot, in their order.
+  /// Throws std::invalid_argument where it was made for a robot of other coordinates, cables or
+  /// drives: reset and update, which throw nothing, read as many numbers as it has.
+  virtual void require_robot(const Model& /*model*/) const {}
+  /// The same, and where it cannot hear these sensors of the robot, in their order.
   virtual void require_fit(const Model& model, const std::vector<Sensor>& sensors) const;
   /// What else it estimates: names, values and their standard deviations, 0 where it has none.
   [[nodiscard]] virtual std::vector<std::string> value_names() const { return {}; }

@@ -56,6 +56,7 @@ class KalmanFilter : public Estimator {
                               const ConstVectorRef& command, VectorRef q,
                               VectorRef qd) noexcept override;
   [[nodiscard]] double period() const noexcept override { return options_.period; }
+  void require_robot(const Model& model) const override;
   void require_fit(const Model& model, const std::vector<Sensor>& sensors) const override;
   /// Of force and shares: force_x, ..., share_1, ...
   [[nodiscard]] std::vector<std::string> value_names() const override;

@@ -38,6 +38,7 @@ class MomentumObserver : public Estimator {
                               const ConstVectorRef& command, VectorRef q,
                               VectorRef qd) noexcept override;
   [[nodiscard]] double period() const noexcept override { return options_.period; }
+  void require_robot(const Model& model) const override;
   void require_fit(const Model& model, const std::vector<Sensor>& sensors) const override;
   /// Of the generalised force, as the coordinates with Q_ before, then of the force: force_x, ...;
   /// those of the other estimator after them.

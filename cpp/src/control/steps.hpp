@@ -13,8 +13,8 @@ inline Index whole_steps(const char* item, double time, double step, Index least
   const double steps = std::round(time / step);
   require(std::isfinite(time) && steps >= static_cast<double>(least) && steps < most &&
               std::abs(time / step - steps) <= close * std::fmax(1.0, steps),
-          item, " must be a whole number of steps of ", step, " s, ",
-          least > 0 ? "1 or more" : "0 or more", ", got ", time, " s");
+          item, " must be a whole number of steps of ", step, " s, ", least > 0 ? "1" : "0",
+          " to 1e9, got ", time, " s");
   return static_cast<Index>(steps);
 }
 

@@ -9,6 +9,7 @@
 #include "cdcr/dynamics.hpp"
 #include "cdcr/robot_ode.hpp"
 #include "control/measurement.hpp"
+#include "control/same_robot.hpp"
 #include "control/steps.hpp"
 #include "estimation/kalman_parts.hpp"
 
@@ -17,6 +18,8 @@ namespace {
 
 using detail::require;
 using detail::require_not_negative;
+
+constexpr int most_substeps = 1000000;  // an update does not look for interrupts
 
 Index periods_late(const Sensor& sensor, double period) {
   return detail::whole_steps("delay of a sensor, for an estimator,", sensor.delay, period, 0);
@@ -63,7 +66,8 @@ void check_variants(const Model& model, const KalmanOptions& options) {
 VectorXd densities(const Model& model, const KalmanOptions& options) {
   require_inertia(model);
   detail::require_positive("period", options.period, "s");
-  require(options.substeps >= 1, "substeps must be at least 1, got ", options.substeps);
+  require(options.substeps >= 1 && options.substeps <= most_substeps, "substeps must be 1 to ",
+          most_substeps, ", got ", options.substeps);
   check_sensors(options);
   check_variants(model, options);
   const Index d = model.num_coordinates(), forces = options.force_at ? 3 : 0;
@@ -136,12 +140,14 @@ Index KalmanFilter::measurement_size(std::size_t sensor) const noexcept {
   return parts_->sensors[sensor].value().size();
 }
 
+void KalmanFilter::require_robot(const Model& model) const {
+  detail::require_sizes("the estimator", this->model().num_coordinates(),
+                        this->model().num_cables(), model);
+  detail::require_drives("the estimator expects cables driven by ", this->model(), model);
+}
+
 void KalmanFilter::require_fit(const Model& model, const std::vector<Sensor>& sensors) const {
-  require(model.num_coordinates() == this->model().num_coordinates() &&
-              model.num_cables() == this->model().num_cables(),
-          "the estimator was made for a robot of ", this->model().num_coordinates(),
-          " coordinates and ", this->model().num_cables(), " cables, but the model has ",
-          model.num_coordinates(), " coordinates and ", model.num_cables(), " cables");
+  require_robot(model);
   bool alike = sensors.size() == options_.sensors.size();
   for (std::size_t i = 0; alike && i < sensors.size(); ++i) {
     const Sensor &a = sensors[i], &b = options_.sensors[i];

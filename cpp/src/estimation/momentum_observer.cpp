@@ -7,6 +7,7 @@
 #include "base/sizes.hpp"
 #include "cdcr/cables.hpp"
 #include "cdcr/kinematics.hpp"
+#include "control/same_robot.hpp"
 
 namespace cdcr {
 namespace {
@@ -35,6 +36,7 @@ MomentumObserver::MomentumObserver(const Model& model, MomentumObserverOptions o
                     " and a fraction 0 to 1, got section ", at.section, " and fraction ",
                     at.fraction);
   }
+  if (states != nullptr) states->require_robot(model);
   detail::require(states == nullptr || states->period() == options_.period,
                   "the observer's period must be that of the estimator it asks, ",
                   states == nullptr ? 0.0 : states->period(), " s, got ", options_.period, " s");
@@ -48,11 +50,14 @@ MomentumObserver::MomentumObserver(const Model& model, MomentumObserverOptions o
   J_ = MatrixXd::Zero(6, d);
 }
 
+void MomentumObserver::require_robot(const Model& model) const {
+  detail::require_sizes("the observer", q_.size(), tension_.size(), model);
+  detail::require_drives("the observer expects cables driven by ", model_, model);
+  if (states_ != nullptr) states_->require_robot(model);
+}
+
 void MomentumObserver::require_fit(const Model& model, const std::vector<Sensor>& sensors) const {
-  detail::require(detail::of_coordinates(model, q_) && detail::of_cables(model, tension_),
-                  "the observer was made for a robot of ", q_.size(), " coordinates and ",
-                  tension_.size(), " cables, but the model has ", model.num_coordinates(),
-                  " coordinates and ", model.num_cables(), " cables");
+  require_robot(model);
   if (states_ != nullptr) states_->require_fit(model, sensors);
 }
 
