@@ -1,5 +1,7 @@
+#include <cmath>
 #include <memory>
 #include <sstream>
+#include <string>
 
 #include "cdcr/computed_torque.hpp"
 #include "cdcr/pid.hpp"
@@ -93,12 +95,6 @@ TaskSpaceOptions read_task(const Model& model, const py::dict& given) {
   return options;
 }
 
-/// What beside options and reference makes a controller that goes on as the one pickled.
-py::object take_memory(const TrackingController& controller) {
-  const auto* const pid = dynamic_cast<const Pid*>(&controller);
-  return pid == nullptr ? py::none() : py::object(to_array(pid->integral()));
-}
-
 template <class Law, class Read>
 py::class_<Tracking<Law>, TrackingController> bind_law(py::module_& m, const char* name,
                                                        const char* about, Read read) {
@@ -116,12 +112,13 @@ py::class_<Tracking<Law>, TrackingController> bind_law(py::module_& m, const cha
   make_picklable(
       law,
       [](const Tracking<Law>& self) {
-        return py::make_tuple(self.model, self.options, take_path(self.path()), take_memory(self));
+        return py::make_tuple(self.model, self.options, take_path(self.path()),
+                              to_array(self.memory()));
       },
       [make](const py::tuple& state) {
         std::unique_ptr<Tracking<Law>> made(make(state[0], state[1].cast<py::dict>()));
         made->set_path(put_path(state[2].cast<py::tuple>()));
-        if constexpr (std::is_same_v<Law, Pid>) made->set_integral(to_vector(state[3]));
+        made->set_memory(to_vector(state[3]));
         return made.release();
       });
   return law;
@@ -172,6 +169,8 @@ void bind_tracking_controller(py::module_& m) {
           "update",
           [](TrackingController& self, double t, const py::object& q, const py::object& qd) {
             Driving::refuse_during_run(self);
+            if (!std::isfinite(t))
+              throw py::value_error("t must be finite, got " + std::to_string(t));
             const Index d = self.num_coordinates();
             VectorXd command(self.num_cables());
             const Entries entries = of_coordinates(*self.reckons_with());

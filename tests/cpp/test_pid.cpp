@@ -74,6 +74,22 @@ TEST_CASE("anti-windup stops only what the limits withhold") {
   }
 }
 
+TEST_CASE("anti-windup takes rounding for nothing that limits withhold") {
+  Robot robot = amouri2020();
+  robot.sections[0].cable_angles = {0.0, 0.5 * pi, pi, 1.5 * pi};
+  const Model model(robot);
+  PidOptions options = gains(1.0, 1.0, 0.0, 1e-3);
+  options.max_rate = 20.0;  // withholds force along X alone
+  Pid pid(model, options);
+  pid.set_reference(Eigen::Vector2d(1.5, 0.01));
+  VectorXd tension(4);
+  for (int i = 0; i < 200; ++i) {
+    REQUIRE(pid.update(1e-3 * i, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(), tension) ==
+            Status::ok);
+  }
+  CHECK(residual(pid.integral()[1], 200 * 1e-3 * 0.01) <= 1e-13L);
+}
+
 TEST_CASE("a filtered derivative needs no measured rate") {
   const Model model(amouri2020());
   PidOptions options;

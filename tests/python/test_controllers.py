@@ -71,6 +71,29 @@ def test_they_pickle_and_copy_with_their_path(kind: str) -> None:
         one.update(0.2, *state)
 
 
+@pytest.mark.parametrize("options", [{"filter": 0.05}, {"max_rate": 50.0}])
+def test_copies_go_on_where_a_controller_filters_or_is_held_back(options: Any) -> None:
+    states = 0.1 * np.random.default_rng(3).normal(size=(4, 2, 2))
+    for one in (
+        cdcr.Pid(MODEL, kp=1.0, ki=2.0, kd=0.1, **options),
+        *([cdcr.ComputedTorque(MODEL, **options)] if "max_rate" in options else []),
+    ):
+        one.reference = [0.5, 0.1]
+        for k in range(2):
+            one.update(1e-3 * k, *states[k])
+        others = pickle.loads(pickle.dumps(one)), copy.copy(one), copy.deepcopy(one)
+        for k in range(2, 4):
+            wanted = one.update(1e-3 * k, *states[k])
+            for other in others:
+                np.testing.assert_array_equal(other.update(1e-3 * k, *states[k]), wanted)
+
+
+def test_the_time_of_an_update_is_finite() -> None:
+    for time in (float("nan"), float("inf")):
+        with pytest.raises(ValueError, match="t must be finite, got (nan|inf)"):
+            cdcr.Pid(MODEL, kp=1.0).update(time, [0.0, 0.0], [0.0, 0.0])
+
+
 def test_limits_hold_and_diagnostics_tell() -> None:
     pid = cdcr.Pid(MODEL, kp=50.0, pretension=[0.5, 0.6, 0.7], max_tension=4.0)
     pid.reference = [0.5, 0.0]

@@ -47,6 +47,8 @@ class CableDrive {
   [[nodiscard]] bool is_fully_actuated() const noexcept { return fully_actuated_; }
 
   [[nodiscard]] const VectorXd& command() const noexcept { return command_; }  ///< [N], [m]
+  /// Whether it is the command of a period before, from which the next one is not far.
+  [[nodiscard]] bool has_command() const noexcept { return started_; }
   [[nodiscard]] const VectorXd& tension() const noexcept { return tension_; }  ///< [N]
   [[nodiscard]] const VectorXd& force() const noexcept { return force_; }      ///< given (d) [N m]
   /// Cables at one of their limits.

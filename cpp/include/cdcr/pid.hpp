@@ -39,6 +39,8 @@ class Pid : public TrackingController {
   [[nodiscard]] const PidOptions& options() const noexcept { return options_; }
 
   void reset() noexcept override;
+  [[nodiscard]] VectorXd memory() const override;
+  void set_memory(const VectorXd& memory) override;
 
  protected:
   Status control(double t, const ConstVectorRef& q, const ConstVectorRef& qd,

@@ -34,6 +34,11 @@ class TrackingController : public Controller {
   [[nodiscard]] const Setpoint& setpoint() const noexcept { return setpoint_; }
 
   void reset() noexcept override;
+  /// What it remembers of a run: a controller made alike that takes it up goes on as this one
+  /// would. Not real-time safe.
+  [[nodiscard]] virtual VectorXd memory() const;
+  /// Throws std::invalid_argument where that is not of a controller made alike.
+  virtual void set_memory(const VectorXd& memory);
   void hold(const ConstVectorRef& command) noexcept override { drive_.hold(command); }
   [[nodiscard]] Status update(double t, const ConstVectorRef& q, const ConstVectorRef& qd,
                               VectorRef command) noexcept final;

@@ -1,10 +1,17 @@
 #include "cdcr/pid.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "base/sizes.hpp"
 
 namespace cdcr {
+namespace {
+
+// Force that counts as missing, over what was asked: above the rounding of an allocation.
+constexpr double least_missing = 1e-10;
+
+}  // namespace
 
 Pid::Pid(const Model& model, PidOptions options)
     : TrackingController(model, options.period, {options.limits, options.max_rate}),
@@ -26,6 +33,23 @@ void Pid::accept(const ReferencePath& path) {
 void Pid::set_integral(const VectorXd& integral) {
   detail::require_finite("integral", integral, model().num_coordinates());
   integral_ = integral;
+}
+
+VectorXd Pid::memory() const {
+  const VectorXd of_drive = TrackingController::memory();
+  VectorXd memory(of_drive.size() + 3 * integral_.size() + 1);
+  memory << of_drive, integral_, last_q_, rate_, (filters_ ? 1.0 : 0.0);
+  return memory;
+}
+
+void Pid::set_memory(const VectorXd& memory) {
+  const Index d = integral_.size(), of_drive = memory.size() - 3 * d - 1;
+  detail::require_finite("memory", memory, TrackingController::memory().size() + 3 * d + 1);
+  TrackingController::set_memory(memory.head(of_drive));
+  integral_ = memory.segment(of_drive, d);
+  last_q_ = memory.segment(of_drive + d, d);
+  rate_ = memory.segment(of_drive + 2 * d, d);
+  filters_ = memory[of_drive + 3 * d] != 0.0;
 }
 
 void Pid::reset() noexcept {
@@ -67,10 +91,12 @@ Status Pid::control(double /*t*/, const ConstVectorRef& q, const ConstVectorRef&
   drive().project(q, force_);
   const bool met = give(q, qd, force_);
   note_error(error_.norm());
+  const double rounding = least_missing * force_.lpNorm<Eigen::Infinity>();
   for (Index i = 0; i < q.size(); ++i) {
     const double missing = met ? 0.0 : force_[i] - drive().force()[i];
     // Integrating further in a direction that the limits already withhold only builds up overshoot.
-    if (options_.anti_windup && missing * error_[i] > 0.0) continue;
+    const bool withheld = std::abs(missing) > rounding && missing * error_[i] > 0.0;
+    if (options_.anti_windup && withheld) continue;
     integral_[i] += options_.period * error_[i];
   }
   return Status::ok;

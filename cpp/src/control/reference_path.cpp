@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "base/arguments.hpp"
@@ -97,6 +98,22 @@ void require_times(const VectorXd& times) {
   detail::require_increasing("times of a path", times.data(), times.size());
 }
 
+/// Values that are finite at points may not be between them, nor their rates.
+ReferencePath within_doubles(ReferencePath path, const VectorXd& times) {
+  Setpoint at(path.size());
+  for (Index i = 0; i + 1 < times.size(); ++i) {
+    for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+      const double t = times[i] + share * (times[i + 1] - times[i]);
+      path.evaluate(t, at);
+      detail::require(at.value.allFinite() && at.rate.allFinite() && at.acceleration.allFinite(),
+                      "values, rates and accelerations of a path must be finite all along it, but "
+                      "are not at ",
+                      t, " s");
+    }
+  }
+  return path;
+}
+
 }  // namespace
 
 ReferencePath::ReferencePath(const VectorXd& times, Index size)
@@ -144,7 +161,7 @@ ReferencePath ReferencePath::hermite(const VectorXd& times, const MatrixXd& valu
         accelerations.row(i + 1).transpose();
     set_quintic(times[i + 1] - times[i], from, to, path.coefficients_.middleRows(i * size, size));
   }
-  return path;
+  return within_doubles(std::move(path), times);
 }
 
 ReferencePath ReferencePath::spline(const VectorXd& times, const MatrixXd& points) {
@@ -165,6 +182,9 @@ ReferencePath ReferencePath::polygon(const MatrixXd& corners, double duration) {
     detail::require(length > 0.0, "corners of a path must differ from those before, got corner ",
                     i + 1, " twice");
     times[i] = times[i - 1] + length;
+    detail::require(std::isfinite(times[i]),
+                    "corners of a path must be a finite way apart, corners ", i, " and ", i + 1,
+                    " are not");
   }
   times *= duration / times[times.size() - 1];
   const MatrixXd zero = MatrixXd::Zero(corners.rows(), corners.cols());
@@ -190,7 +210,7 @@ ReferencePath ReferencePath::helix(const VectorXd& center, const VectorXd& x, co
   set_quintic(duration, from, to, path.coefficients_);
   path.helix_.resize(size, 4);
   path.helix_ << center, x, y, climb / (2.0 * detail::pi);
-  return path;
+  return within_doubles(std::move(path), Eigen::Vector2d(0.0, duration));
 }
 
 ReferencePath ReferencePath::circle(const VectorXd& center, const VectorXd& x, const VectorXd& y,

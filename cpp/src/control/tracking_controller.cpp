@@ -53,6 +53,18 @@ void TrackingController::set_path(const ReferencePath& path) {
   path_.evaluate(path_.start(), setpoint_);
 }
 
+VectorXd TrackingController::memory() const {
+  VectorXd memory(1 + num_cables());
+  memory << (drive_.has_command() ? 1.0 : 0.0), drive_.command();
+  return memory;
+}
+
+void TrackingController::set_memory(const VectorXd& memory) {
+  detail::require_finite("memory", memory, 1 + num_cables());
+  drive_.hold(memory.tail(num_cables()));
+  if (memory[0] == 0.0) drive_.reset();
+}
+
 void TrackingController::accept(const ReferencePath& path) {
   constexpr int looks = 256;      // along a path
   constexpr double slack = 1e-9;  // of the straight robot's tip, whose place is rounded
