@@ -23,6 +23,19 @@ test_python() {
   tools/test.sh python
 }
 
+# Every function of the interface is in the hidden build's table of symbols.
+check_exports() {
+  find "$tree/cpp/CMakeFiles/cdcr.dir" -name '*.o' -exec nm -C --defined-only {} + |
+    sed -n 's/^[0-9a-f]* T \(cdcr::.*\)/\1/p' | grep -v '^cdcr::detail::' | sort -u >"$tree/defined.txt"
+  nm -DC --defined-only "$tree/cpp/libcdcr.so" |
+    sed -n 's/^[0-9a-f]* [TW] \(cdcr::.*\)/\1/p' | sort -u >"$tree/exported.txt"
+  hidden=$(comm -23 "$tree/defined.txt" "$tree/exported.txt")
+  [ -z "$hidden" ] || {
+    printf 'not exported by a shared library:\n%s\n' "$hidden" >&2
+    exit 1
+  }
+}
+
 build_clang() { configure_and_test clang -DCMAKE_CXX_COMPILER=clang++; }
 build_avx2() {
   configure_and_test avx2 -DCMAKE_CXX_FLAGS=-march=x86-64-v3
@@ -32,6 +45,7 @@ build_shared() {
   configure_and_test shared -DBUILD_SHARED_LIBS=ON
   cmake -B build/shared -DCDCR_BUILD_TESTS=OFF -DCMAKE_CXX_FLAGS=-fvisibility=hidden
   cmake --build build/shared
+  check_exports
   cmake --install build/shared --prefix build/shared/prefix
   cmake -S tests/consumer/core -B build/shared/program -DCMAKE_PREFIX_PATH="$PWD/build/shared/prefix"
   cmake --build build/shared/program

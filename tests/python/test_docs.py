@@ -204,7 +204,7 @@ def test_what_is_missing_is_found() -> None:
 
 def test_signatures_of_the_core_have_names_and_defaults() -> None:
     model = cdcr.Model(cdcr.robots.amouri2020())
-    assert str(inspect.signature(model.forward_dynamics)) == "(q, qd, tension, wrenches=())"
+    assert str(inspect.signature(model.forward_dynamics)) == "(q, qd, tension=None, wrenches=())"
     assert str(inspect.signature(cdcr.Model.mass_matrix)) == "(self, q)"
     assert str(inspect.signature(cdcr.Simulator)) == (
         "(model, *, step=0.001, substeps=1, method='rk4')"

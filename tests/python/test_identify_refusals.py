@@ -119,7 +119,9 @@ def test_the_same_number_twice() -> None:
 def test_fewer_data_than_parameters() -> None:
     one = Poses(COMMANDS[:1], tip=TIPS[:1])
     sought = dict.fromkeys([MODULUS, "base tilt", "base position"])
-    with refused("3 numbers measured cannot tell 6 parameters; measure more than in poses, or seek fewer"):
+    with refused(
+        "3 numbers measured cannot tell 6 parameters; measure more than in poses, or seek fewer"
+    ):
         cdcr.identify(one, ROBOT, sought)
 
 
