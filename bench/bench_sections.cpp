@@ -88,14 +88,30 @@ double stable_step(const Model& model, const VectorXd& command) {
   return 0.0;
 }
 
+/// A step of one cable of each of three sections.
+VectorXd pull(const Model& model) {
+  VectorXd command(model.num_cables());
+  rest_command(model, command);
+  for (const Index cable : {0, 4, 8}) {
+    command[cable] += model.cables()[cable].length_driven() ? -5e-3 : 2.0;
+  }
+  return command;
+}
+
+/// As many steps whatever the robot, by which right-hand sides compare.
+void measure_steps(const Harness& harness, const std::string& robot_name, const Robot& robot) {
+  const std::string name = "10,000 steps of RK4, " + robot_name;
+  if (!harness.wants(name)) return;
+  const Model model(robot);
+  const VectorXd command = pull(model);
+  const auto run = [&](long /*i*/) { keep(one_second(model, command, 1e-4)); };
+  harness.run({name, "ms", 1, 50}, [] {}, run);
+}
+
 void measure_second(const Harness& harness, const std::string& name, const Robot& robot) {
   if (!harness.wants(name)) return;
   const Model model(robot);
-  VectorXd command(model.num_cables());
-  rest_command(model, command);
-  for (const Index cable : {0, 4, 8}) {  // a step of one cable of each section
-    command[cable] += model.cables()[cable].length_driven() ? -5e-3 : 2.0;
-  }
+  const VectorXd command = pull(model);
   const double step = stable_step(model, command);
   const auto run = [&](long /*i*/) { keep(one_second(model, command, step)); };
   const double before = processor_time();
@@ -123,10 +139,14 @@ int main(int argc, char** argv) {
   Robot rubbing = bench::arm(3);
   for (Section& section : rubbing.sections) section.cable_friction = 0.2;
   bench::measure_second(harness, "1 s of 3 sections with friction, RK4", rubbing);
+  bench::measure_steps(harness, "3 sections", bench::arm(3));
+  bench::measure_steps(harness, "3 sections with friction", rubbing);
   rubbing.presliding_stiffness = 2e4;
-  bench::measure_second(harness, "1 s of 3 sections with friction that remembers, RK4", rubbing);
+  bench::measure_steps(harness, "3 sections with friction that remembers", rubbing);
   for (Section& section : by_length.sections) section.cable_friction = 0.2;
   by_length.presliding_stiffness = 2e4;
-  bench::measure_second(
-      harness, "1 s of 3 sections driven by length with friction that remembers, RK4", by_length);
+  bench::measure_steps(harness, "3 sections by length with friction that remembers", by_length);
+  by_length.presliding_stiffness = 0.0;
+  for (Section& section : by_length.sections) section.cable_friction = 0.0;
+  bench::measure_steps(harness, "3 sections by length", by_length);
 }
