@@ -90,7 +90,7 @@ def test_copies_go_on_where_a_controller_filters_or_is_held_back(options: Any) -
 
 def test_the_time_of_an_update_is_finite() -> None:
     for time in (float("nan"), float("inf")):
-        with pytest.raises(ValueError, match="t must be finite, got (nan|inf)"):
+        with pytest.raises(ValueError, match=r"t must be finite, got (nan|inf)"):
             cdcr.Pid(MODEL, kp=1.0).update(time, [0.0, 0.0], [0.0, 0.0])
 
 
