@@ -137,7 +137,8 @@ def timed(run: Callable[[str], cdcr.Trajectory]) -> list[str]:
                 break
         took[method] = min(times) if made.success else float("inf")
         if method == "auto" and made.stats.method is not None:
-            since = "" if made.stats.stiff is None else f" from {made.stats.stiff:.2g} s on"
+            kept = ", stiff" if made.stats.method == "dop853" else ""
+            since = "" if made.stats.stiff is None else f"{kept} from {made.stats.stiff:.2g} s on"
             told = f"{made.stats.method}{since}"
     best = min(took["dop853"], took["bdf"])
     return [*(number(one) for one in took.values()), f"{took['auto'] / best:.2f}", told]

@@ -22,10 +22,12 @@ Robot two_rods() {
   Robot robot = amouri2020();
   Section& rod = robot.sections[0];
   rod.bending_order = 4;
-  rod.twist_order = rod.stretch_order = 2;
+  rod.twist_order = rod.stretch_order = 4;
+  rod.cable_friction = 0.1;
   rod.shear_modulus = 0.4 * rod.youngs_modulus;
   rod.nodes = 32;
   robot.sections.push_back(rod);
+  robot.presliding_stiffness = 1e4;
   return robot;
 }
 

@@ -164,6 +164,16 @@ def test_what_is_of_another_kind_is_refused() -> None:
         cdcr.MomentumObserver(MODEL, states=bad)
 
 
+@pytest.mark.parametrize("kind", [cdcr.ExtendedKalman, cdcr.UnscentedKalman])
+def test_a_covariance_beyond_doubles_ends_a_run(kind: Any) -> None:
+    kalman = kind(MODEL, sensors=LENGTHS, acceleration_noise=1e200)
+    kalman.reset([0.1, 0.0], [0.0, 0.0])
+    seen = [MODEL.cable_lengths([0.1, 0.0])]
+    kalman.update(seen, np.zeros(3))
+    with pytest.raises(ValueError, match="became infinite or not a number"):
+        kalman.update(seen, np.zeros(3))
+
+
 def test_updates_are_looked_at() -> None:
     kalman = cdcr.ExtendedKalman(MODEL, sensors=LENGTHS)
     with pytest.raises(ValueError, match="reset"):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -102,6 +103,9 @@ def test_a_push_over_time_is_known_in_motions_and_refused_at_rest() -> None:
         step = h * np.eye(3)[k]
         solved = (problem.residuals(x + step) - problem.residuals(x - step)) / (2.0 * h)
         assert np.abs(found[:, k] - solved).max() <= SLOPE_RUN * (1.0 + np.abs(solved).max()), k
+    bad: Any = 5
+    with pytest.raises(ValueError, match="wrenches must be"):
+        cdcr.identify(replace(measured, wrenches=bad), TRUE, {"payload": None})
     with pytest.raises(ValueError, match="has a profile, which a run follows"):
         cdcr.identify(
             Poses(COMMANDS, tip=np.zeros((12, 3)), wrenches=push), ROBOT, {"payload": None}

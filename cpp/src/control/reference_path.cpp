@@ -98,6 +98,9 @@ void require_times(const VectorXd& times) {
   detail::require_increasing("times of a path", times.data(), times.size());
 }
 
+constexpr const char* beyond_doubles =
+    "values, rates and accelerations of a path must be finite all along it";
+
 /// Values that are finite at points may not be between them, nor their rates.
 ReferencePath within_doubles(ReferencePath path, const VectorXd& times) {
   Setpoint at(path.size());
@@ -106,9 +109,7 @@ ReferencePath within_doubles(ReferencePath path, const VectorXd& times) {
       const double t = times[i] + share * (times[i + 1] - times[i]);
       path.evaluate(t, at);
       detail::require(at.value.allFinite() && at.rate.allFinite() && at.acceleration.allFinite(),
-                      "values, rates and accelerations of a path must be finite all along it, but "
-                      "are not at ",
-                      t, " s");
+                      beyond_doubles, ", but are not at ", t, " s");
     }
   }
   return path;
@@ -178,7 +179,7 @@ ReferencePath ReferencePath::polygon(const MatrixXd& corners, double duration) {
   require_points("corners of a path", corners, corners.rows());
   VectorXd times = VectorXd::Zero(corners.rows());
   for (Index i = 1; i < times.size(); ++i) {
-    const double length = (corners.row(i) - corners.row(i - 1)).norm();
+    const double length = (corners.row(i) - corners.row(i - 1)).stableNorm();
     detail::require(length > 0.0, "corners of a path must differ from those before, got corner ",
                     i + 1, " twice");
     times[i] = times[i - 1] + length;
@@ -210,7 +211,13 @@ ReferencePath ReferencePath::helix(const VectorXd& center, const VectorXd& x, co
   set_quintic(duration, from, to, path.coefficients_);
   path.helix_.resize(size, 4);
   path.helix_ << center, x, y, climb / (2.0 * detail::pi);
-  return within_doubles(std::move(path), Eigen::Vector2d(0.0, duration));
+  // More than the angle's largest rate and the root of its largest acceleration, from rest to rest.
+  const double fastest = std::fmax(1.0, 4.0 * (detail::pi * std::abs(turns) + 1.0) / duration);
+  const VectorXd reach = x.cwiseAbs() + y.cwiseAbs() + std::abs(turns) * climb.cwiseAbs();
+  detail::require(
+      (center.cwiseAbs() + reach).allFinite() && (2.0 * fastest * fastest * reach).allFinite(),
+      beyond_doubles);
+  return path;
 }
 
 ReferencePath ReferencePath::circle(const VectorXd& center, const VectorXd& x, const VectorXd& y,

@@ -11,7 +11,7 @@ namespace cdcr::detail {
 inline Index whole_steps(const char* item, double time, double step, Index least) {
   constexpr double close = 1e-9, most = 1e9;  // steps
   const double steps = std::round(time / step);
-  require(std::isfinite(time) && steps >= static_cast<double>(least) && steps < most &&
+  require(std::isfinite(time) && steps >= static_cast<double>(least) && steps <= most &&
               std::abs(time / step - steps) <= close * std::fmax(1.0, steps),
           item, " must be a whole number of steps of ", step, " s, ", least > 0 ? "1" : "0",
           " to 1e9, got ", time, " s");

@@ -7,6 +7,7 @@
 
 #include "base/rotation.hpp"
 #include "dynamics/kept.hpp"
+#include "loads/least_friction.hpp"
 #include "section/inertia_series.hpp"
 
 namespace cdcr {
@@ -132,8 +133,7 @@ void Model::set_cables(Parts& parts) {
   }
   has_friction_ = has_friction_ || (friction_.array() > 0.0).any();
   if (has_friction_ && robot_->presliding_stiffness > 0.0) num_deflections_ = num_cables;
-  const double arm = num_deflections_ > 0 ? actuation_.lpNorm<Eigen::Infinity>() : 0.0;
-  if (arm > 0.0) least_friction_ = 1e-4 * stiffness_.minCoeff() / arm;
+  if (num_deflections_ > 0) least_friction_ = detail::least_friction(*this);
   has_plain_cables_ = has_plain_cables_ && !has_friction_ && has_constant_actuation_;
   has_nested_cables_ = has_nested_cables_ && !has_rods_;
 }

@@ -243,7 +243,8 @@ Status KalmanFilter::advance(const std::vector<Measurement>& told,
     p.motion.advance(head_, p.due, p.between);
     head_.swap(p.between);
   }
-  return head_.allFinite() ? check_state(model(), head_.head(2 * d)) : Status::non_finite_state;
+  const bool finite = head_.allFinite() && P_.allFinite();
+  return finite ? check_state(model(), head_.head(2 * d)) : Status::non_finite_state;
 }
 
 void KalmanFilter::note(double innovation, Index measured) noexcept {

@@ -51,8 +51,8 @@ Status Automatic::step() {
   return status;
 }
 
-/// Looks at the step just made. Friction that sticks can make stable steps shorter yet later on, so
-/// that they are watched after the first that hold back too.
+/// Looks at the step just made. It goes on looking where the robot is known to be stiff: friction
+/// that begins to stick makes stable steps shorter.
 void Automatic::watch() noexcept {
   if (!explicit_.is_held_by_stability()) {
     held_ = std::max(held_ - 2, 0);

@@ -31,7 +31,7 @@ Status EmbeddedPair::restart(double t, const VectorXd& y, double t_stop) {
 }
 
 /// Starting step: one that makes an explicit Euler step small, refined by the second derivative.
-/// Depends on the problem and the tolerances alone.
+/// Depends on the problem, its stretches and the tolerances alone.
 double EmbeddedPair::first_step() {
   const double rtol = tolerances_.rtol, atol = tolerances_.atol;
   const double d0 = weighted_norm(y_, y_, rtol, atol), d1 = weighted_norm(slope_, y_, rtol, atol);

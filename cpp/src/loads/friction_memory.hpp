@@ -140,6 +140,8 @@ template <class S>
 template <class S>
 class CableGeometry {
  public:
+  CableGeometry(const CableGeometry&) = delete;  // it may point into itself
+  CableGeometry& operator=(const CableGeometry&) = delete;
   CableGeometry(const Model& model, const S* q) : model_(model), q_(q) {
     if (model.has_rods()) return;
     using std::sqrt;

@@ -21,7 +21,7 @@ Wrenches = Wrench | Sequence[Wrench]
 def check_wrenches(wrenches: Wrenches, robot: Robot, over_time: bool = False) -> None:
     """Refuse what is no wrench on this robot, and profiles where no time passes."""
     model = Model(robot)
-    if over_time:
+    if over_time and isinstance(wrenches, Wrench | Sequence):
         wrenches = [replace(one, profile=None) if _varies(one) else one for one in _each(wrenches)]
     model.wrench_force(np.zeros(model.num_coordinates), wrenches)
 
