@@ -1,5 +1,8 @@
 #include "plain_calls.hpp"
 
+#include <pybind11/numpy.h>
+
+#include <algorithm>
 #include <string>
 
 namespace cdcr::python {
@@ -11,13 +14,10 @@ using Call = PyObject* (*)(PyObject*, PyObject* const*, Py_ssize_t, PyObject*);
 Call dispatcher = nullptr;  // of pybind11, the same for all functions
 py::handle functions;       // a dict by their records, which are all that a call is given
 
-/// Replaces an error that lists types by a sentence.
+/// Sets a TypeError that says what is wrong with a call.
 void explain(PyObject* record, PyObject* const* values, Py_ssize_t num_positional,
              PyObject* names) {
-  py::error_already_set error;
   try {
-    const std::string message = py::str(error.value());
-    if (message.find("(): incompatible ") == std::string::npos) return error.restore();
     py::tuple args(num_positional);
     for (Py_ssize_t i = 0; i < num_positional; ++i) args[i] = py::handle(values[i]);
     py::dict kwargs;
@@ -32,10 +32,33 @@ void explain(PyObject* record, PyObject* const* values, Py_ssize_t num_positiona
   }
 }
 
+/// Whether words are in the error that is set.
+bool error_has(const char* words) {
+  py::error_already_set error;
+  const bool has = std::string(py::str(error.value())).find(words) != std::string::npos;
+  error.restore();
+  return has;
+}
+
+/// Whether it is an array of one text without dimensions, which Python's float() reads as a number.
+bool is_text_array(PyObject* value) {
+  if (PyFloat_CheckExact(value) || !py::isinstance<py::array>(value)) return false;
+  const auto array = py::reinterpret_borrow<py::array>(value);
+  return array.ndim() == 0 && (array.dtype().kind() == 'U' || array.dtype().kind() == 'S');
+}
+
 PyObject* call(PyObject* record, PyObject* const* values, Py_ssize_t num_positional,
                PyObject* names) {
+  const Py_ssize_t num_named = names == nullptr ? 0 : PyTuple_GET_SIZE(names);
+  if (std::any_of(values, values + num_positional + num_named, is_text_array)) {
+    explain(record, values, num_positional, names);
+    if (!error_has(" takes arguments of other kinds ")) return nullptr;
+    PyErr_Clear();  // it stands for an array, which the function looks at
+  }
   PyObject* result = dispatcher(record, values, num_positional, names);
-  if (result == nullptr && PyErr_ExceptionMatches(PyExc_TypeError) != 0) {
+  if (result == nullptr && PyErr_ExceptionMatches(PyExc_TypeError) != 0 &&
+      error_has("(): incompatible ")) {
+    PyErr_Clear();
     explain(record, values, num_positional, names);
   }
   return result;

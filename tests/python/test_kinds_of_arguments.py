@@ -47,6 +47,18 @@ CASES: dict[str, tuple[Callable[[], object], str]] = {
         lambda: cdcr.subdivide_wrench(MODEL.robot, 2, cast("Any", [])),
         "wrench must be a cdcr.Wrench, got list",
     ),
+    "text without dimensions": (
+        lambda: MODEL.pose(ZERO, 0, cast("Any", np.array("1_0"))),
+        "fraction must be a number, got array('1_0'",
+    ),
+    "text of a keyword": (
+        lambda: cdcr.Simulator(MODEL, step=cast("Any", np.array(b"1"))),
+        "step must be a number, got array(b'1'",
+    ),
+    "text for coordinates": (
+        lambda: MODEL.pose(cast("Any", np.array("1_0")), 0, 1.0),
+        "q must be numbers of shape (..., 2), got ndarray",
+    ),
     "progress of an audit": (
         lambda: cdcr.paper.audit(cast("Any", 5)),
         "progress must be a function of a number, got int",
