@@ -142,6 +142,7 @@ class CableGeometry {
  public:
   CableGeometry(const CableGeometry&) = delete;  // it may point into itself
   CableGeometry& operator=(const CableGeometry&) = delete;
+  ~CableGeometry() = default;
   CableGeometry(const Model& model, const S* q) : model_(model), q_(q) {
     if (model.has_rods()) return;
     using std::sqrt;
