@@ -53,6 +53,14 @@ settings.register_profile(
 settings.load_profile("cdcr")
 
 
+def pytest_configure(config: pytest.Config) -> None:
+    """Let a build without CVODE say that bdf would pay; other warnings are errors."""
+    if not _core.with_cvode:
+        config.addinivalue_line(
+            "filterwarnings", "ignore:.*auto takes bdf there, which this cdcr was built without"
+        )
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Put what takes longest first, in the order of before."""
     items.sort(key=lambda item: item.path.stem not in LONGEST)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import cdcr
+from cdcr import _core
 
 METHODS = ("auto", "bdf", "adams", "dopri5", "dop853", "rk4")
 ADAPTIVE = METHODS[:4]
@@ -102,6 +103,7 @@ def test_a_long_table_does_not_exhaust_bdf(model: cdcr.Model) -> None:
     assert asked.status is cdcr.Status.step_limit
 
 
+@pytest.mark.skipif(not _core.with_cvode, reason="needs CVODE: too many steps for dop853")
 def test_bdf_passes_the_kinks_of_friction() -> None:
     section = cdcr.Section(
         length=0.06,
