@@ -34,7 +34,8 @@ Robot one_cable(double stiffness) {
 
 /// A cable that rubs at its entry alone.
 detail::FrictionProfile<double> at_entry(double friction) {
-  return {10.0 + friction, friction, 1.0, nullptr, 0, -1};
+  static const auto free = detail::CapstanFactors<double>::free();
+  return {10.0 + friction, friction, 1.0, free};
 }
 
 TEST_SUITE_BEGIN("cable_memory");
@@ -117,6 +118,48 @@ TEST_CASE("without friction the cables pull as if there were none") {
   const VectorXd tension = tensions_of(smooth, q, qd, command);
   CHECK(residual(force, cable_force_of(smooth, q, qd, command),
                  largest(smooth.actuation_matrix().cwiseAbs() * tension)) <= tolerance::rounding);
+}
+
+TEST_CASE("cables side by side pull as one after the other") {
+  Random random;
+  INFO(random);
+  for (int robots = 0; robots < 60; ++robots) {
+    Robot robot = rubbing_chain(random, 1 + robots % 5);
+    robot.presliding_stiffness = random.logarithmic(1e2, 1e6);
+    const bool alike = robots % 3 == 0;
+    for (Cable& cable : robot.cables) {
+      if (alike) cable.friction = 0.2;
+      if (random.integer(0, 2) == 0) cable.start_section = random.integer(0, cable.end_section);
+      cable.entry_friction = random.integer(0, 1) * random.uniform(0.0, 3.0);
+      cable.sheath_friction = random.integer(0, 1) * random.uniform(0.0, 0.5);
+      cable.viscosity = random.integer(0, 1) * random.uniform(0.0, 5.0);
+    }
+    const Model model(robot);
+    const Index d = model.num_coordinates(), m = model.num_cables();
+    const VectorXd q = random_shape(model, random), qd = random.vector(d, 3.0);
+    const VectorXd command = random_command(model, q, 50.0, random);
+    const VectorXd w = random.vector(m, random.logarithmic(1e-8, 1e-2));
+    VectorXd force = VectorXd::Zero(d), rate(m);
+    detail::CableGeometry<double> geometry(model, q.data());
+    for (Index j = 0; j < m; ++j) {
+      geometry.set_cable(j);
+      detail::add_memory_force(model, geometry, j, qd.data(), double{command[j]}, double{w[j]},
+                               force.data(), rate[j]);
+    }
+    double pull = tensions_of(model, q, qd, command).sum();
+    for (Index j = 0; j < m; ++j) {  // differences of lengths
+      pull += model.cables()[static_cast<std::size_t>(j)].stiffness * model.straight_lengths()[j];
+    }
+    pull *= model.actuation_matrix().cwiseAbs().maxCoeff();
+    for (int lanes = 2; lanes <= detail::num_lanes; lanes += 2) {
+      VectorXd forces(d), rates(m);
+      detail::memory_force_of_arcs(model, q.data(), qd.data(), command.data(), w.data(),
+                                   forces.data(), rates.data(), lanes);
+      CHECK(residual(forces, force, pull) <= tolerance::rounding);
+      CHECK(residual(rates, rate, qd.lpNorm<1>() * model.actuation_matrix().cwiseAbs().sum()) <=
+            tolerance::rounding);
+    }
+  }
 }
 
 TEST_CASE("a cable that begins to slide follows the closed form to full friction") {

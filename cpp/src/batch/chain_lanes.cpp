@@ -1,6 +1,6 @@
 #include "batch/chain_lanes.hpp"
 
-#include "batch/lanes.hpp"
+#include "base/lanes.hpp"
 #include "chain/energy.hpp"
 #include "chain/forward.hpp"
 #include "chain/gradient.hpp"

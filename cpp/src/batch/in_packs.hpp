@@ -5,8 +5,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "batch/lanes.hpp"
-#include "batch/pack.hpp"
+#include "base/lanes.hpp"
+#include "base/pack.hpp"
 #include "cdcr/batch.hpp"
 
 namespace cdcr::detail {

@@ -3,9 +3,9 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/lanes.hpp"
 #include "batch/chain_lanes.hpp"
 #include "batch/closed_form.hpp"
-#include "batch/lanes.hpp"
 #include "dynamics/parts.hpp"
 
 namespace cdcr::detail {

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "batch/pack.hpp"
+#include "base/pack.hpp"
 #include "section/polynomial_table.hpp"
 
 // What tables of polynomials give for packs of sigma.

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "section/number_traits.hpp"
+#include "base/number_traits.hpp"
 
 namespace cdcr::detail {
 

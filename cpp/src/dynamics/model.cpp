@@ -7,7 +7,6 @@
 
 #include "base/rotation.hpp"
 #include "dynamics/kept.hpp"
-#include "loads/least_friction.hpp"
 #include "section/inertia_series.hpp"
 
 namespace cdcr {
@@ -38,7 +37,7 @@ Model::Model(Robot robot, Formulation formulation, const Model* like) : formulat
       like == nullptr ? detail::KnownTables()
                       : detail::KnownTables{&like->robot_->sections, &like->parts_->chain};
   const auto parts =
-      std::make_shared<Parts>(Parts{detail::Chain(*robot_, known), std::nullopt, {}, {}, {}});
+      std::make_shared<Parts>(Parts{detail::Chain(*robot_, known), {}, {}, {}, {}, {}});
   parts_ = parts;
   first_ = parts->chain.first;
   has_rods_ = parts->chain.has_rods();
@@ -134,6 +133,7 @@ void Model::set_cables(Parts& parts) {
   has_friction_ = has_friction_ || (friction_.array() > 0.0).any();
   if (has_friction_ && robot_->presliding_stiffness > 0.0) num_deflections_ = num_cables;
   if (num_deflections_ > 0) least_friction_ = detail::least_friction(*this);
+  if (num_deflections_ > 0 && !has_rods_) parts.cable_lanes = detail::CableLanes(*this);
   has_plain_cables_ = has_plain_cables_ && !has_friction_ && has_constant_actuation_;
   has_nested_cables_ = has_nested_cables_ && !has_rods_;
 }

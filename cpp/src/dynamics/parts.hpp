@@ -6,6 +6,7 @@
 #include "chain/cable_path.hpp"
 #include "chain/chain.hpp"
 #include "chain/single_section.hpp"
+#include "loads/friction_lanes.hpp"
 
 namespace cdcr {
 
@@ -13,6 +14,7 @@ struct Model::Parts {
   detail::Chain chain;
   std::optional<detail::SingleSection> single;  // where the closed form applies
   std::vector<detail::CablePath> paths;         // of each cable, where the sections are rods
+  detail::CableLanes cable_lanes;               // where friction remembers in arcs
   VectorXd rest;
   MatrixXd elastic_stiffness;
 };

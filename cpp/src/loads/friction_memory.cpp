@@ -5,7 +5,6 @@
 
 #include "base/sizes.hpp"
 #include "cdcr/cable_friction.hpp"
-#include "loads/least_friction.hpp"
 
 namespace cdcr {
 

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <type_traits>
 
-#include "section/number_traits.hpp"
+#include "base/number_traits.hpp"
 
 namespace cdcr::detail {
 

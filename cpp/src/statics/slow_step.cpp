@@ -50,7 +50,7 @@ SlowStep::SlowStep(const Model& model, const Wrenches& wrenches)
   sliding_.assign(static_cast<std::size_t>(m), Sliding::sticks);
   before_ = sliding_;
   H_ = K_ = MatrixXd::Zero(d, d);
-  changes_ = MatrixXd::Zero(d, model.num_sections() + 2);
+  slopes_ = MatrixXd::Zero(model.num_sections() + 2, model.num_sections());
   turned_.resize(static_cast<std::size_t>(model.num_sections()));
   lu_ = Eigen::PartialPivLU<MatrixXd>(d);
 }
@@ -80,6 +80,7 @@ void SlowStep::balance(const VectorXd& q, Wanted wanted) noexcept {
   }
   if (wanted != Wanted::force) K_ = H_;
   sticking_ = 0.0;
+  bent_ = q.lpNorm<Eigen::Infinity>();
   moved_ = q - q_;
   CableGeometry<double> geometry(model_, q.data());
   for (Index j = 0; j < model_.num_cables(); ++j) {
@@ -103,7 +104,7 @@ void SlowStep::add_cable(CableGeometry<double>& at, Index j, const VectorXd& q,
     size_.array() += cable.stiffness * at.length() * lever();
   }
   FrictionProfile<double> profile(tension, cable.entry_friction, model_.sheath_decay()[j],
-                                  at.factors(), at.first(), at.last());
+                                  at.ways()[at.last()]);
   Sliding way = Sliding::sticks;
   double friction = 0.0, slid = 0.0;
   if (!(profile.most_out() > 0.0)) {
@@ -112,9 +113,8 @@ void SlowStep::add_cable(CableGeometry<double>& at, Index j, const VectorXd& q,
     if (slid < 0.0) way = Sliding::paid_out;
   } else {
     profile.set_friction(limited(stick_ * deflection_[j], profile.most_in(), profile.most_out()));
-    for (int k = at.first(); k <= at.last(); ++k) {
-      slid += profile.share(k) * at.pulled_in(k, moved_.data());
-    }
+    for (int k = at.first(); k <= at.last(); ++k)
+      slid += profile.share(at.ways()[k]) * at.pulled_in(k, moved_.data());
     const double asked = stick_ * (deflection_[j] + slid);
     friction = limited(asked, profile.most_in(), profile.most_out());
     if (asked >= profile.most_in()) way = Sliding::pulled_in;
@@ -122,11 +122,11 @@ void SlowStep::add_cable(CableGeometry<double>& at, Index j, const VectorXd& q,
     profile.set_friction(friction);
     if (way == Sliding::sticks) {
       const double arm = lever();
-      sticking_ = std::fmax(sticking_, stick_ * arm * arm * q.lpNorm<Eigen::Infinity>());
+      sticking_ = std::fmax(sticking_, stick_ * arm * arm * bent_);
     }
   }
   for (int k = at.first(); k <= at.last(); ++k) {
-    const double mean = profile.mean(k);
+    const double mean = profile.mean(at.ways()[k]);
     for (Index i = model_.first_coordinate(k); i < model_.first_coordinate(k + 1); ++i) {
       const double pull = at.column()[i] * mean;
       r_[i] -= pull;
@@ -163,27 +163,29 @@ void SlowStep::add_stiffness(const CableGeometry<double>& at, Index j, const Vec
     const bool in = way == Sliding::pulled_in;
     through = in ? (F > e ? F / (F - e) : 0.0) : F / (F + e);
   }
+  const bool in = way == Sliding::pulled_in, by_tension = taut && !model_.has_rods();
+  const bool by_turns = !model_.has_rods() && profile.most_out() > 0.0;
+  double falls[2 * max_sections];  // of a mean with a turn before it, by q, relative
   for (int k = at.first(); k <= at.last(); ++k) {
-    const double mean = profile.mean(k);
-    const double on_F =
-        taut && !model_.has_rods() ? cable.stiffness * (F > 0.0 ? through * mean / F : 1.0) : 0.0;
-    for (Index i = model_.first_coordinate(k); i < model_.first_coordinate(k + 1); ++i) {
-      for (Index l = begin; l < end; ++l) K_(i, l) += b[i] * on_F * b[l];
-    }
-    if (model_.has_rods() || !(profile.most_out() > 0.0)) continue;
-    // By the turns before, and by its own about half as much.
-    const bool in = way == Sliding::pulled_in;
-    for (int other = at.first(); other <= k; ++other) {
-      const double mu = model_.friction()(other, j), turn = at.turn(other);
-      if (!(mu > 0.0 && turn > 0.0)) continue;
-      const double share = other == k ? at.factors()[k].own_share(mu * turn, in) : 1.0;
-      const double falls = (in ? mu : -mu) * mean * share / turn;
-      const Index first = model_.first_coordinate(other);
-      for (Index l = first; l < first + 2; ++l) {
-        for (Index i = model_.first_coordinate(k); i < model_.first_coordinate(k + 1); ++i) {
-          K_(i, l) += b[i] * falls * q[l];
-        }
+    const double mean = profile.mean(at.ways()[k]);
+    const Index row = model_.first_coordinate(k);
+    if (by_tension) {
+      const double on_F = cable.stiffness * (F > 0.0 ? through * mean / F : 1.0);
+      for (Index l = begin; l < end; ++l) {
+        K_(row, l) += b[row] * on_F * b[l];
+        K_(row + 1, l) += b[row + 1] * on_F * b[l];
       }
+    }
+    if (!by_turns) continue;
+    // By the turns before, and by its own about half as much.
+    const double mu = model_.friction()(k, j), turn = at.turn(k);
+    const double falls_by = mu > 0.0 && turn > 0.0 ? (in ? mu : -mu) / turn : 0.0;
+    const double own = falls_by != 0.0 ? at.factors(k).own_share(mu * turn, in) : 0.0;
+    for (Index l = row; l < row + 2; ++l) falls[l] = falls_by * q[l];
+    for (Index l = begin; l < row + 2; ++l) {
+      const double slope = mean * falls[l] * (l < row ? 1.0 : own);
+      K_(row, l) += b[row] * slope;
+      K_(row + 1, l) += b[row + 1] * slope;
     }
   }
 }
@@ -194,23 +196,14 @@ void SlowStep::add_stuck_stiffness(const CableGeometry<double>& at, Index j, con
   const Cable& cable = model_.cables()[static_cast<std::size_t>(j)];
   const double* b = at.column();
   const int first = at.first(), last = at.last();
-  const Index begin = model_.first_coordinate(first), end = model_.first_coordinate(last + 1);
-  // How these change with q: the way slid at constant shares, the tension, each turn.
-  const Index way = 0, tension = by_tension ? 1 : -1, first_turn = by_tension ? 2 : 1;
-  const Index count = model_.has_rods() ? first_turn : first_turn + last - first + 1;
-  changes_.setZero();
-  FrictionProfile<double> before(tension_[j], cable.entry_friction, model_.sheath_decay()[j],
-                                 at.factors(), first, last);
-  const double spring = stick_ * deflection_[j];
-  before.set_friction(limited(spring, before.most_in(), before.most_out()));
-  for (int k = first; k <= last; ++k) {
-    const double turn = at.turn(k);
-    for (Index l = model_.first_coordinate(k); l < model_.first_coordinate(k + 1); ++l) {
-      changes_(l, way) = before.share(k) * b[l];
-      if (by_tension) changes_(l, tension) = -cable.stiffness * b[l];
-      if (!model_.has_rods() && turn > 0.0) changes_(l, first_turn + k - first) = q[l] / turn;
-    }
+  const auto of = [](int section) { return static_cast<std::size_t>(section); };
+  bool by_turns = false;
+  for (int k = first; k <= last && !model_.has_rods(); ++k) {
+    by_turns = by_turns || model_.friction()(k, j) > 0.0;
   }
+  // What changes with q: the way slid at constant shares, the tension, each turn.
+  const Index way = 0, tension = by_tension ? 1 : -1, first_turn = by_tension ? 2 : 1;
+  const Index count = by_turns ? first_turn + last - first + 1 : first_turn;
   for (Index from = 0; from < count; from += Dual::width) {
     const auto number = [from](double value, Index which, double slope = 1.0) {
       Dual x(value);
@@ -221,23 +214,41 @@ void SlowStep::add_stuck_stiffness(const CableGeometry<double>& at, Index j, con
     };
     for (int k = first; k <= last; ++k) {
       const double mu = model_.friction()(k, j);
-      turned_[static_cast<std::size_t>(k)] =
-          CapstanFactors<Dual>(number(mu * at.turn(k), first_turn + k - first, mu));
+      const auto own =
+          mu > 0.0 ? CapstanFactors<Dual>(number(mu * at.turn(k), first_turn + k - first, mu))
+                   : CapstanFactors<Dual>::free();
+      turned_[of(k)] = k == first ? own : own.after(turned_[of(k - 1)]);
     }
     FrictionProfile<Dual> profile(number(tension_[j], tension), cable.entry_friction,
-                                  model_.sheath_decay()[j], turned_.data(), first, last);
-    profile.set_friction(limited(Dual(spring), profile.most_in(), profile.most_out()));
+                                  model_.sheath_decay()[j], turned_[of(last)]);
+    const Dual spring = stick_ * deflection_[j];
+    profile.set_friction(limited(spring, profile.most_in(), profile.most_out()));
     Dual slid = number(0.0, way);
-    for (int k = first; k <= last; ++k) slid += profile.share(k) * at.pulled_in(k, moved_.data());
-    profile.set_friction(stick_ * (deflection_[j] + slid));
     for (int k = first; k <= last; ++k) {
-      const Dual mean = profile.mean(k);
+      slid += profile.share(turned_[of(k)]) * at.pulled_in(k, moved_.data());
+    }
+    profile.set_friction(spring + stick_ * slid);
+    for (int k = first; k <= last; ++k) {
+      const Dual mean = profile.mean(turned_[of(k)]);
       for (Index c = from; c < std::min<Index>(count, from + Dual::width); ++c) {
-        const double slope = mean.slopes[static_cast<int>(c - from)];
-        for (Index l = begin; l < end; ++l) {
-          for (Index i = model_.first_coordinate(k); i < model_.first_coordinate(k + 1); ++i) {
-            K_(i, l) -= b[i] * slope * changes_(l, c);
-          }
+        slopes_(c, k) = mean.slopes[static_cast<int>(c - from)];
+      }
+    }
+  }
+  FrictionProfile<double> before(tension_[j], cable.entry_friction, model_.sheath_decay()[j],
+                                 at.ways()[last]);
+  before.set_friction(limited(stick_ * deflection_[j], before.most_in(), before.most_out()));
+  for (int k = first; k <= last; ++k) {
+    for (int at_k = first; at_k <= last; ++at_k) {
+      double on_b = slopes_(way, k) * before.share(at.ways()[at_k]), on_q = 0.0;
+      if (by_tension) on_b -= slopes_(tension, k) * cable.stiffness;
+      if (by_turns && at.turn(at_k) > 0.0) {
+        on_q = slopes_(first_turn + at_k - first, k) / at.turn(at_k);
+      }
+      for (Index l = model_.first_coordinate(at_k); l < model_.first_coordinate(at_k + 1); ++l) {
+        const double slope = on_b * b[l] + on_q * q[l];
+        for (Index i = model_.first_coordinate(k); i < model_.first_coordinate(k + 1); ++i) {
+          K_(i, l) -= b[i] * slope;
         }
       }
     }

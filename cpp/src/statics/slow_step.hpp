@@ -53,9 +53,10 @@ class SlowStep {
   VectorXd change_, command_at_rest_, command_change_;  // of the last step
   VectorXd tension_, friction_, end_tension_, new_deflection_;
   std::vector<Sliding> sliding_, before_;  // before: at the last rest
-  MatrixXd H_, K_, changes_;
+  MatrixXd H_, K_, slopes_;
   std::vector<CapstanFactors<Dual>> turned_;
   Eigen::PartialPivLU<MatrixXd> lu_;
+  double bent_ = 0.0;      // largest coordinate
   double sticking_ = 0.0;  // size of what cables that stick may miss by rounding [N m]
   long iterations_ = 0;
 };

@@ -1,15 +1,16 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 
+#include "base/number_traits.hpp"
 #include "cdcr/types.hpp"
-#include "section/number_traits.hpp"
 
 namespace cdcr::detail {
 
 /// W doubles of as many states, worked on at once: a scalar to Eigen, on which the recursions run
 /// as they are. To be used within a function compiled for registers of this width
-/// (batch/lanes.hpp): how such a number is passed by value depends on that, so that everything here
+/// (base/lanes.hpp): how such a number is passed by value depends on that, so that everything here
 /// is inlined.
 template <int W>
 // NOLINTNEXTLINE(cppcoreguidelines-special-member-functions): copies by the register, below
@@ -64,6 +65,21 @@ struct alignas(8 * W) Pack {
     return Pack(a.lanes / b.lanes);
   }
   [[gnu::always_inline]] friend Pack operator-(const Pack& a) { return Pack(-a.lanes); }
+
+  /// Of each lane, whether it is so.
+  struct Mask {
+    typedef std::int64_t Bits __attribute__((vector_size(8 * W)));  // NOLINT(modernize-use-using)
+    Bits lanes;
+  };
+  [[gnu::always_inline]] friend Mask operator<(const Pack& a, const Pack& b) {
+    return {a.lanes < b.lanes};
+  }
+  [[gnu::always_inline]] friend Mask operator>(const Pack& a, const Pack& b) {
+    return {a.lanes > b.lanes};
+  }
+  [[gnu::always_inline]] friend Pack choose(const Mask& so, const Pack& a, const Pack& b) {
+    return Pack(so.lanes ? a.lanes : b.lanes);
+  }
 };
 
 template <int W>
