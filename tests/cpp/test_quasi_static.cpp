@@ -178,15 +178,15 @@ TEST_CASE("slow motion with memory is where it says") {
   Robot robot = one_cable();
   robot.sections[0].cable_friction = 0.4;
   robot.sections[0].damping = 5e-2;
-  robot.presliding_stiffness = 2e4;
+  robot.presliding_stiffness = 2e5;
   const Model model(robot);
-  Simulator simulator(model, 2e-3);
+  Simulator simulator(model, 1e-3);
   simulator.reset(VectorXd::Zero(2), VectorXd::Zero(2));
   const RowMatrixXd commands = there_and_back(10.0, 8);
   const QuasiStatic run = quasi_static(model, commands);
   for (Index i = 1; i < commands.rows(); ++i) {
-    for (int k = 1; k <= 500; ++k) {
-      const double share = k / 500.0;
+    for (int k = 1; k <= 10000; ++k) {
+      const double share = k / 10000.0;
       const VectorXd F = (1.0 - share) * commands.row(i - 1) + share * commands.row(i);
       REQUIRE(simulator.step(F) == Status::ok);
     }
