@@ -18,7 +18,7 @@ namespace {
 /// at seven nodes.
 constexpr double by_differences = 1e-8, of_rods = 1e-6;
 /// Forces of friction and play, found again from rates that a fine simulation reaches.
-constexpr double by_simulation = 1e-2;
+constexpr double by_simulation = 2e-2;
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 

@@ -117,7 +117,7 @@ TEST_CASE("without friction the cables pull as if there were none") {
   cable_force(remembering, q, qd, command, VectorXd::Constant(command.size(), 1e-3), force, rate);
   const VectorXd tension = tensions_of(smooth, q, qd, command);
   CHECK(residual(force, cable_force_of(smooth, q, qd, command),
-                 largest(smooth.actuation_matrix().cwiseAbs() * tension)) <= tolerance::rounding);
+                 largest(smooth.actuation_matrix().cwiseAbs() * tension)) <= tolerance::cancelled);
 }
 
 TEST_CASE("cables side by side pull as one after the other") {
@@ -155,9 +155,9 @@ TEST_CASE("cables side by side pull as one after the other") {
       VectorXd forces(d), rates(m);
       detail::memory_force_of_arcs(model, q.data(), qd.data(), command.data(), w.data(),
                                    forces.data(), rates.data(), lanes);
-      CHECK(residual(forces, force, pull) <= tolerance::rounding);
+      CHECK(residual(forces, force, pull) <= tolerance::cancelled);
       CHECK(residual(rates, rate, qd.lpNorm<1>() * model.actuation_matrix().cwiseAbs().sum()) <=
-            tolerance::rounding);
+            tolerance::cancelled);
     }
   }
 }
@@ -194,7 +194,7 @@ TEST_CASE("back and forth below half of the friction nothing drifts") {
 TEST_CASE("a swing loses twice the friction over the stiffness each half turn, then sticks") {
   // A constant friction f at the entry under a constant pull: each half swing ends 2 r f/K nearer
   // to the rest, whatever the inertia, and the first that is within r f/K of it stays.
-  Robot robot = one_cable(1e6);
+  Robot robot = one_cable(1e7);
   robot.cables[0].entry_friction = 0.5;
   const Model model(robot);
   const double K = model.stiffness()[0], r = model.actuation_matrix()(0, 0), F = 6.0;
@@ -214,7 +214,7 @@ TEST_CASE("a swing loses twice the friction over the stiffness each half turn, t
     if (expected <= 1.0) break;
     expected -= 2.0;
     const double sign = seen++ % 2 == 0 ? -1.0 : 1.0;
-    CHECK(residual(turn.q[0], rest + sign * expected * loss, loss) <= 1e-2);
+    CHECK(residual(turn.q[0], rest + sign * expected * loss, loss) <= 2e-2);
     expected = std::abs(expected);
   }
   CHECK(seen >= 3);

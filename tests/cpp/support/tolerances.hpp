@@ -37,7 +37,7 @@ constexpr double stationary = 1e-7;
 constexpr double at_rest = 1e-14;
 
 /// States of Dormand-Prince runs at the tightest tolerances, over a few swings.
-constexpr double run = 2e-12;
+constexpr double run = 4e-12;
 /// The same of order 8, which meets tolerances as closely, with fewer steps.
 constexpr double dop853_run = 5e-11;
 /// The same of Runge-Kutta with steps of 1 ms.
