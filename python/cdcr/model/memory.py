@@ -1,4 +1,4 @@
-"""What remembers in a robot, friction or play, and who knows nothing of it."""
+"""What rubs or remembers in a robot, and who knows nothing of it."""
 
 from __future__ import annotations
 
@@ -22,6 +22,16 @@ def warn_of_memory(model: Model, who: str, *, stacklevel: int) -> None:
     if taken:
         warnings.warn(
             f"{who} knows nothing of what cables and drives remember: it takes {taken}",
+            UserWarning,
+            stacklevel=stacklevel + 1,
+        )
+
+
+def warn_of_friction(model: Model, who: str, *, stacklevel: int) -> None:
+    """Warn those that find tensions for a motion as if the cables of the robot did not rub."""
+    if model.has_friction:
+        warnings.warn(
+            f"{who} leaves out the friction of the cables: with it the motion takes other tensions",
             UserWarning,
             stacklevel=stacklevel + 1,
         )
