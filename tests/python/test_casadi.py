@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import dataclasses
 import gc
 import pickle
 from typing import Any
@@ -186,6 +187,16 @@ def test_the_least_pull_from_shape_to_shape() -> None:
     opti.solver("ipopt", QUIET)
     with pytest.raises(RuntimeError, match="cdcr has no second derivatives: give the solver"):
         opti.solve()
+
+
+def test_a_robot_without_cables_has_derivatives() -> None:
+    section = dataclasses.replace(cdcr.robots.amouri2020().sections[0], cable_angles=())
+    step = cdcr.casadi.step(cdcr.Model(cdcr.Robot(sections=[section])), 1e-3)
+    at, none = np.array([0.2, 0.1, 0.3, -0.4]), np.zeros(0)
+    by_state, by_nothing = jacobian(step, at, none)
+    assert by_nothing.shape == (4, 0)
+    wanted = differences(lambda x: numbers(step(x, none)), at)
+    np.testing.assert_allclose(by_state, wanted, rtol=0, atol=SMOOTH * np.abs(wanted).max())
 
 
 def test_functions_outlive_their_names() -> None:

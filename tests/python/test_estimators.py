@@ -152,6 +152,42 @@ def test_estimators_of_another_robot_are_refused() -> None:
             cdcr.Loop(driven, cdcr.Pid(driven, kp=1.0), sensors=LENGTHS, estimator=by_tension)
 
 
+def test_variants_must_be_driven_alike() -> None:
+    (section,) = MODEL.robot.sections
+    driven = cdcr.Model(replace(MODEL.robot, sections=(replace(section, cable_stiffness=2e4),)))
+    with pytest.raises(
+        ValueError, match=r"variants\[0\]: cable 1 must be driven by tension, got one driven by len"
+    ):
+        cdcr.ExtendedKalman(MODEL, sensors=LENGTHS, variants=driven)
+
+
+@pytest.mark.parametrize(
+    ("changed", "told"),
+    [
+        ({"cable_friction": 0.2}, "friction by the sliding speed in place of presliding_stiffness"),
+        ({"cable_stiffness": 2e4, "cable_backlash": 1e-3}, "drives without their backlash"),
+    ],
+)
+def test_what_estimators_know_nothing_of_is_told(changed: Any, told: str) -> None:
+    (section,) = MODEL.robot.sections
+    robot = replace(MODEL.robot, sections=(replace(section, **changed),), presliding_stiffness=1e4)
+    model = cdcr.Model(robot)
+    for kind in (cdcr.ExtendedKalman, cdcr.UnscentedKalman):
+        with pytest.warns(UserWarning, match=f"the filter knows nothing of .*: it takes {told}$"):
+            kind(model, sensors=LENGTHS)
+    with pytest.warns(UserWarning, match=f"the observer knows nothing of .*: it takes {told}$"):
+        cdcr.MomentumObserver(model)
+    with pytest.warns(UserWarning, match=r"a system of python-control knows nothing of"):
+        cdcr.control.nonlinear_system(model)
+
+
+def test_steps_of_a_filter_that_are_too_long_are_told() -> None:
+    with pytest.warns(
+        UserWarning, match=r"the filter goes on by steps of 1 s, beyond the 0\.\d+ s"
+    ):
+        cdcr.ExtendedKalman(MODEL, sensors=LENGTHS, period=2.0, substeps=2)
+
+
 def test_what_is_of_another_kind_is_refused() -> None:
     bad: Any = "lengths"
     with pytest.raises(TypeError, match=r"sensors\[0\] must be"):

@@ -210,9 +210,29 @@ def test_links_have_the_mass_of_the_robot(case: Case) -> None:
         assert turned == pytest.approx(weight, abs=1e-12)
 
 
-def test_friction_is_left_out_with_a_warning(tmp_path: Path) -> None:
-    section = dataclasses.replace(cdcr.robots.amouri2020().sections[0], cable_friction=0.1)
-    with pytest.warns(UserWarning, match="leaves the friction of cables out"):
+def test_cables_have_their_pretension() -> None:
+    section = dataclasses.replace(by_length()[0].sections[0], cable_pretension=3.0)
+    robot = cdcr.Robot(sections=[section])
+    chain = Chain(robot)
+    chain.force(np.zeros(chain.model.nv))
+    model = cdcr.Model(robot)
+    wanted = model.cable_tensions([0.0, 0.0], [0.0, 0.0], model.rest_command())
+    assert -chain.data.actuator_force == pytest.approx(wanted, rel=1e-9)
+    assert wanted == pytest.approx(3.0)
+
+
+@pytest.mark.parametrize(
+    ("field", "left"),
+    [
+        ("cable_friction", "friction of cables"),
+        ("cable_entry_friction", "friction of cables"),
+        ("cable_viscosity", "friction of cables"),
+        ("cable_backlash", "play of drives"),
+    ],
+)
+def test_what_is_left_out_is_told(field: str, left: str, tmp_path: Path) -> None:
+    section = dataclasses.replace(by_length()[0].sections[0], **{field: 1e-3})
+    with pytest.warns(UserWarning, match=f"leaves the {left} out"):
         cdcr.export.write_mjcf(cdcr.Robot(sections=[section]), tmp_path / "a.xml")
 
 

@@ -131,6 +131,17 @@ def test_a_taylor_formulation_warns_once_beyond_its_range() -> None:
         inverse_run(MODEL, far)
 
 
+def test_friction_of_the_cables_is_left_out_with_a_warning() -> None:
+    section = dataclasses.replace(cdcr.robots.amouri2020().sections[0], cable_entry_friction=0.3)
+    model = cdcr.Model(cdcr.Robot(sections=[section]))
+    reference = Reference.from_functions(np.linspace(0.0, 1.0, 11), lambda t: np.zeros(2))
+    with pytest.warns(UserWarning, match="^inverse_run leaves out the friction of the cables"):
+        inverse_run(model, reference)
+    path = cdcr.ReferencePath.constant([0.1, 0.0])
+    with pytest.warns(UserWarning, match="^check_path leaves out the friction of the cables"):
+        cdcr.check_path(model, path, num_samples=5)
+
+
 def test_bad_inverse_runs_are_refused() -> None:
     with pytest.raises(TypeError, match=r"reference must be a cdcr\.Reference, got ndarray"):
         inverse_run(MODEL, CIRCLE_TIMES)  # type: ignore[arg-type]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Iterator
 from typing import Any
 
@@ -100,6 +101,17 @@ def test_a_gradient_through_a_motion_is_that_of_the_simulator() -> None:
         change[at] = 1e-4
         ahead, behind = simulated(pulls + change), simulated(pulls - change)
         assert slope[at] == pytest.approx((ahead - behind) / 2e-4, abs=SMOOTH * abs(slope).max())
+
+
+def test_a_robot_without_cables_and_no_rows_at_all() -> None:
+    section = dataclasses.replace(cdcr.robots.amouri2020().sections[0], cable_angles=())
+    bare = cdcr.Model(cdcr.Robot(sections=[section]))
+    f, at = cdcr.jax.dynamics(bare), ([0.2, 0.1], [0.3, -0.4], np.zeros(0))
+    found = jax.jacobian(f, argnums=(0, 1))(*(jax.numpy.array(one) for one in at))
+    for one, wanted in zip(found, bare.derivatives(*at), strict=False):
+        close(one, wanted)
+    none = (jax.numpy.zeros((0, size)) for size in (6, 6, 9))
+    assert cdcr.jax.dynamics(ARM)(*none).shape == (0, 6)
 
 
 def test_kinematics() -> None:

@@ -1,5 +1,7 @@
 """Closed loops from Python: the same as by hand, what they record, what they refuse."""
 
+import dataclasses
+import re
 from typing import Any, cast
 
 import numpy as np
@@ -113,6 +115,18 @@ def test_after_a_failure_the_last_good_state_stays() -> None:
     loop.reset([0.0, 0.0], [0.0, 0.0])
     with pytest.raises(RuntimeError, match="stopped at t = "):
         loop.run(5.0, throw=True)
+
+
+def test_a_step_too_large_for_rk4_is_told() -> None:
+    (section,) = MODEL.robot.sections
+    soft = cdcr.Model(cdcr.Robot(sections=[dataclasses.replace(section, damping=30.0)]))
+    told = r"Or the step of 0\.001 s is too large: here rk4 is stable up to 0\.000\d+ s\.$"
+    for substeps, success in ((1, False), (5, True)):
+        loop = cdcr.Loop(soft, Push(4.0), substeps=substeps)
+        loop.reset([0.1, 0.0], [0.0, 0.0])
+        run = loop.run(0.5).trajectory
+        assert run.success is success
+        assert success or re.search(told, run.message)
 
 
 def test_a_run_that_fails_at_once_keeps_its_start() -> None:

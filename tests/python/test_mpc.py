@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import pickle
 from typing import Any
 
@@ -130,6 +131,43 @@ def test_pickled_it_goes_on() -> None:
     np.testing.assert_allclose(other.update(*now), controller.update(*now), atol=1e-2)
 
 
+@pytest.mark.parametrize("size", [1e-4, 1.0, 1e4])
+def test_a_small_and_a_large_robot_are_moved_alike(size: float) -> None:
+    """Lengths, times and weights in their units: the numbers of the programme are the same."""
+    section = cdcr.Section(
+        length=0.3 * size,
+        backbone_mass=4e-3 * size**3,
+        backbone_diameter=1e-3 * size,
+        youngs_modulus=60e9,
+        damping=2e-3 * size**4,
+        cable_radius=8e-3 * size,
+        cable_angles=(0.0, 2.0, 4.0),
+    )
+    model = cdcr.Model(cdcr.Robot(sections=[section]))
+    controller = cdcr.control.Mpc(
+        model,
+        max_tension=5.0 * size**2,
+        period=0.02 * size,
+        tip_weight=1e4 / size**2,
+        rate_weight=1e-2 * size**2,
+        tension_weight=1e-3 / size**4,
+        change_weight=1e-2 / size**4,
+    )
+    controller.reference = model.tip([0.4, 0.2])[1]
+    run = cdcr.simulate(model, [0, 0], [0, 0], t=[0.0, 1.0 * size], controller=controller)
+    assert controller.diagnostics["solved"] == 1.0
+    assert np.linalg.norm(run.tip[-1] - controller.reference) < 1e-3 * 0.3 * size
+
+
+def test_what_it_knows_nothing_of_is_told() -> None:
+    section = dataclasses.replace(ONE.robot.sections[0], cable_friction=0.2)
+    rubs = dataclasses.replace(ONE.robot, sections=(section,), presliding_stiffness=1e4)
+    with pytest.warns(UserWarning, match="knows nothing of what cables and drives remember"):
+        cdcr.control.Mpc(cdcr.Model(rubs), max_tension=5.0)
+    with pytest.warns(UserWarning, match=r"0\.02 s, beyond the 0\.0142 s up to which they are sta"):
+        cdcr.control.Mpc(ARM, max_tension=5.0)
+
+
 @pytest.mark.parametrize(
     ("options", "told"),
     [
@@ -151,15 +189,26 @@ def test_refused(options: Any, told: str) -> None:
 
 
 def test_refused_robots_and_references() -> None:
-    driven = cdcr.robots.amouri2020()
-    section = driven.sections[0]
+    section = cdcr.robots.amouri2020().sections[0]
     cable = cdcr.Cable(end_section=0, radius=0.019, angle=0.3, stiffness=1e3)
     by_length = cdcr.Model(cdcr.Robot(sections=[section], cables=[cable]))
     with pytest.raises(ValueError, match="tension, and cable 4 is driven by length"):
         cdcr.control.Mpc(by_length, max_tension=5.0)
+    controller = cdcr.control.Mpc(ONE, max_tension=5.0)
+    driven = dataclasses.replace(section, cable_stiffness=1e3)
+    for robot, told in (
+        (ARM.robot, "a robot of 2 coordinates and 3 cables, but the model has 6 coordinates"),
+        (cdcr.Robot(sections=[driven]), "cable 1 must be driven by tension, got one driven by len"),
+    ):
+        model = cdcr.Model(robot)
+        with pytest.raises(ValueError, match=told):
+            cdcr.Loop(model, controller)
+        zeros = np.zeros(model.num_coordinates)
+        with pytest.raises(ValueError, match=told):
+            cdcr.simulate(model, zeros, zeros, t=[0.0, 0.1], controller=controller)
     with pytest.raises(TypeError, match=r"^Mpc lacks max_tension"):
         cdcr.control.Mpc(ARM)  # type: ignore[call-arg]
-    controller = cdcr.control.Mpc(ARM, max_tension=5.0)
+    controller = cdcr.control.Mpc(ARM, max_tension=5.0, substeps=2)
     with pytest.raises(ValueError, match=r"^reference must have shape \(3,\), got \(2,\)"):
         controller.reference = [0.1, 0.2]
     with pytest.raises(ValueError, match=r"^path must be of the tip, 3 numbers, got 2"):

@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 import cdcr
+from cdcr.model import maps
 
 SAME = 1e-9  # [rad]: two searches for one rest
 
@@ -161,6 +162,22 @@ def test_poses_with_a_history_find_friction() -> None:
     found = cdcr.identify(poses, rubbing(0.1), {"sections[0].cable_friction": None})
     assert found["sections[0].cable_friction"] == pytest.approx(0.25, abs=2e-3)
     assert found.cross_validate(3).held_out["poses: tip"] < 4e-5
+
+
+def test_it_goes_on_from_a_robot_that_is_driven_alike() -> None:
+    model = cdcr.Model(rubbing())
+    (section,) = model.robot.sections
+    driven = cdcr.Model(replace(model.robot, sections=(replace(section, cable_stiffness=2e4),)))
+    before = cdcr.quasi_static(driven, [driven.rest_command()])
+    with pytest.raises(ValueError, match="cable 1 must be driven by tension, got one driven by le"):
+        cdcr.quasi_static(model, np.zeros((1, model.num_cables)), after=before)
+
+
+def test_a_step_for_optimisers_knows_nothing_of_it() -> None:
+    with pytest.warns(
+        UserWarning, match="a step of the state knows nothing of what cables and dri"
+    ):
+        maps.step(cdcr.Model(rubbing(presliding_stiffness=1e4)), 1e-3)
 
 
 def test_an_fmu_has_no_memory(tmp_path: Path) -> None:

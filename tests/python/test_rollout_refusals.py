@@ -119,3 +119,15 @@ def test_bad_arguments_are_refused(
     arguments = {"model": MODEL, "q0": Q0, "qd0": QD0, **RUN} | given
     with pytest.raises(kind, match=sentence):
         cdcr.rollout(**arguments)
+
+
+def test_models_are_those_of_motions_that_there_are() -> None:
+    alike = cdcr.rollout(MODEL, Q0, QD0, **RUN)
+    differ = cdcr.rollout(MODEL, Q0, QD0, parameters={"payload": [0.01]}, **RUN)
+    for runs in (alike, differ):
+        assert runs.model_of(-1).robot == runs.model_of(len(Q0) - 1).robot
+        for motion in (len(Q0), -len(Q0) - 1):
+            with pytest.raises(
+                IndexError, match=f"there is no motion {motion}: there are {len(Q0)} m"
+            ):
+                runs.model_of(motion)

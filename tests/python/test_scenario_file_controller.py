@@ -264,6 +264,18 @@ def test_a_motion_of_a_file_is_the_spline_through_its_points(tmp_path: Path) -> 
             LOOP + "[[loop.actuators]]\nlag = 1\n[controller]\n" + PID,
             "actuators[0].lag is not a known key",
         ),
+        (
+            LOOP.replace("201", "302") + "[controller]\n" + PID,
+            "samples of a closed loop must be whole numbers of its steps of 0.001 s apart, "
+            "got 0.00664452 s: num_samples = 251 would do",
+        ),
+        (
+            LOOP
+            + "[[wrenches]]\nsection = 1\nforce = [1, 0, 0]\ntimes = [0, 1]\nfactors = [0, 1]\n"
+            + "[controller]\n"
+            + PID,
+            "wrenches[0].times must be left out, and factors: in a loop wrenches are constant",
+        ),
     ],
 )
 def test_what_is_wrong_with_a_loop(tmp_path: Path, text: str, sentence: str) -> None:

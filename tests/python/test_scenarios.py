@@ -244,6 +244,15 @@ def test_no_energy_drift_with_damping(scenario: Scenario) -> None:
     assert energy_drift(variant(scenario, robot=robot, t_end=0.1)) is None
 
 
+@pytest.mark.parametrize("rubs", ["friction", "entry_friction", "viscosity"])
+def test_no_energy_drift_where_cables_rub(rubs: str) -> None:
+    section = dataclasses.replace(cdcr.robots.amouri2020().sections[0], cable_angles=())
+    cable = cdcr.Cable(radius=0.008, angle=0.0, end_section=0, **{rubs: 0.1})
+    model = cdcr.Model(cdcr.Robot(sections=[section], cables=[cable]))
+    run = cdcr.simulate(model, [0.1, 0.0], [0.0, 0.0], t=[0.0, 0.1], tension=[1.0])
+    assert energy_drift(run) is None
+
+
 def test_energy_drift_of_a_robot_at_rest_is_zero(scenario: Scenario) -> None:
     assert energy_drift(variant(scenario, tension=(0.0, 0.0, 0.0), t_end=0.1)) == 0.0
 

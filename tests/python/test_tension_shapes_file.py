@@ -143,6 +143,19 @@ def test_one_shape_wants_two_brackets(tmp_path: Path) -> None:
         load(tmp_path, text)
 
 
+@pytest.mark.parametrize("step", [0.5, 0.1, 0.007])
+def test_sampled_shapes_jump_where_they_do(step: float, tmp_path: Path) -> None:
+    """A pulse far shorter than the step, a jump at a sample but for rounding, a ramp that ends."""
+    text = table(cable=1, shape="pulse", value=5, start=0.3123, end=0.3343)
+    text += table(cable=2, shape="step", value=2, at=0.1 + 0.2)
+    text += table(cable=3, shape="ramp", to=2.0, start=0.77, end=1.23)
+    exact = load(tmp_path, text).simulate(num_samples=11)
+    sampled = text.replace("[[tension]]", "[[tension.shapes]]")
+    run = load(tmp_path, f"[tension]\nstep = {step}\n{sampled}").simulate(num_samples=11)
+    np.testing.assert_allclose(run.q, exact.q, rtol=0, atol=1e-10)
+    np.testing.assert_allclose(run.tension, exact.tension, rtol=0, atol=1e-12)
+
+
 def test_a_cable_driven_by_length_without_shapes_keeps_its_length(tmp_path: Path) -> None:
     text = """\
 t_end = 0.1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from typing import Any, NoReturn
 
@@ -51,7 +52,8 @@ class Callback(casadi.Callback):
             """Stack the entries of an answer as CasADi does, column below column."""
             for slope in exact.slopes(*rows):
                 block = slope[0]
-                yield block.reshape(-1, block.shape[-1], order="F")[None]
+                entries = math.prod(block.shape[:-1])
+                yield block.reshape(entries, block.shape[-1], order="F")[None]
 
         takes = {name: (size,) for name, size in exact.takes.items()}
         made = (exact.name, takes, exact.gives, exact.values)

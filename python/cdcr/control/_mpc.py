@@ -13,14 +13,17 @@ from cdcr import _core
 from cdcr.base.arrays import FloatArray, finite
 from cdcr.base.check import Check, nearest, require_kind
 from cdcr.base.keywords import by_keyword
-from cdcr.control._programme import BoxProgramme
+from cdcr.control._programme import BoxProgramme, unit_near
+from cdcr.model.memory import warn_of_memory
 from cdcr.model.model import Model
+from cdcr.model.stability import warn_of_long_steps
 from cdcr.model.steps import AnyDynamics, Steps
 
 FIRST = 10  # quadratic programmes at most where there is no plan to go on from
 PARTS = ("linearize", "condense", "solve")  # of an update
 ATTRIBUTES = ("reference", "path", "plan", "diagnostics", "model", "horizon")
-SETTLED = 1e-3  # change of tensions that ends these, of the largest [N]
+SETTLED = 1e-3  # change of tensions that ends these, over their unit
+USUAL = 8.0, 2e3  # largest tensions [N], and costs of a tip a robot's length away
 
 
 class Plan(NamedTuple):
@@ -116,7 +119,6 @@ class Mpc(_core.Controller):
         tension_weight: float = 1e-3,
         change_weight: float = 1e-2,
     ) -> None:
-        self._programme = BoxProgramme()
         check = Check()
         step = period if step is None else step
         for name, value in (("period", period), ("step", step), ("tip_weight", tip_weight)):
@@ -137,8 +139,13 @@ class Mpc(_core.Controller):
             what = f"cable {driven[0]} is driven by length" if driven else "this robot has none"
             raise ValueError(f"Mpc needs cables driven by tension, and {what}")
         super().__init__(period)
-        self.model = model
+        self.model = self._made_for = model
+        warn_of_memory(model, "Mpc", stacklevel=3)
+        self._unit = unit_near((max_tension - min_tension) / USUAL[0])
+        cost = unit_near(tip_weight * model.robot.length**2 / USUAL[1])
+        self._programme = BoxProgramme(self._unit, cost)
         self._steps = Steps(dynamics, step, substeps)
+        warn_of_long_steps(model, step / substeps, "Mpc", stacklevel=3)
         self._limits = min_tension, max_tension
         self._root_tip, self._root_rate = math.sqrt(tip_weight), math.sqrt(rate_weight)
         self._effort = _effort_matrix(self.horizon, model.num_cables, tension_weight, change_weight)
@@ -197,7 +204,7 @@ class Mpc(_core.Controller):
         --------
         >>> import cdcr
         >>> model = cdcr.Model(cdcr.robots.three_sections())
-        >>> controller = cdcr.control.Mpc(model, max_tension=8.0)
+        >>> controller = cdcr.control.Mpc(model, max_tension=8.0, substeps=2)
         >>> controller.reset()
         >>> controller.plan is None
         True
@@ -239,8 +246,9 @@ class Mpc(_core.Controller):
             self.plan = _shifted(self.plan, self.period / self._steps.period)
         for _ in range(rounds):
             before = self.plan.u
-            solved = self._mend(t, now)
-            if np.abs(self.plan.u - before).max() < SETTLED:
+            with np.errstate(over="ignore", invalid="ignore"):  # then there is no solution
+                solved = self._mend(t, now)
+            if np.abs(self.plan.u - before).max() < SETTLED * self._unit:
                 break
         self._last = self.plan.u[0]
         if not solved:  # a plan that leads nowhere is not gone on from

@@ -11,6 +11,7 @@ import numpy as np
 from cdcr.base.arrays import FloatArray
 from cdcr.base.check import Check, require_kind
 from cdcr.base.extras import require
+from cdcr.model.memory import warn_of_memory
 from cdcr.model.model import Model
 from cdcr.model.signals import find_outputs, input_names, state_names
 from cdcr.model.wrench import Wrench
@@ -70,6 +71,7 @@ def nonlinear_system(
     rest = np.zeros(model.num_coordinates)
     model.linearize(rest, rest, model.rest_command())  # refuses a robot without inertia
     control: Any = require("control", "control")
+    warn_of_memory(model, "a system of python-control", stacklevel=2)
     by_tension = np.array([not cable.length_driven for cable in model.robot.all_cables], dtype=bool)
     split = model.num_coordinates
 

@@ -18,6 +18,7 @@ from cdcr.base.check import Check, count, require_kind
 from cdcr.export.arcs import as_solid_arcs, twist_of
 from cdcr.export.links import Chain, Joint, Link
 from cdcr.files.new_file import file_path, new_file
+from cdcr.model.model import Model
 from cdcr.robot.cable import Cable
 from cdcr.robot.robot import Robot
 
@@ -60,7 +61,8 @@ def write_mjcf(
     Sensors give position and orientation of the tip and the cables' lengths.
 
     Gravity, payload, damping and the orientation of the base are carried over. Friction of cables
-    is not, and a warning says so. Sections bend up to 180 degrees; links do not collide.
+    and play of drives are not, and a warning says so. Sections bend up to 180 degrees; links do not
+    collide.
 
     Parameters
     ----------
@@ -108,10 +110,11 @@ def mjcf_text(robot: Robot, file: Path, *, links: int = 10) -> str:
     check.done()
     twists = [twist_of(section) for section in robot.sections]
     robot = as_solid_arcs(robot, "a chain of rigid links")
-    if any(cable.friction for cable in robot.all_cables) or any(
-        section.cable_friction for section in robot.sections
-    ):
-        warnings.warn("MuJoCo's model leaves the friction of cables out", stacklevel=3)
+    model = Model(robot)
+    losses = {"friction of cables": model.has_friction, "play of drives": model.has_backlash}
+    if any(losses.values()):
+        left = " and the ".join(name for name, has in losses.items() if has)
+        warnings.warn(f"MuJoCo's model leaves the {left} out", stacklevel=3)
     chain = Chain(robot, links, twists)
     _require_mass(chain)
     bends = [_bend(chain, i, links) for i in range(len(robot.sections))]
@@ -327,11 +330,12 @@ def _actuator(chain: Chain, cable: Cable) -> ElementTree.Element:
         most = _RANGE * math.pi * stiffest / cable.farthest
         return ElementTree.Element("motor", gear="-1", ctrlrange=_numbers((0.0, most)))
     straight = chain.ends[cable.end_section + 1]
-    strongest = cable.stiffness * straight
+    strongest = cable.stiffness * straight + cable.pretension
     return ElementTree.Element(
-        "position",
-        kp=repr(cable.stiffness),
-        kv=repr(cable.damping),
+        "general",
+        biastype="affine",
+        gainprm=repr(cable.stiffness),
+        biasprm=_numbers((-cable.pretension, -cable.stiffness, -cable.damping)),
         ctrlrange=_numbers((0.0, 2.0 * straight)),
         forcerange=_numbers((-strongest, 0.0)),
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -70,7 +71,7 @@ def _call(function: Rows, shapes: Sequence[tuple[int, ...]], given: Sequence[Any
     def on_rows(*arrays: Any) -> tuple[FloatArray, ...]:
         some = [np.asarray(array, dtype=np.float64) for array in arrays]
         now = some[0].shape[:-1]
-        found = function(*(one.reshape(-1, one.shape[-1]) for one in some))
+        found = function(*(one.reshape(math.prod(now), one.shape[-1]) for one in some))
         pairs = zip(found, shapes, strict=True)
         return tuple(answer.reshape(*now, *shape) for answer, shape in pairs)
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from cdcr.base.arrays import FloatArray
 from cdcr.base.check import require_kind
+from cdcr.model.memory import warn_of_memory
 from cdcr.model.model import Model
 from cdcr.model.steps import AnyDynamics, Steps, or_nan
 from cdcr.model.wrench import Wrench
@@ -58,6 +59,8 @@ def step(
     model: Model, period: float, substeps: int = 1, wrenches: Wrench | Sequence[Wrench] = ()
 ) -> ExactMap:
     """Return the state after a period, of the state before and of commands held."""
+    require_kind("model", model, Model)
+    warn_of_memory(model, "a step of the state", stacklevel=3)
     steps = Steps(AnyDynamics(model, wrenches), period, substeps)
     states = 2 * model.num_coordinates
 

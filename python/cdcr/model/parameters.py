@@ -48,8 +48,8 @@ class ParameterSets:
         if found is None:
             found = _core.ParameterSet(model, [self._described(name, besides) for name in names])
             self._known[names] = found
-            while len(self._known) > _KEPT:
-                del self._known[next(iter(self._known))]
+            for old in list(self._known)[:-_KEPT]:  # another thread may have left it out already
+                self._known.pop(old, None)
         return found
 
     def _described(

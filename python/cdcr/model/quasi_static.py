@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from cdcr import _core
 from cdcr.base.arrays import FloatArray, ReadOnlyArrays, read_only
 from cdcr.base.check import count, require_kind
+from cdcr.model.memory import other_drive
 from cdcr.model.model import Model
 from cdcr.model.statics import ConvergenceError
 from cdcr.robot.units import ask_about_commands
@@ -160,6 +161,9 @@ def quasi_static(
                 "after must be a run of this robot, got one of "
                 f"{count(after.q.shape[1], 'coordinate')} and {count(after.felt.shape[1], 'cable')}"
             )
+        differs = other_drive(model, after.model)
+        if differs is not None:
+            raise ValueError(f"after must be a run of this robot: {differs}")
         q, deflection, felt = after.q[-1], after.deflection[-1], after.felt[-1]
     found = _core.quasi_static(model, command, q, deflection, felt, wrenches)
     reached = len(found["q"])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from typing import Literal
 
 import numpy as np
@@ -83,3 +84,15 @@ def _largest_step(eigenvalue: complex) -> float:
     roots = np.roots(squared[:0:-1])
     real = roots.real[np.abs(roots.imag) <= _ROUNDING * np.abs(roots)]
     return float(np.min(real[real > 1.0])) / size
+
+
+def warn_of_long_steps(model: Model, step: float, who: str, *, stacklevel: int) -> None:
+    """Warn those whose steps of rk4 [s] make small motions about the robot at rest grow."""
+    limit = stable_step(model, model.rest_shape)
+    if step > limit:
+        warnings.warn(
+            f"{who} goes on by steps of {step:.3g} s, beyond the {limit:.3g} s up to which they "
+            "are stable here: give more substeps",
+            UserWarning,
+            stacklevel=stacklevel + 1,
+        )

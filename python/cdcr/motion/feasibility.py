@@ -11,6 +11,7 @@ from cdcr import _core
 from cdcr.base.arrays import FloatArray
 from cdcr.base.check import Check, require_kind
 from cdcr.base.rotations import rotation_of
+from cdcr.model.memory import warn_of_friction
 from cdcr.model.model import Model
 
 
@@ -97,6 +98,11 @@ def check_path(
     ValueError
         For a path of another size, or an argument out of its range.
 
+    Warns
+    -----
+    UserWarning
+        When cables rub, whose friction is left out.
+
     Examples
     --------
     >>> import cdcr
@@ -117,6 +123,7 @@ def check_path(
     if path.size not in ((6,) if orientation else (size, 3)):
         wanted = "6 values of the tip's pose" if orientation else f"{size} values, or 3 of the tip"
         raise ValueError(f"path must have {wanted}, got {path.size}")
+    warn_of_friction(model, "check_path", stacklevel=2)
     t = np.linspace(path.start, max(path.end, path.start + 1.0), samples)
     values = np.array([path.evaluate(time) for time in t])
     told: list[str] = []

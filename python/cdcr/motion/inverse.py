@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from cdcr import _core
 from cdcr.base.arrays import FloatArray, ReadOnlyArrays, read_only
 from cdcr.base.check import Check, one_of, require_kind
+from cdcr.model.memory import warn_of_friction
 from cdcr.model.model import Model
 from cdcr.model.statics import InfeasibleError, in_line
 from cdcr.motion.reference import Reference
@@ -210,7 +211,8 @@ def inverse_run(
     Warns
     -----
     UserWarning
-        Once, when the motion leaves the range of a Taylor formulation.
+        When the motion leaves the range of a Taylor formulation, and when cables rub, whose
+        friction is left out.
 
     Examples
     --------
@@ -228,6 +230,7 @@ def inverse_run(
     limits.number("max_tension", max_tension, "a number [N]")
     limits.done()
     warn_beyond_taylor_range(model, reference.q)
+    warn_of_friction(model, "inverse_run", stacklevel=2)
     force = model.inverse_dynamics(reference.q, reference.qd, reference.qdd)
     answers = [
         model.find_tension(one, min_tension, max_tension, q=where(model, q))

@@ -12,23 +12,15 @@ from cdcr import _core
 from cdcr.base.arrays import finite
 from cdcr.base.check import Check, as_tuple, require_kind
 from cdcr.base.keywords import by_keyword
+from cdcr.model.memory import other_drive, warn_of_memory
 from cdcr.model.model import Model
+from cdcr.model.stability import warn_of_long_steps
 from cdcr.runs.limits import told
-from cdcr.runs.parts import Actuator, Sensor, as_dicts
-
-
-def _place(check: Check, place: tuple[int, float] | None) -> tuple[int, float] | None:
-    if place is None:
-        return None
-    pair = check.items("force_at", place, "an index of a section and a fraction of its length")
-    if len(pair) != 2:
-        check.refuse("force_at", "an index of a section and a fraction of its length", place)
-        return None
-    section = check.whole("the section of force_at", pair[0], "an index of a section")
-    return section, check.number("the fraction of force_at", pair[1], "a number 0 to 1")
+from cdcr.runs.parts import Actuator, Sensor, as_dicts, read_place
 
 
 def _kalman(
+    model: Model,
     *,
     sensors: Sensor | Sequence[Sensor],
     actuators: Actuator | Sequence[Actuator],
@@ -40,17 +32,25 @@ def _kalman(
     **numbers: Any,
 ) -> dict[str, Any]:
     """Return options as the core takes them, or refuse what is of another kind."""
+    require_kind("model", model, Model)
     check = Check()
     given: dict[str, Any] = {
         name: check.number(name, value, "a number") for name, value in numbers.items()
     }
     given["substeps"] = check.whole("substeps", substeps, "a whole number >= 1")
-    given["force_at"] = _place(check, force_at)
+    given["force_at"] = read_place(check, force_at)
     check.done()
     wanted = "a cdcr.Model or a sequence of them"
     models = (variants,) if isinstance(variants, Model) else as_tuple("variants", variants, wanted)
     for i, variant in enumerate(models):
         require_kind(f"variants[{i}]", variant, Model)
+        differs = other_drive(model, variant)
+        if differs is not None:
+            raise ValueError(f"variants[{i}]: {differs}")
+    warn_of_memory(model, "the filter", stacklevel=4)
+    warn_of_long_steps(
+        model, given["period"] / max(1, given["substeps"]), "the filter", stacklevel=4
+    )
     noise = np.atleast_1d(finite(acceleration_noise, "acceleration_noise"))
     return given | {
         "sensors": as_dicts("sensors", sensors, Sensor),
@@ -142,8 +142,8 @@ class ExtendedKalman(_core.ExtendedKalman):
         share_noise: float = 0.0,
         share_deviation: float = 0.3,
     ) -> None:
-        require_kind("model", model, Model)
         options = _kalman(
+            model,
             sensors=sensors,
             period=period,
             substeps=substeps,
@@ -231,8 +231,8 @@ class UnscentedKalman(_core.UnscentedKalman):
         beta: float = 2.0,
         kappa: float = 0.0,
     ) -> None:
-        require_kind("model", model, Model)
         options = _kalman(
+            model,
             sensors=sensors,
             period=period,
             substeps=substeps,
@@ -326,12 +326,13 @@ class MomentumObserver(_core.MomentumObserver):
         require_kind("model", model, Model)
         if states is not None:
             require_kind("states", states, _core.Estimator)
+        warn_of_memory(model, "the observer", stacklevel=3)
         check = Check()
         numbers = {"bandwidth": bandwidth, "period": period, "damping": damping}
         options: dict[str, Any] = {
             name: check.number(name, value, "a number") for name, value in numbers.items()
         }
-        options["force_at"] = _place(check, force_at)
+        options["force_at"] = read_place(check, force_at)
         check.done()
         options |= {"actuators": as_dicts("actuators", actuators, Actuator), "states": states}
         super().__init__(model, options)

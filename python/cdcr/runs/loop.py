@@ -15,8 +15,10 @@ from cdcr.base.keywords import by_keyword
 from cdcr.model.model import Model
 from cdcr.model.wrench import Wrench
 from cdcr.robot.units import ask_about_commands
+from cdcr.runs.fits import require_controller
 from cdcr.runs.loop_channels import loop_channels
 from cdcr.runs.parts import Actuator, Sensor, as_dicts
+from cdcr.runs.simulate import about_step
 from cdcr.runs.trajectory import Trajectory
 
 
@@ -174,7 +176,7 @@ class Loop(_core.Loop):
     True
     """
 
-    __slots__ = ()  # a misspelt attribute is an error
+    __slots__ = ("_rk4_step",)  # a misspelt attribute is an error
 
     def __init__(
         self,
@@ -189,7 +191,7 @@ class Loop(_core.Loop):
         estimator: _core.Estimator | None = None,
     ) -> None:
         require_kind("model", model, Model)
-        require_kind("controller", controller, _core.Controller)
+        require_controller(controller, model)
         if estimator is not None:
             require_kind("estimator", estimator, _core.Estimator)
         check = Check()
@@ -202,6 +204,7 @@ class Loop(_core.Loop):
         options["actuators"] = as_dicts("actuators", actuators, Actuator)
         options["sensors"] = as_dicts("sensors", sensors, Sensor)
         super().__init__(model, controller, options, estimator)
+        self._rk4_step = options["step"] / options["substeps"] if method == "rk4" else 0.0
 
     def __repr__(self) -> str:
         """Say where it is, and what closes it."""
@@ -246,6 +249,7 @@ class Loop(_core.Loop):
         check.done()
         found = self._sampled(duration, every, wrenches)
         names = ("t", "q", "qd", "tension", "command", "method", "status", "message", "stats")
+        found["message"] += about_step(self.model, found["q"][0], self._rk4_step, found["status"])
         own = None if self.estimator is None else list(self.estimator.values)
         run = Trajectory(
             model=self.model,

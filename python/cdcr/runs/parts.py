@@ -186,3 +186,15 @@ class Sensor:
             check.whole(f"the section of places[{i}]", pair[0], "an index of a section")
             check.number(f"the fraction of places[{i}]", pair[1], "a number 0 to 1")
         check.done()
+
+
+def read_place(check: Check, place: tuple[int, float] | None) -> tuple[int, float] | None:
+    """Return the place of a force, or refuse what is none by `check`."""
+    if place is None:
+        return None
+    pair = check.items("force_at", place, "an index of a section and a fraction of its length")
+    if len(pair) != 2:
+        check.refuse("force_at", "an index of a section and a fraction of its length", place)
+        return None
+    section = check.whole("the section of force_at", pair[0], "an index of a section")
+    return section, check.number("the fraction of force_at", pair[1], "a number 0 to 1")

@@ -104,9 +104,14 @@ class Rollout(ReadOnlyArrays):
         -------
         Model
         """
+        try:
+            i = range(self.num_motions)[motion]
+        except IndexError:
+            there = count(self.num_motions, "motion")
+            raise IndexError(f"there is no motion {motion}: there are {there}, from 0") from None
         if self.parameters:
-            return Variation(self.model, self.parameters).model_of(motion)
-        return self.models[motion if len(self.models) > 1 else 0]
+            return Variation(self.model, self.parameters).model_of(i)
+        return self.models[i if len(self.models) > 1 else 0]
 
     @property
     def num_motions(self) -> int:

@@ -18,6 +18,7 @@ from cdcr.model.wrench import Wrench, loads
 from cdcr.robot.units import ask_about_commands
 from cdcr.runs.command import Command, command_input
 from cdcr.runs.events import EventFunction, EventRecord, SlackEvent, watched
+from cdcr.runs.fits import require_controller
 from cdcr.runs.sensitivities import Asked, asked_of
 from cdcr.runs.trajectory import Trajectory
 
@@ -83,11 +84,9 @@ def integrator_options(
     return chosen, _core.Options(**told)
 
 
-def _about_step(
-    model: Model, q0: ArrayLike, method: _core.Method, step: float, status: _core.Status
-) -> str:
-    """Return what a failed run of fixed steps may be due to, beside what its message says."""
-    if method != _core.Method.rk4 or status not in THROWN:
+def about_step(model: Model, q0: ArrayLike, step: float, status: _core.Status) -> str:
+    """Return what a failed run of rk4 may be due to, beside what its message says."""
+    if status not in THROWN:
         return ""
     limit = stable_step(model, q0)
     if step <= limit:
@@ -210,7 +209,7 @@ def simulate(
     by = sensitivities if isinstance(sensitivities, Asked) else asked_of(model, sensitivities)
     rest = chosen, options, progress, loads(wrenches), watched(events)
     if controller is not None:
-        require_kind("controller", controller, _core.Controller)
+        require_controller(controller, model)
         if asked is not None or np.size(break_points) > 0:
             raise ValueError(f"give either {name} or controller, not both")
         if by.names:
@@ -224,6 +223,8 @@ def simulate(
     rows = (
         raw.sensitivities.reshape(len(raw.t), 2 * model.num_coordinates, -1) if by.names else None
     )
+    is_rk4 = chosen == _core.Method.rk4
+    due = about_step(model, q0, options.step, raw.status) if is_rk4 else ""
     on_q, on_qd = ({}, {}) if rows is None else by.split(model, rows)
     run = Trajectory._of_core(
         model=model,
@@ -232,7 +233,7 @@ def simulate(
         qd=raw.qd,
         tension=raw.tension,
         status=raw.status,
-        message=raw.message + _about_step(model, q0, chosen, options.step, raw.status),
+        message=raw.message + due,
         stats=raw.stats,
         method=method,
         command=raw.command,

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
 # A signal has swung when it has left this share of its span around its mean on both sides.
 _SWING = 0.02
-# Fields of a section that take energy away.
-_LOSSES = ("damping", "twist_damping", "stretch_damping", "material_damping", "cable_friction")
+# Fields of a section that take energy away, beside friction of its cables.
+_LOSSES = ("damping", "twist_damping", "stretch_damping", "material_damping")
 
 
 class Metric(NamedTuple):
@@ -110,10 +110,9 @@ def energy_drift(run: Trajectory) -> float | None:
     or T + U - (B F).q where the actuation matrix B is constant. None where tensions change, or
     damping or friction take energy away.
     """
-    robot = run.model.robot
-    lossy = any(getattr(section, name) for section in robot.sections for name in _LOSSES)
-    rubbing = any(cable.friction for cable in robot.cables)
-    if lossy or rubbing or not is_steady(run):
+    sections = run.model.robot.sections
+    lossy = any(getattr(section, name) for section in sections for name in _LOSSES)
+    if lossy or run.model.has_friction or not is_steady(run):
         return None
     pull = run.tension[0]
     if run.model.has_constant_actuation:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -23,6 +23,7 @@ from cdcr.scenarios.file.values import error_prefix
 AT = "loop"
 STEP = 1e-3  # without one in the file [s]
 _NEAR = 1e-6  # a sample and a step, in steps
+_MANY = 10000  # distances that are tried where another would do
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,6 +64,22 @@ class ClosedLoop:
         """Run the robot from a state and sample it at output times (N,) [s]."""
         return self.run_loop(model, q0, qd0, t, **options).trajectory
 
+    def steps_apart(self, duration: float, num_samples: int) -> int:
+        """Return how many steps there are from sample to sample, a whole number."""
+        steps = duration / (num_samples - 1) / self.step
+        every = round(steps)
+        if every >= 1 and abs(steps - every) <= _NEAR * steps:
+            return every
+        whole, advice = round(duration / self.step), "change num_samples or t_end"
+        if whole >= 1 and abs(whole - duration / self.step) <= _NEAR:
+            near = (k for d in range(_MANY) for k in (every - d, every + d) if 1 <= k <= whole)
+            found = next((k for k in near if whole % k == 0), whole)
+            advice = f"num_samples = {whole // found + 1} would do"
+        raise ValueError(
+            f"samples of a closed loop must be whole numbers of its steps of {self.step:g} s "
+            f"apart, got {steps * self.step:g} s: {advice}"
+        )
+
     def run_loop(
         self,
         model: Model,
@@ -72,18 +89,26 @@ class ClosedLoop:
         **options: Any,
     ) -> LoopRun:
         """Run it and return all that the loop tells."""
-        steps = (t[-1] - t[0]) / (len(t) - 1) / self.step
-        every = round(steps)
-        if every < 1 or abs(steps - every) > _NEAR * steps:
-            raise ValueError(
-                f"samples of a closed loop must be whole numbers of its steps of {self.step:g} s "
-                f"apart, got {steps * self.step:g} s: change num_samples or t_end"
-            )
+        every = self.steps_apart(float(t[-1] - t[0]), len(t))
         loop = self.make(model)
         loop.reset(q0, qd0, time=float(t[0]))
         wrenches = options.get("wrenches", ())
         duration = every * (len(t) - 1) * self.step
         return loop.run(duration, record_every=every, wrenches=wrenches)
+
+
+def check_run(table: Mapping[str, Any], loop: ClosedLoop, num_samples: int, file: Path) -> None:
+    """Refuse what a loop cannot do of the rest of a scenario file."""
+    refuse(
+        str(file),
+        [
+            f"wrenches[{i}].times must be left out, and factors: in a loop wrenches are constant"
+            for i, wrench in enumerate(table.get("wrenches", ()))
+            if "times" in wrench
+        ],
+    )
+    with error_prefix(f"{file}, [{AT}]"):
+        loop.steps_apart(table["t_end"], num_samples)
 
 
 def read_loop(

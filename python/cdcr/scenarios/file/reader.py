@@ -32,7 +32,7 @@ from cdcr.model.model import Model
 from cdcr.runs.command import TensionTable
 from cdcr.runs.simulate import DEFAULT_METHOD, FIXED_STEP, integrator_options
 from cdcr.scenarios.file.controller import read_controller
-from cdcr.scenarios.file.loop import read_loop
+from cdcr.scenarios.file.loop import ClosedLoop, check_run, read_loop
 from cdcr.scenarios.file.robot import read_robot
 from cdcr.scenarios.file.shapes import TensionShapes
 from cdcr.scenarios.file.start import read_start
@@ -111,6 +111,9 @@ def scenario_from_table(table: dict[str, Any], file: Path) -> Scenario:
                 model = Model(robot, formulation=table.get("formulation", "exact"))
             given |= _of_model(table, model, file, given["t_end"])
     faults.done()
+    loop = given.get("input_source")
+    if isinstance(loop, ClosedLoop):
+        check_run(table, loop, given.get("num_samples", Scenario.num_samples), file)
     return Scenario(name=file.stem, **given)
 
 

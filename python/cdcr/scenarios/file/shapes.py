@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from cdcr.base.arrays import FloatArray
 from cdcr.model.model import Model
+from cdcr.runs.command import TensionTable
 from cdcr.runs.simulate import simulate
 from cdcr.runs.trajectory import Trajectory
 
@@ -139,6 +140,19 @@ class TensionShapes:
             inside = stretches == stretch
             command[inside] = self._within(int(stretch), times[inside])
         return command
+
+    def table(self, t: FloatArray) -> TensionTable:
+        """Return a table with rows at increasing times (N,) [s] and where commands jump or bend."""
+        breaks = np.array([one for one in self.break_points if t[0] < one < t[-1]], dtype=float)
+        after = np.searchsorted(t, breaks)
+        samples = np.concatenate([after - 1, after])
+        is_break = np.abs(t[samples] - np.tile(breaks, 2)) <= _ROUNDING * (t[-1] - t[0])
+        kept = np.delete(t, samples[is_break])
+        times = np.concatenate([kept, breaks, breaks])
+        before = [self._within(bisect_right(self.break_points, one) - 1, one) for one in breaks]
+        rows = np.concatenate([self(kept), np.reshape(before, (-1, self.num_cables)), self(breaks)])
+        order = np.argsort(times, kind="stable")  # rows before a break stay before those after
+        return TensionTable(times[order], rows[order])
 
     def _within(self, stretch: int, times: FloatArray) -> FloatArray:
         command = np.zeros((*times.shape, self.num_cables))

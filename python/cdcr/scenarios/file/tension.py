@@ -1,7 +1,8 @@
 """The tension of scenario files: constant, over time in place or in a CSV file, or shapes.
 
 Shapes of the robot are held by the least tensions that do: [tension.hold]. Shapes over time add up:
-[[tension]], exact at all times, or [[tension.shapes]], sampled every `step` and joined by lines.
+[[tension]], exact at all times, or [[tension.shapes]], sampled every `step`, and where they jump or
+bend, and joined by lines.
 """
 
 from __future__ import annotations
@@ -176,7 +177,7 @@ def _sampled(table: dict[str, Any], model: Model, t_end: float, file: Path) -> S
     def rows(model: Model, t_end: float) -> TensionTable:
         with values.error_prefix(f"{file}, [tension]"):
             t = even_times(t_end, table["step"])
-        return TensionTable(t, shapes(t))
+        return shapes.table(t)
 
     return rows
 
