@@ -116,6 +116,11 @@ TEST_CASE("what does not fit is refused in a sentence") {
       "force_at must be a section 0 to 0 and a fraction 0 to 1, got section 1 and fraction 0.5");
   options.variants = {Model(upright(2))};
   refuses("variant 1 must have 2 coordinates and 3 cables as the model has, got 4 and 6");
+  Robot by_length = upright(1);
+  for (Section& section : by_length.sections) section.cable_stiffness = 1e3;
+  options.variants = {Model(by_length)};
+  refuses(
+      "cable 1 of variant 1 must be driven by tension as the model's, got one driven by length");
   options.start = Vector3d::Zero();
   refuses("start must be 2 finite values, got [0 0 0]");
   options.deviation = -1.0;

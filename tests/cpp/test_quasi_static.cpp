@@ -8,7 +8,9 @@
 #include "cdcr/simulator.hpp"
 #include "cdcr/statics.hpp"
 #include "support/cable_robots.hpp"
+#include "support/controlled_robots.hpp"
 #include "support/residual.hpp"
+#include "support/rod_robots.hpp"
 #include "support/throws.hpp"
 #include "support/tolerances.hpp"
 
@@ -192,6 +194,31 @@ TEST_CASE("slow motion with memory is where it says") {
     }
     // Behind by what damping takes, and by the bristles' way into sliding.
     CHECK(residual(simulator.q()[0], run.q(i, 0), run.q(8, 0)) <= 3e-2);
+  }
+}
+
+TEST_CASE("at rest under its weight alone, tilted or bent by itself") {
+  std::vector<Robot> robots;
+  robots.push_back(upright(3));
+  robots.back().gravity = {9.81, 0.0, 0.0};
+  robots.push_back(upright(3));
+  robots.back().gravity = {3.0, -4.0, -8.0};
+  robots.push_back(rod_robot());
+  robots.back().gravity = {6.0, 2.0, -7.0};
+  robots.push_back(rod_robot());
+  robots.back().sections[0].rest_bending = {0.4, -0.3};
+  for (const Robot& robot : robots) {
+    const Model model(robot);
+    VectorXd none(model.num_cables());
+    rest_command(model, none);
+    const RowMatrixXd commands = none.transpose().replicate(4, 1);
+    const QuasiStatic run = quasi_static(model, commands);
+    REQUIRE(run.status == Status::ok);
+    const Equilibrium rest = equilibrium(model, none);
+    REQUIRE(rest.status == Status::ok);
+    for (Index i = 0; i < 4; ++i) {
+      CHECK(residual(VectorXd(run.q.row(i).transpose()), rest.q, 1.0) <= two_rests);
+    }
   }
 }
 

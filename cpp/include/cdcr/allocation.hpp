@@ -29,7 +29,8 @@ struct TensionLimits {
 
 /// Finds the least-norm tensions that give a generalised force, eq. (20):
 /// min |F|^2 with B F = Q and F within the limits; where none exist, the tensions whose force
-/// comes nearest to Q.
+/// comes nearest to Q. Where rods stretch, forces along the backbone [N] and moments [N m] each
+/// count over the most that one cable gives of them by 1 N.
 ///
 /// Where three cables, not on one side of the backbone, end at every section: closed form, from tip
 /// to base, each section's pseudo-inverse plus a tension common to its three, eq. (46). That is the
@@ -88,7 +89,9 @@ class Allocator {
   std::optional<Model> model_;  // where B depends on q
   VectorXd lower_, upper_;      // limits of the tensions [N]
   VectorXd low_, high_;         // the same in the unit of the force at hand
-  double scale_ = 1.0;          // largest column of B, so that lengths are near one
+  std::vector<bool> along_;     // whether a coordinate is a stretch: its force is in N
+  VectorXd scale_;              // largest column of B in moments, and in forces: then all near one
+  double moment_ = 1.0;         // that in moments [m]
   double unit_ = 1.0;           // of the force at hand [N m]
   double epsilon_ = 0.0;        // of the search
   double softest_ = 0.0;        // least bending stiffness [N m/rad]

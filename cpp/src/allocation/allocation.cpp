@@ -40,6 +40,12 @@ Allocator::Allocator(const Model& model, const TensionLimits& limits)
   if (!model.has_constant_actuation()) model_ = model;
   softest_ = model.stiffness().minCoeff();
   B_ = model.actuation_matrix();
+  scale_ = VectorXd::Ones(m);
+  along_.assign(static_cast<std::size_t>(m), false);
+  for (Index k = 0; k < model.num_sections(); ++k) {
+    const int stretches = model.robot().sections[static_cast<std::size_t>(k)].stretch_order + 1;
+    std::fill_n(along_.begin() + model.first_coordinate(k + 1) - stretches, stretches, true);
+  }
   set_actuation();
   normal_ = MatrixXd::Identity(m, m);
   ldlt_.compute(normal_);
@@ -74,11 +80,21 @@ void Allocator::set_actuation() noexcept {
   for (Index j = 0; j < B_.cols(); ++j) {
     if (place_[j] == Place::unused) B_.col(j).setZero();
   }
-  scale_ = 0.0;
-  for (Index j = 0; j < B_.cols(); ++j) scale_ = std::fmax(scale_, B_.col(j).norm());
-  if (!(scale_ > 0.0)) scale_ = 1.0;
-  B_ /= scale_;
-  negligible_ = no_bend * softest_ / scale_;
+  for (const bool along : {false, true}) {
+    double largest = 0.0;  // column of rows of this kind
+    for (Index j = 0; j < B_.cols(); ++j) {
+      double square = 0.0;
+      for (Index i = 0; i < B_.rows(); ++i)
+        square += along_[i] == along ? B_(i, j) * B_(i, j) : 0.0;
+      largest = std::fmax(largest, std::sqrt(square));
+    }
+    if (along == false) moment_ = largest > 0.0 ? largest : 1.0;
+    for (Index i = 0; i < B_.rows(); ++i) {
+      if (along_[i] == along) scale_[i] = largest > 0.0 ? largest : 1.0;
+    }
+  }
+  for (Index j = 0; j < B_.cols(); ++j) B_.col(j).array() /= scale_.array();
+  negligible_ = no_bend * softest_ / moment_;
 }
 
 void Allocator::find_triples(const Model& model) {
@@ -285,7 +301,7 @@ bool Allocator::solve(const ConstVectorRef& force) noexcept {
   unit_ = largest > huge ? largest : 1.0;
   low_ = lower_ / unit_;
   high_ = upper_ / unit_;
-  Q_ = force / unit_ / scale_;
+  Q_ = (force / unit_).cwiseQuotient(scale_);
   if (!solve_in_closed_form()) search();
   const bool feasible = is_met();
   for (Index j = 0; j < F_.size(); ++j) {
@@ -293,7 +309,7 @@ bool Allocator::solve(const ConstVectorRef& force) noexcept {
                   : place_[j] == Place::upper ? upper_[j]
                                               : F_[j] * unit_;
   }
-  force_ = unit_ * (scale_ * (Q_ - rest_));
+  force_ = unit_ * scale_.cwiseProduct(Q_ - rest_);
   return feasible && tension_.allFinite();
 }
 

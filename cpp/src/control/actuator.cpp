@@ -12,6 +12,8 @@ namespace {
 
 // Semi-implicit steps of a critically damped loop are stable to twice this and true to a tenth.
 constexpr double largest_turn = 0.5;
+// [N], or [m] of lengths.
+constexpr double finest = 1e-100;
 
 void check(const Actuator& a, const Cable& cable, std::size_t j, double step) {
   const auto item = [&](const char* name) {
@@ -24,6 +26,11 @@ void check(const Actuator& a, const Cable& cable, std::size_t j, double step) {
   detail::require(a.min_command >= 0.0 && a.max_command >= a.min_command, "limits of actuator ",
                   j + 1, " must satisfy 0 <= min_command <= max_command, got ", a.min_command,
                   " and ", a.max_command);
+  detail::require(std::isfinite(a.min_command), item("min_command"), " must be finite");
+  // Below, a command counted in them is no number.
+  detail::require(a.resolution == 0.0 || a.resolution >= finest, item("resolution"),
+                  " must be 0 (none) or at least ", finest, " N (m of lengths), got ",
+                  a.resolution);
   if (!a.winch) return;
   const Winch& w = *a.winch;
   detail::require(cable.length_driven(), "a winch drives cables by length, but cable ", j + 1,

@@ -58,6 +58,14 @@ void check_variants(const Model& model, const KalmanOptions& options) {
         "variant ", k + 1, " must have ", model.num_coordinates(), " coordinates and ",
         model.num_cables(), " cables as the model has, got ", variant.num_coordinates(), " and ",
         variant.num_cables());
+    for (std::size_t j = 0; j < model.cables().size(); ++j) {
+      const auto drive = [j](const Model& of) {
+        return of.cables()[j].length_driven() ? "length" : "tension";
+      };
+      require(drive(variant) == drive(model), "cable ", j + 1, " of variant ", k + 1,
+              " must be driven by ", drive(model), " as the model's, got one driven by ",
+              drive(variant));
+    }
     require_inertia(variant);
   }
 }

@@ -31,6 +31,8 @@ constexpr double longest_step = 0.5;
 constexpr double sticks_by = 2e2;
 // Out of balance over the size of the forces in it: rounding, with a margin.
 constexpr double smooth = 1e-14, sticky = 2e-15;
+// [N m]; below, numbers lose digits.
+constexpr double least = 1e-290;
 
 }  // namespace
 
@@ -44,7 +46,7 @@ SlowStep::SlowStep(const Model& model, const Wrenches& wrenches)
     }
     if (m > 0) stick_ = sticks_by * model.stiffness().maxCoeff() / (nearest * nearest);
   }
-  q_ = trial_ = moved_ = moved_from_ = r_ = step_ = size_ = change_ = VectorXd::Zero(d);
+  q_ = trial_ = moved_ = moved_from_ = r_ = step_ = size_ = strain_ = change_ = VectorXd::Zero(d);
   command_ = command_at_rest_ = command_change_ = deflection_ = tension_ = friction_ =
       end_tension_ = new_deflection_ = VectorXd::Zero(m);
   sliding_.assign(static_cast<std::size_t>(m), Sliding::sticks);
@@ -71,7 +73,9 @@ void SlowStep::set_curvature(const VectorXd& q) noexcept {
 
 void SlowStep::balance(const VectorXd& q, Wanted wanted) noexcept {
   potential_gradient(model_, data_, q, r_);
-  size_ = r_.cwiseAbs();
+  strain_ = q - model_.rest();
+  size_ = r_.cwiseAbs();  // and of what in it is in balance with weight
+  size_ += model_.elastic_stiffness().lazyProduct(strain_).cwiseAbs();
   if (!wrenches_.empty()) {
     data_.force.setZero();
     add_wrench_force(model_, q, wrenches_, data_.force);
@@ -256,7 +260,7 @@ void SlowStep::add_stuck_stiffness(const CableGeometry<double>& at, Index j, con
 }
 
 double SlowStep::tolerance() const noexcept {
-  return smooth * size_.maxCoeff() + sticky * sticking_;
+  return smooth * size_.maxCoeff() + sticky * sticking_ + least;
 }
 
 /// Goes along the step until what is out of balance along it has become small: where cables stick

@@ -49,7 +49,7 @@ class SlowStep {
   const Wrenches& wrenches_;
   Data data_;
   double stick_;  // stiffness of a cable that sticks [N/m]
-  VectorXd command_, q_, deflection_, trial_, moved_, moved_from_, r_, step_, size_;
+  VectorXd command_, q_, deflection_, trial_, moved_, moved_from_, r_, step_, size_, strain_;
   VectorXd change_, command_at_rest_, command_change_;  // of the last step
   VectorXd tension_, friction_, end_tension_, new_deflection_;
   std::vector<Sliding> sliding_, before_;  // before: at the last rest
