@@ -99,11 +99,11 @@ TEST_CASE("what does not fit is refused in a sentence") {
   refuses("noise of sensor 1 must be > 0 for an estimator, got 0");
   options.sensors[0].delay = 1.5e-3;
   refuses(
-      "delay of a sensor, for an estimator, must be a whole number of steps of 0.001 s, 0 to 1e9, "
+      "delay of sensor 1, for an estimator, must be a whole number of steps of 0.001 s, 0 to 1e9, "
       "got 0.0015 s");
   options.sensors[0].period = 1.5e-3;
   refuses(
-      "period of a sensor, for an estimator, must be a whole number of steps of 0.001 s, 1 to "
+      "period of sensor 1, for an estimator, must be a whole number of steps of 0.001 s, 1 to "
       "1e9, got 0.0015 s");
   options.period = 0.0;
   refuses("period must be > 0 s and finite, got 0");
