@@ -144,7 +144,8 @@ def test_what_does_not_fit_is_refused(make: Any, words: str) -> None:
 )
 def test_a_sensor_that_does_not_fit_is_named(kind: Any, given: dict[str, Any], words: str) -> None:
     others = (cdcr.Pid(MODEL, kp=1.0),) if kind is cdcr.Loop else ()
-    bad = cdcr.Sensor(**{"kind": "tip", "noise": 1e-3} | given)
+    usual: dict[str, Any] = {"kind": "tip", "noise": 1e-3}
+    bad = cdcr.Sensor(**usual | given)
     with pytest.raises(ValueError, match=f"^{words}"):
         kind(MODEL, *others, sensors=[LENGTHS, bad])
 

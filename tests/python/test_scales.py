@@ -44,7 +44,7 @@ def test_gains_that_overflow_end_the_run(model: cdcr.Model) -> None:
         pid.update(0.0, [0.2, 0.0], [0.0, 0.0])
 
 
-USUAL = {
+USUAL: dict[str, Any] = {
     "length": 0.3,
     "backbone_mass": 0.01,
     "backbone_diameter": 1e-3,
