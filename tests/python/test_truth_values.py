@@ -61,6 +61,7 @@ NUMBERS: dict[str, Callable[[Any], object]] = {
     ),
     "rtol of simulate": lambda x: cdcr.simulate(MODEL, ZERO, ZERO, t=[0.0, 0.01], rtol=x),
     "max_steps of simulate": lambda x: cdcr.simulate(MODEL, ZERO, ZERO, t=[0, 0.01], max_steps=x),
+    "motion of a rollout": cdcr.rollout(MODEL, [ZERO, ZERO], ZERO, step=1e-3, steps=1).model_of,
     "kp of Pid": lambda x: cdcr.Pid(MODEL, kp=x),
     "step of gradient": lambda x: cdcr.gradient(
         MODEL, ZERO, ZERO, NOTHING, lambda m: (0.0, {}), step=x, steps=1, parameters="payload"
