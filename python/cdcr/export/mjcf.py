@@ -18,6 +18,7 @@ from cdcr.base.check import Check, count, require_kind
 from cdcr.export.arcs import as_solid_arcs, twist_of
 from cdcr.export.links import Chain, Joint, Link
 from cdcr.files.new_file import file_path, new_file
+from cdcr.model.model import Model
 from cdcr.robot.cable import Cable
 from cdcr.robot.robot import Robot
 
@@ -100,6 +101,7 @@ def write_mjcf(
 def mjcf_text(robot: Robot, file: Path, *, links: int = 10) -> str:
     """Return what `write_mjcf` writes; the name of the file is that of the model."""
     require_kind("robot", robot, Robot)
+    Model(robot)  # refuses one beyond all sizes
     if file.suffix != ".xml":
         raise ValueError(f"the file name must end in .xml, got {file.name!r}")
     check, most = Check(), _MOST_LINKS // len(robot.sections)
