@@ -2,7 +2,6 @@
 
 #include <pybind11/numpy.h>
 
-#include <algorithm>
 #include <string>
 
 namespace cdcr::python {
@@ -52,13 +51,28 @@ bool is_no_number(PyObject* value) {
   return array.ndim() == 0 && (kind == 'U' || kind == 'S' || kind == 'b');
 }
 
+/// Whether an argument of a function is one number, by what pybind11 has written of it; else it
+/// stands for an array, which the function looks at, or is a switch.
+bool is_number(PyObject* record, Py_ssize_t i, Py_ssize_t num_positional, PyObject* names) {
+  const py::detail::function_record* known = py::detail::function_record_ptr_from_PyObject(record);
+  const auto place = static_cast<std::size_t>(i);
+  if (known == nullptr || (i < num_positional && place >= known->args.size())) return false;
+  const std::string name = i < num_positional
+                               ? known->args[place].name
+                               : PyUnicode_AsUTF8(PyTuple_GET_ITEM(names, i - num_positional));
+  const std::string signature = known->signature;
+  const std::size_t at = signature.find(name + ": typing.Supports");
+  return at != std::string::npos && at > 0 &&
+         (signature[at - 1] == ' ' || signature[at - 1] == '(');
+}
+
 PyObject* call(PyObject* record, PyObject* const* values, Py_ssize_t num_positional,
                PyObject* names) {
   const Py_ssize_t num_named = names == nullptr ? 0 : PyTuple_GET_SIZE(names);
-  if (std::any_of(values, values + num_positional + num_named, is_no_number)) {
+  for (Py_ssize_t i = 0; i < num_positional + num_named; ++i) {
+    if (!is_no_number(values[i]) || !is_number(record, i, num_positional, names)) continue;
     explain(record, values, num_positional, names);
-    if (!error_has(" takes arguments of other kinds ")) return nullptr;
-    PyErr_Clear();  // it stands for an array, which the function looks at, or for a switch
+    return nullptr;
   }
   PyObject* result = dispatcher(record, values, num_positional, names);
   if (result == nullptr && PyErr_ExceptionMatches(PyExc_TypeError) != 0 &&
