@@ -97,8 +97,9 @@ bool is_real(const py::handle& item) {
 
 /// What entries other than real numbers are, as in "complex128"; nothing where there are none.
 std::string other_entries(const py::array& array) {
-  if (holds_reals(array)) return "";
   const char kind = array.dtype().kind();
+  if (array.ndim() == 0 && kind == 'b') return "bool";
+  if (holds_reals(array)) return "";
   if (kind == 'U' || kind == 'S') return "text";
   if (kind != 'O') return py::str(array.dtype().attr("name"));
   for (const py::handle item : array.attr("flat")) {

@@ -91,6 +91,15 @@ const Model& model_of(const Estimator& self) {
   return dynamic_cast<const MomentumObserver&>(self).model();
 }
 
+/// The filter that hears sensors: an estimator itself, or what an observer asks; or nothing.
+const KalmanFilter* filter_of(const Estimator& self) {
+  if (const auto* observer = dynamic_cast<const Observer*>(&self)) {
+    const py::object states = observer->options["states"];
+    return states.is_none() ? nullptr : filter_of(states.cast<const Estimator&>());
+  }
+  return dynamic_cast<const KalmanFilter*>(&self);
+}
+
 void reset(Estimator& self, const py::object& q, const py::object& qd, const py::object& command) {
   const Model& model = model_of(self);
   const VectorXd q0 = *read_bending(model, q, "q");
@@ -106,7 +115,7 @@ py::tuple update(Estimator& self, const py::sequence& measurements, const py::ob
   const Model& model = model_of(self);
   const Index d = model.num_coordinates();
   std::vector<Measurement> told;
-  const auto* filter = dynamic_cast<const KalmanFilter*>(&self);
+  const KalmanFilter* filter = filter_of(self);
   for (std::size_t i = 0; i < measurements.size(); ++i) {
     const std::string item = "measurements[" + std::to_string(i) + "]";
     const py::object one = measurements[i];
@@ -201,8 +210,15 @@ py::class_<Estimating<Law>, Base> bind_law(py::module_& m, const char* name, con
       .def_readonly("model", &Estimating<Law>::model, "The robot that it reckons with.")
       .def_readonly("options", &Estimating<Law>::options, "What it was made of, a dict.");
   make_picklable(
-      law, [](const Estimating<Law>& self) { return py::make_tuple(self.model, self.options); },
-      [make](const py::tuple& state) { return make(state[0], state[1].cast<py::dict>()); });
+      law,
+      [](const Estimating<Law>& self) {
+        return py::make_tuple(self.model, self.options, to_array(self.memory()));
+      },
+      [make](const py::tuple& state) {
+        std::unique_ptr<Estimating<Law>> made(make(state[0], state[1].cast<py::dict>()));
+        made->set_memory(to_vector(state[2]));
+        return made.release();
+      });
   return law;
 }
 

@@ -52,7 +52,9 @@ void check_place(const Model& model, Index section, double fraction) {
 
 VectorXd read_max_theta(const Model& model, const py::object& max_theta) {
   if (max_theta.is_none()) return {};
-  const bool one = !py::hasattr(max_theta, "__len__");
+  const bool one = !py::hasattr(max_theta, "__len__") ||
+                   (py::isinstance<py::array>(max_theta) &&
+                    py::reinterpret_borrow<py::array>(max_theta).ndim() == 0);
   return one ? VectorXd(VectorXd::Constant(1, read_array(max_theta, "max_theta", {}).data()[0]))
              : VectorXd(*VectorArgument(max_theta, "max_theta", model.num_sections(), of_sections));
 }

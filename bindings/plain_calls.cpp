@@ -2,7 +2,6 @@
 
 #include <pybind11/numpy.h>
 
-#include <algorithm>
 #include <string>
 
 namespace cdcr::python {
@@ -11,8 +10,9 @@ namespace {
 namespace py = pybind11;
 using Call = PyObject* (*)(PyObject*, PyObject* const*, Py_ssize_t, PyObject*);
 
-Call dispatcher = nullptr;  // of pybind11, the same for all functions
-py::handle functions;       // a dict by their records, which are all that a call is given
+Call dispatcher = nullptr;            // of pybind11, the same for all functions
+py::handle functions;                 // a dict by their records, which are all that a call is given
+PyTypeObject* truth_value = nullptr;  // of NumPy
 
 /// Sets a TypeError that says what is wrong with a call.
 void explain(PyObject* record, PyObject* const* values, Py_ssize_t num_positional,
@@ -40,20 +40,39 @@ bool error_has(const char* words) {
   return has;
 }
 
-/// Whether it is an array of one text without dimensions, which Python's float() reads as a number.
-bool is_text_array(PyObject* value) {
-  if (PyFloat_CheckExact(value) || !py::isinstance<py::array>(value)) return false;
+/// Whether it is a text in an array without dimensions, or a truth value, which Python and NumPy
+/// read as numbers.
+bool is_no_number(PyObject* value) {
+  if (PyFloat_CheckExact(value)) return false;
+  if (PyBool_Check(value) || Py_IS_TYPE(value, truth_value)) return true;
+  if (!py::isinstance<py::array>(value)) return false;
   const auto array = py::reinterpret_borrow<py::array>(value);
-  return array.ndim() == 0 && (array.dtype().kind() == 'U' || array.dtype().kind() == 'S');
+  const char kind = array.dtype().kind();
+  return array.ndim() == 0 && (kind == 'U' || kind == 'S' || kind == 'b');
+}
+
+/// Whether an argument of a function is one number, by what pybind11 has written of it; else it
+/// stands for an array, which the function looks at, or is a switch.
+bool is_number(PyObject* record, Py_ssize_t i, Py_ssize_t num_positional, PyObject* names) {
+  const py::detail::function_record* known = py::detail::function_record_ptr_from_PyObject(record);
+  const auto place = static_cast<std::size_t>(i);
+  if (known == nullptr || (i < num_positional && place >= known->args.size())) return false;
+  const std::string name = i < num_positional
+                               ? known->args[place].name
+                               : PyUnicode_AsUTF8(PyTuple_GET_ITEM(names, i - num_positional));
+  const std::string signature = known->signature;
+  const std::size_t at = signature.find(name + ": typing.Supports");
+  return at != std::string::npos && at > 0 &&
+         (signature[at - 1] == ' ' || signature[at - 1] == '(');
 }
 
 PyObject* call(PyObject* record, PyObject* const* values, Py_ssize_t num_positional,
                PyObject* names) {
   const Py_ssize_t num_named = names == nullptr ? 0 : PyTuple_GET_SIZE(names);
-  if (std::any_of(values, values + num_positional + num_named, is_text_array)) {
+  for (Py_ssize_t i = 0; i < num_positional + num_named; ++i) {
+    if (!is_no_number(values[i]) || !is_number(record, i, num_positional, names)) continue;
     explain(record, values, num_positional, names);
-    if (!error_has(" takes arguments of other kinds ")) return nullptr;
-    PyErr_Clear();  // it stands for an array, which the function looks at
+    return nullptr;
   }
   PyObject* result = dispatcher(record, values, num_positional, names);
   if (result == nullptr && PyErr_ExceptionMatches(PyExc_TypeError) != 0 &&
@@ -84,6 +103,8 @@ void wrap(const py::handle& item) {
 
 void tell_calls_plainly(const py::module_& m) {
   functions = py::dict().release();  // never freed: as long as the module
+  const py::object type = py::module_::import("numpy").attr("bool_");
+  truth_value = reinterpret_cast<PyTypeObject*>(type.inc_ref().ptr());
   for (const auto& item : py::dict(m.attr("__dict__"))) {
     wrap(item.second);
     if (!PyType_Check(item.second.ptr())) continue;

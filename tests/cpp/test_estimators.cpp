@@ -1,6 +1,8 @@
 // Estimators in closed loops, and what they refuse.
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "cdcr/cdcr.hpp"
 #include "support/allocations.hpp"
 #include "support/controlled_robots.hpp"
@@ -99,11 +101,11 @@ TEST_CASE("what does not fit is refused in a sentence") {
   refuses("noise of sensor 1 must be > 0 for an estimator, got 0");
   options.sensors[0].delay = 1.5e-3;
   refuses(
-      "delay of a sensor, for an estimator, must be a whole number of steps of 0.001 s, 0 to 1e9, "
+      "delay of sensor 1, for an estimator, must be a whole number of steps of 0.001 s, 0 to 1e9, "
       "got 0.0015 s");
   options.sensors[0].period = 1.5e-3;
   refuses(
-      "period of a sensor, for an estimator, must be a whole number of steps of 0.001 s, 1 to "
+      "period of sensor 1, for an estimator, must be a whole number of steps of 0.001 s, 1 to "
       "1e9, got 0.0015 s");
   options.period = 0.0;
   refuses("period must be > 0 s and finite, got 0");
@@ -145,6 +147,40 @@ TEST_CASE("what does not fit is refused in a sentence") {
   CHECK(filter.update(0.0, {}, Vector3d::Zero(), q, qd) == Status::not_started);
   filter.reset(q, qd, Vector3d::Zero());
   CHECK(filter.update(0.0, {}, Vector3d::Zero(), q, qd) == Status::wrong_size);
+}
+
+TEST_CASE("one that takes up the memory of another goes on as that") {
+  const Model model(upright(2));
+  KalmanOptions options = of_lengths(1e-4);
+  options.sensors[0].delay = 2.0 * step;
+  options.actuators.resize(1);
+  options.actuators[0].time_constant = 0.01;
+  options.actuators[0].dead_time = step;
+  ExtendedKalman one(model, options), other(model, options);
+  MomentumObserver heard(model), also(model);
+  const VectorXd zero = VectorXd::Zero(4);
+  one.reset(zero, zero, VectorXd::Zero(6));
+  heard.reset(zero, zero, VectorXd::Zero(6));
+  VectorXd q = zero, qd = zero, q2 = zero, qd2 = zero, lengths = VectorXd::Zero(6);
+  for (int k = 0; k < 12; ++k) {
+    const VectorXd at = VectorXd::Constant(4, 0.01 * std::sin(k)), rate = 0.5 * at;
+    const VectorXd command = VectorXd::Constant(6, 1.0 + k);
+    cable_lengths(model, at, lengths);
+    if (k == 6) {
+      other.set_memory(one.memory());
+      also.set_memory(heard.memory());
+    }
+    CHECK(one.update(0.0, {{lengths, true}}, command, q, qd) == Status::ok);
+    if (k >= 6) CHECK(other.update(0.0, {{lengths, true}}, command, q2, qd2) == Status::ok);
+    q = q2 = at;
+    qd = qd2 = rate;
+    CHECK(heard.update(0.0, {}, command, q, qd) == Status::ok);
+    if (k >= 6) CHECK(also.update(0.0, {}, command, q2, qd2) == Status::ok);
+  }
+  CHECK(other.state() == one.state());
+  CHECK(other.covariance() == one.covariance());
+  CHECK(also.generalized_force() == heard.generalized_force());
+  CHECK_THROWS_SENTENCE(also.set_memory(zero), "memory must be 50 numbers, got 4");
 }
 
 TEST_SUITE_END();

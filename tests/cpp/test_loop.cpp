@@ -239,10 +239,10 @@ TEST_CASE("what does not fit is refused in a sentence") {
   how.actuators.clear();
   how.sensors.resize(1);
   how.sensors[0].kind = Sensor::Kind::curvature;
-  CHECK_THROWS_SENTENCE(Loop(model, steady, how), "a sensor of curvature needs places");
+  CHECK_THROWS_SENTENCE(Loop(model, steady, how), "sensor 1, of curvature, needs places");
   how.sensors[0].places = {{3, 0.5}};
   CHECK_THROWS_SENTENCE(Loop(model, steady, how),
-                        "places of a sensor must be sections 0 to 0 and fractions 0 to 1, got "
+                        "places of sensor 1 must be sections 0 to 0 and fractions 0 to 1, got "
                         "section 3 and fraction 0.5");
 }
 

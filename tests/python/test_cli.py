@@ -217,3 +217,18 @@ def test_what_is_printed_onto_a_full_disk() -> None:
         done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
     assert done.returncode == 2
     assert done.stderr == "cdcr: what is printed: No space left on device\n"
+
+
+@pytest.mark.parametrize(
+    "command", ["info", "validate", "export-c", "export-fmu", "export-mjcf", "view"]
+)
+def test_a_robot_beyond_all_sizes_is_refused(command: str, tmp_path: Path) -> None:
+    file, out = tmp_path / "robot.toml", tmp_path / "out.xml"
+    section = cdcr.Section(
+        length=1e-160, backbone_mass=0.01, backbone_diameter=1e-3, youngs_modulus=1e10
+    )
+    cdcr.Robot(sections=[section]).save(file)
+    result = cdcr_(command, file, *(("--out", out) if command.startswith("export") else ()))
+    assert result.exit_code == 2, result.output
+    sentence = f"{file}: the robot must be 1e-150 to 1e150 m long in all, got 1e-160"
+    assert sentence in result.output.replace("\n", "")

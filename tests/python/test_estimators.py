@@ -130,6 +130,26 @@ def test_what_does_not_fit_is_refused(make: Any, words: str) -> None:
         make()
 
 
+@pytest.mark.parametrize("kind", [cdcr.ExtendedKalman, cdcr.UnscentedKalman, cdcr.Loop])
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"period": 1.5e-3}, "period of sensor 2,? .*must be a whole number of steps of 0.001 s"),
+        ({"delay": 1.5e-3}, "delay of sensor 2,? .*must be a whole number of steps of 0.001 s"),
+        ({"noise": -1.0}, "noise of sensor 2 must be "),
+        ({"bias": np.inf}, "bias of sensor 2 must be finite, got inf"),
+        ({"kind": "curvature"}, "sensor 2, of curvature, needs places"),
+        ({"places": [(1, 0.5)]}, "places of sensor 2 must be sections 0 to 0 and fractions 0 to "),
+    ],
+)
+def test_a_sensor_that_does_not_fit_is_named(kind: Any, given: dict[str, Any], words: str) -> None:
+    others = (cdcr.Pid(MODEL, kp=1.0),) if kind is cdcr.Loop else ()
+    usual: dict[str, Any] = {"kind": "tip", "noise": 1e-3}
+    bad = cdcr.Sensor(**usual | given)
+    with pytest.raises(ValueError, match=f"^{words}"):
+        kind(MODEL, *others, sensors=[LENGTHS, bad])
+
+
 def test_estimators_of_another_robot_are_refused() -> None:
     larger = cdcr.Model(cdcr.robots.three_sections())
     kalman = cdcr.ExtendedKalman(larger, sensors=LENGTHS)

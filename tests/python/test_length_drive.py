@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import cdcr
+from cdcr import _core
 
 METHODS = ("auto", "rk4", "dopri5", "dop853", "bdf", "adams")
 ZEROS = np.zeros(2)
@@ -121,3 +122,14 @@ def test_the_energy_of_the_springs_balances_and_is_saved(tmp_path: Path) -> None
     names = next(line for line in header if not line.startswith("#"))
     assert "cable_energy" in names
     assert "command" in names
+
+
+def test_what_ends_a_run_is_told_of_either_drive(model: cdcr.Model) -> None:
+    """Commands are lengths here: no advice may be about tensions alone."""
+    for status in cdcr.Status:
+        sentence = _core.status_message(status).replace("tensions or lengths", "")
+        assert "tension" not in sentence, sentence
+    short = np.array(model.rest_command()) - [0.3, 0.0, 0.0]
+    run = cdcr.simulate(model, ZEROS, ZEROS, t=[0.0, 1.0], tension=short)
+    assert run.status is cdcr.Status.bending_limit
+    assert "pull the cables less, or lessen whatever else bends it" in run.message

@@ -1,6 +1,7 @@
 """Sizes far from one: forces that overflow, forces of rounding, numbers of few digits."""
 
 import math
+import re
 from dataclasses import replace
 from typing import Any
 
@@ -43,14 +44,47 @@ def test_gains_that_overflow_end_the_run(model: cdcr.Model) -> None:
         pid.update(0.0, [0.2, 0.0], [0.0, 0.0])
 
 
-@pytest.mark.filterwarnings("ignore:.*millimetres")
-def test_a_robot_beyond_all_sizes_has_no_equilibrium() -> None:
-    section = cdcr.Section(
-        length=1.7e308, backbone_mass=1.0, backbone_diameter=1e-3, youngs_modulus=1e10
-    )
-    found = cdcr.Model(cdcr.Robot(sections=(section,))).equilibrium(throw=False)
-    assert found.status is not cdcr.Status.ok or np.all(np.isfinite(found.q))
-    assert found.status is not cdcr.Status.ok or math.isfinite(found.residual)
+USUAL: dict[str, Any] = {
+    "length": 0.3,
+    "backbone_mass": 0.01,
+    "backbone_diameter": 1e-3,
+    "youngs_modulus": 1e10,
+}
+
+
+@pytest.mark.filterwarnings("ignore:section")
+@pytest.mark.parametrize(
+    ("given", "sentence"),
+    [
+        ({"length": 1.7e308}, "the robot must be 1e-150 to 1e150 m long in all, got 1.7e+308"),
+        ({"length": 1e-160}, "the robot must be 1e-150 to 1e150 m long in all, got 1e-160"),
+        ({"backbone_diameter": 1e80}, "the stiffness of the robot must be > 0 and finite, got inf"),
+        ({"backbone_diameter": 1e-90}, "the stiffness of the robot must be > 0 and finite, got 0"),
+        (
+            {"backbone_mass": 1e308, "length": 1e3},
+            "the inertia of the robot must be finite, got a ",
+        ),
+        (
+            {"disk_mass": 1.0, "disk_diameter": 1e160, "num_disks": 1},
+            "the inertia of the robot must be finite, got a mass of 1.01 kg and a size of 1e+160 m",
+        ),
+    ],
+)
+def test_a_robot_beyond_all_sizes_has_no_model(given: dict[str, Any], sentence: str) -> None:
+    robot = cdcr.Robot(sections=(cdcr.Section(**USUAL | given),))
+    with pytest.raises(ValueError, match=f"^{re.escape(sentence)}"):
+        cdcr.Model(robot)
+
+
+@pytest.mark.filterwarnings("ignore:section")
+@pytest.mark.parametrize("length", [1e-60, 1e60])
+def test_a_robot_far_from_all_sizes_has_finite_answers(length: float) -> None:
+    scale = length / USUAL["length"]
+    given = {"length": length, "backbone_diameter": 1e-3 * scale, "youngs_modulus": 1e10 / scale}
+    model = cdcr.Model(cdcr.Robot(sections=(cdcr.Section(**USUAL | given),)))
+    assert model.equilibrium().tolist() == [0.0, 0.0]
+    assert np.isfinite(model.kinematic_hessian([0.3, 0.2], 0, 1.0)).all()
+    assert np.isfinite(model.mass_matrix([0.3, 0.2])).all()
 
 
 @pytest.mark.parametrize("scale", [1e-5, 5.0])

@@ -128,14 +128,17 @@ def test_newtons_for_a_cable_driven_by_length(tension: list[float]) -> None:
         lambda: cdcr.simulate(model, zeros, zeros, t=[0.0, 1e-3], tension=tension),
         lambda: cdcr.simulate(model, zeros, zeros, t=[0.0, 1e-3], tension=lambda t: tension),
         lambda: model.equilibrium(tension, throw=False),
+        lambda: model.find_equilibrium(tension),
         lambda: cdcr.quasi_static(model, [tension], throw=False),
         lambda: cdcr.quasi_static(model, np.array([model.rest_command(), tension]), throw=False),
         lambda: cdcr.rollout(model, zeros, zeros, step=1e-4, steps=2, tension=tension),
         lambda: looped(model, tension),
     ]
     for call in calls:
-        with pytest.warns(UserWarning, match=r"driven by length .* is that a tension \[N\]\?"):
+        told = r"driven by length .* is that a tension \[N\]\?"
+        with pytest.warns(UserWarning, match=told) as caught:
             call()
+        assert {one.filename for one in caught} == {__file__}
 
 
 def test_what_is_sound_is_not_asked_about() -> None:
@@ -146,6 +149,7 @@ def test_what_is_sound_is_not_asked_about() -> None:
         model, zeros = driven(), np.zeros(2)
         for length in (model.rest_command(), [0.802, 0.79, 8.0]):
             cdcr.simulate(model, zeros, zeros, t=[0.0, 1e-3], tension=length)
+            model.find_equilibrium(length)
             model.equilibrium(length, throw=False)
             cdcr.quasi_static(model, np.array([length]), throw=False)
             cdcr.rollout(model, zeros, zeros, step=1e-4, steps=2, tension=length)

@@ -49,6 +49,15 @@ class Actuators {
   /// What the cables get over the step just made, the mean of its two ends (num_cables) [N], [m].
   [[nodiscard]] const VectorXd& given() const noexcept { return given_; }
   [[nodiscard]] const std::vector<Actuator>& actuators() const noexcept { return actuators_; }
+  /// Shows a function each part of what they remember, in one order; `self` is const or not.
+  template <class Self, class Visit>
+  static void visit_memory(Self& self, Visit& visit) {
+    visit(self.value_);
+    visit(self.speed_);
+    visit(self.given_);
+    visit(self.late_);
+    visit(self.now_);
+  }
 
  private:
   [[nodiscard]] double delayed(Index cable, double command) noexcept;

@@ -51,6 +51,11 @@ class Estimator {
   [[nodiscard]] virtual std::vector<std::string> value_names() const { return {}; }
   virtual void write_values(VectorRef /*values*/, VectorRef /*deviations*/) const noexcept {}
   [[nodiscard]] virtual EstimatorDiagnostics diagnostics() const noexcept { return {}; }
+  /// What it remembers of a run: an estimator made alike that takes it up goes on as this one
+  /// would, but for the count of diagnostics. Not real-time safe.
+  [[nodiscard]] virtual VectorXd memory() const { return {}; }
+  /// Throws std::invalid_argument where that is not of an estimator made alike.
+  virtual void set_memory(const VectorXd& /*memory*/) {}
 };
 
 }  // namespace CDCR_EXPORT cdcr

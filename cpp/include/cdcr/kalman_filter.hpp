@@ -62,6 +62,8 @@ class KalmanFilter : public Estimator {
   [[nodiscard]] std::vector<std::string> value_names() const override;
   void write_values(VectorRef values, VectorRef deviations) const noexcept override;
   [[nodiscard]] EstimatorDiagnostics diagnostics() const noexcept override { return diagnostics_; }
+  [[nodiscard]] VectorXd memory() const override;
+  void set_memory(const VectorXd& memory) override;
 
   /// The estimate now, (q, qd, force, shares), those of the last two that are estimated.
   [[nodiscard]] const VectorXd& state() const noexcept { return head_; }
@@ -93,6 +95,8 @@ class KalmanFilter : public Estimator {
                                const ConstVectorRef& command) noexcept;
   [[nodiscard]] bool fits(const std::vector<Measurement>& told, const ConstVectorRef& command,
                           const ConstVectorRef& q, const ConstVectorRef& qd) const noexcept;
+  template <class Self, class Visit>
+  static void visit_memory(Self& self, Visit& visit);
 
   KalmanOptions options_;
   std::unique_ptr<Parts> parts_;

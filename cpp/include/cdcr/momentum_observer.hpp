@@ -45,6 +45,9 @@ class MomentumObserver : public Estimator {
   [[nodiscard]] std::vector<std::string> value_names() const override;
   void write_values(VectorRef values, VectorRef deviations) const noexcept override;
   [[nodiscard]] EstimatorDiagnostics diagnostics() const noexcept override { return diagnostics_; }
+  /// Without that of the other estimator.
+  [[nodiscard]] VectorXd memory() const override;
+  void set_memory(const VectorXd& memory) override;
 
   [[nodiscard]] const VectorXd& generalized_force() const noexcept { return residual_; }  ///< (d)
   /// On the place, in the base frame [N]; zero without one.
@@ -56,6 +59,8 @@ class MomentumObserver : public Estimator {
   void observe(const ConstVectorRef& q, const ConstVectorRef& qd) noexcept;
   void set_drift(const ConstVectorRef& q, const ConstVectorRef& qd, VectorRef drift) noexcept;
   void set_force(const Place& at, const ConstVectorRef& q) noexcept;
+  template <class Self, class Visit>
+  static void visit_memory(Self& self, Visit& visit);
   [[nodiscard]] Index num_own() const noexcept {
     return residual_.size() + (options_.force_at ? 3 : 0);
   }

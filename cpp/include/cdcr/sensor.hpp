@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "cdcr/export.hpp"
@@ -47,7 +48,9 @@ struct Sensor {
 /// std::invalid_argument. Run: everything else is real-time safe.
 class SensorChannel {
  public:
-  SensorChannel(const Model& model, const Sensor& sensor, double step);
+  /// `name` is what refusals call it.
+  SensorChannel(const Model& model, const Sensor& sensor, double step,
+                const std::string& name = "a sensor");
 
   /// What it tells at the start: the state (q, qd) there, without noise. One that feels the base
   /// needs the wrench on it (6).

@@ -12,20 +12,21 @@ const char* message(Status status) noexcept {
       return "The run needed more than max_steps internal steps: raise max_steps.";
     case Status::step_too_small:
       return "The step size fell to rounding level: the motion changes too abruptly here. Check "
-             "the tensions for a jump that is not a break point of a table, or loosen rtol.";
+             "the commands of the cables for a jump that is not a break point of a table, or "
+             "loosen rtol.";
     case Status::tolerance_not_met:
       return "The implicit solver could not converge: loosen rtol and atol, or use method dopri5.";
     case Status::non_finite_state:
-      return "The state became infinite or not a number: check the tensions and the initial "
-             "state, and use a smaller step where it is fixed.";
+      return "The state became infinite or not a number: check the commands of the cables and "
+             "the initial state, and use a smaller step where it is fixed.";
     case Status::bending_limit:
-      return "A section bent beyond 3 pi rad, past the model's validity: lower the tensions, or "
-             "whatever else bends it.";
+      return "A section bent beyond 3 pi rad, past the model's validity: pull the cables less, or "
+             "lessen whatever else bends it.";
     case Status::invalid_tension:
-      return "The tensions must be finite, not negative (a cable cannot push), and one for each "
-             "cable; the state was left as it was.";
+      return "The commands of the cables, tensions or lengths, must be finite, not negative, and "
+             "one for each cable; the state was left as it was.";
     case Status::not_converged:
-      return "No equilibrium was found: start nearer to it with q0, or lower the tensions; the "
+      return "No equilibrium was found: start nearer to it with q0, or pull the cables less; the "
              "robot may have none within the bending limit.";
     case Status::interrupted:
       return "The run was stopped before its end; the samples up to then are kept.";
@@ -33,13 +34,13 @@ const char* message(Status status) noexcept {
       return "An event that ends the run happened.";
     case Status::wrong_size:
       return "A vector has another size than the robot it is for: q and qd have one value for each "
-             "coordinate, tensions one for each cable.";
+             "coordinate, commands one for each cable.";
     case Status::invalid_wrench:
       return "A wrench must be finite and act on a section of the robot at a fraction from 0 to 1; "
              "the state was left as it was.";
     case Status::compression_limit:
       return "A section was compressed below a tenth of its length, past the model's validity: "
-             "lower the tensions, or whatever else compresses it.";
+             "pull the cables less, or lessen whatever else compresses it.";
   }
   return "Unknown status.";
 }

@@ -1,5 +1,6 @@
 #include "cdcr/loop.hpp"
 
+#include <string>
 #include <utility>
 
 #include "base/sizes.hpp"
@@ -19,7 +20,10 @@ Loop::Loop(const Model& plant, Controller& controller, LoopOptions options, Esti
       actuators_(plant, options_.actuators, options_.step) {
   require_fit(controller, plant);
   every_ = detail::whole_steps("the controller's period", controller.period(), options_.step, 1);
-  for (const Sensor& sensor : options_.sensors) sensors_.emplace_back(plant, sensor, options_.step);
+  for (const Sensor& sensor : options_.sensors) {
+    const std::string name = "sensor " + std::to_string(sensors_.size() + 1);
+    sensors_.emplace_back(plant, sensor, options_.step, name);
+  }
   for (const SensorChannel& one : sensors_) {
     told_.push_back({one.value(), false});
     if (!one.sensor().feels_base() || base_) continue;

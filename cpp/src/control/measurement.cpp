@@ -40,15 +40,15 @@ Index measurement_size(const Model& model, const Sensor& sensor) {
   }
 }
 
-void require_sensor(const Model& model, const Sensor& sensor) {
-  require_not_negative("noise of a sensor", sensor.noise, "in the unit of its values");
-  require(std::isfinite(sensor.bias), "bias of a sensor must be finite, got ", sensor.bias);
-  require(sensor.kind != Sensor::Kind::curvature || !sensor.places.empty(),
-          "a sensor of curvature needs places");
+void require_sensor(const Model& model, const Sensor& sensor, const std::string& name) {
+  require_not_negative(("noise of " + name).c_str(), sensor.noise, "in the unit of its values");
+  require(std::isfinite(sensor.bias), "bias of ", name, " must be finite, got ", sensor.bias);
+  require(sensor.kind != Sensor::Kind::curvature || !sensor.places.empty(), name,
+          ", of curvature, needs places");
   if (sensor.feels_base()) require_inertia(model);
   for (const Place& place : sensor.places) {
-    require(is_section(model, place.section) && is_fraction(place.fraction),
-            "places of a sensor must be sections 0 to ", model.num_sections() - 1,
+    require(is_section(model, place.section) && is_fraction(place.fraction), "places of ", name,
+            " must be sections 0 to ", model.num_sections() - 1,
             " and fractions 0 to 1, got section ", place.section, " and fraction ", place.fraction);
   }
 }

@@ -8,8 +8,8 @@ namespace cdcr::detail {
 
 /// How many values a sensor tells.
 [[nodiscard]] Index measurement_size(const Model& model, const Sensor& sensor);
-/// Throws std::invalid_argument where a sensor does not fit the robot.
-void require_sensor(const Model& model, const Sensor& sensor);
+/// Throws std::invalid_argument, naming it, where a sensor does not fit the robot.
+void require_sensor(const Model& model, const Sensor& sensor, const std::string& name);
 
 /// The values at a state under commands; the wrench on the base (6) is read where it is felt.
 /// Real-time safe.

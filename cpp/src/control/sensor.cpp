@@ -8,14 +8,15 @@
 
 namespace cdcr {
 
-SensorChannel::SensorChannel(const Model& model, const Sensor& sensor, double step)
+SensorChannel::SensorChannel(const Model& model, const Sensor& sensor, double step,
+                             const std::string& name)
     : model_(model),
       sensor_(sensor),
       every_(sensor.period == 0.0
                  ? 1
-                 : detail::whole_steps("period of a sensor", sensor.period, step, 1)),
-      delay_(detail::whole_steps("delay of a sensor", sensor.delay, step, 0)) {
-  detail::require_sensor(model, sensor);
+                 : detail::whole_steps(("period of " + name).c_str(), sensor.period, step, 1)),
+      delay_(detail::whole_steps(("delay of " + name).c_str(), sensor.delay, step, 0)) {
+  detail::require_sensor(model, sensor, name);
   value_ = measured_ = error_ = VectorXd::Zero(detail::measurement_size(model, sensor));
   late_ = MatrixXd::Zero(value_.size(), delay_ + 1);
   sent_.assign(static_cast<std::size_t>(delay_ + 1), 0);

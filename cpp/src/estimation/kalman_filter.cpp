@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <string>
 #include <utility>
 
 #include "base/sizes.hpp"
@@ -12,6 +13,7 @@
 #include "control/same_robot.hpp"
 #include "control/steps.hpp"
 #include "estimation/kalman_parts.hpp"
+#include "estimation/memory.hpp"
 
 namespace cdcr {
 namespace {
@@ -21,8 +23,8 @@ using detail::require_not_negative;
 
 constexpr int most_substeps = 1000000;  // an update does not look for interrupts
 
-Index periods_late(const Sensor& sensor, double period) {
-  return detail::whole_steps("delay of a sensor, for an estimator,", sensor.delay, period, 0);
+Index periods_late(const Sensor& sensor, double period, const std::string& item = "") {
+  return detail::whole_steps(item.c_str(), sensor.delay, period, 0);
 }
 
 Index latest(const KalmanOptions& options) {
@@ -37,15 +39,18 @@ bool same(const Place& a, const Place& b) noexcept {
   return a.section == b.section && a.fraction == b.fraction;
 }
 
-void check_sensors(const KalmanOptions& options) {
+void check_sensors(const Model& model, const KalmanOptions& options) {
   require(!options.sensors.empty(), "an estimator needs sensors");
   for (std::size_t i = 0; i < options.sensors.size(); ++i) {
     const Sensor& sensor = options.sensors[i];
-    require(sensor.noise > 0.0, "noise of sensor ", i + 1, " must be > 0 for an estimator, got ",
+    const std::string name = "sensor " + std::to_string(i + 1);
+    require(sensor.noise > 0.0, "noise of ", name, " must be > 0 for an estimator, got ",
             sensor.noise);
+    detail::require_sensor(model, sensor, name);
+    (void)periods_late(sensor, options.period, "delay of " + name + ", for an estimator,");
     if (sensor.period != 0.0) {
-      (void)detail::whole_steps("period of a sensor, for an estimator,", sensor.period,
-                                options.period, 1);
+      const std::string item = "period of " + name + ", for an estimator,";
+      (void)detail::whole_steps(item.c_str(), sensor.period, options.period, 1);
     }
   }
 }
@@ -76,7 +81,7 @@ VectorXd densities(const Model& model, const KalmanOptions& options) {
   detail::require_positive("period", options.period, "s");
   require(options.substeps >= 1 && options.substeps <= most_substeps, "substeps must be 1 to ",
           most_substeps, ", got ", options.substeps);
-  check_sensors(options);
+  check_sensors(model, options);
   check_variants(model, options);
   const Index d = model.num_coordinates(), forces = options.force_at ? 3 : 0;
   const VectorXd& noise = options.acceleration_noise;
@@ -253,6 +258,32 @@ Status KalmanFilter::advance(const std::vector<Measurement>& told,
   }
   const bool finite = head_.allFinite() && P_.allFinite();
   return finite ? check_state(model(), head_.head(2 * d)) : Status::non_finite_state;
+}
+
+template <class Self, class Visit>
+void KalmanFilter::visit_memory(Self& self, Visit& visit) {
+  Parts& parts = *self.parts_;
+  visit(self.x_);
+  visit(self.P_);
+  visit(self.head_);
+  Actuators::visit_memory(parts.actuators, visit);
+  for (Parts::Waiting& one : parts.waiting) {
+    visit(one.columns);
+    visit(one.held);
+  }
+  visit(parts.commands.columns);
+  visit(parts.updates);
+}
+
+VectorXd KalmanFilter::memory() const {
+  detail::MemoryWriter writer;
+  visit_memory(*this, writer);
+  return writer.memory();
+}
+
+void KalmanFilter::set_memory(const VectorXd& memory) {
+  detail::MemoryReader reader(memory, this->memory().size());
+  visit_memory(*this, reader);
 }
 
 void KalmanFilter::note(double innovation, Index measured) noexcept {

@@ -14,7 +14,6 @@ constexpr double difference = 1e-5;
 
 MeasurementSlopes::MeasurementSlopes(AugmentedMotion& motion, const Sensor& sensor)
     : motion_(&motion), sensor_(sensor) {
-  require_sensor(model(), sensor);
   const Index d = model().num_coordinates(), size = measurement_size(model(), sensor);
   value_ = error_ = VectorXd::Zero(size);
   error_.setConstant(sensor.bias);

@@ -10,6 +10,7 @@ namespace cdcr::detail {
 /// It refers to the motion.
 class MeasurementSlopes {
  public:
+  /// The sensor fits the robot.
   MeasurementSlopes(AugmentedMotion& motion, const Sensor& sensor);
 
   /// At x under commands, or where the base was felt first, cf. AugmentedMotion::felt_base():

@@ -8,6 +8,7 @@
 #include "cdcr/cables.hpp"
 #include "cdcr/kinematics.hpp"
 #include "control/same_robot.hpp"
+#include "estimation/memory.hpp"
 
 namespace cdcr {
 namespace {
@@ -148,6 +149,30 @@ Status MomentumObserver::update(double t, const std::vector<Measurement>& told,
   diagnostics_.duration =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return residual_.allFinite() ? Status::ok : Status::non_finite_state;
+}
+
+template <class Self, class Visit>
+void MomentumObserver::visit_memory(Self& self, Visit& visit) {
+  Actuators::visit_memory(self.actuators_, visit);
+  visit(self.set_);
+  visit(self.started_);
+  visit(self.q_);
+  visit(self.qd_);
+  visit(self.momentum_);
+  visit(self.drift_);
+  visit(self.residual_);
+  visit(self.force_);
+}
+
+VectorXd MomentumObserver::memory() const {
+  detail::MemoryWriter writer;
+  visit_memory(*this, writer);
+  return writer.memory();
+}
+
+void MomentumObserver::set_memory(const VectorXd& memory) {
+  detail::MemoryReader reader(memory, this->memory().size());
+  visit_memory(*this, reader);
 }
 
 std::vector<std::string> MomentumObserver::value_names() const {

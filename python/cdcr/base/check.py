@@ -16,7 +16,7 @@ from cdcr import _core
 
 MAX_INT = 2**31 - 1  # largest count that the core can be told
 _IN_WORDS = {3: "three", 4: "four"}
-_NO_NUMBERS = (bool, np.timedelta64)  # although Python and NumPy count them among these
+NO_NUMBERS = (bool, np.bool_, np.timedelta64)  # though Python and NumPy count some among these
 
 
 def format_value(value: object) -> str:
@@ -41,6 +41,12 @@ def require_kind(item: str, value: object, kind: type) -> None:
     """Refuse what is no instance of a public class: 'model must be a cdcr.Model, got NoneType'."""
     if not isinstance(value, kind):
         raise TypeError(f"{item} must be a cdcr.{kind.__name__}, got {type(value).__name__}")
+
+
+def require_truth(item: str, value: object) -> None:
+    """Refuse what is neither True nor False, of Python or of NumPy: arrays, 1, names."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise TypeError(f"{item} must be True or False, got {format_value(value)}")
 
 
 def as_tuple(item: str, value: object, wanted: str) -> tuple[Any, ...]:
@@ -107,7 +113,7 @@ class Check:
         Where it must be `above` a limit, it must be finite too.
         """
         plain = type(value) in (float, int)  # most are, and are told at a tenth of the time
-        if plain or (isinstance(value, Real) and not isinstance(value, _NO_NUMBERS)):
+        if plain or (isinstance(value, Real) and not isinstance(value, NO_NUMBERS)):
             with suppress(OverflowError):
                 number = float(value)  # type: ignore[arg-type]
                 if above is None or above < number < math.inf:
@@ -119,7 +125,7 @@ class Check:
         self, item: str, value: object, requirement: str, low: int = -MAX_INT, high: int = MAX_INT
     ) -> int:
         """Return any whole number from `low` to `high`, NumPy scalars included, as an int."""
-        if isinstance(value, Integral) and not isinstance(value, _NO_NUMBERS):
+        if isinstance(value, Integral) and not isinstance(value, NO_NUMBERS):
             count = int(value)
             if low <= count <= high:
                 return count

@@ -17,6 +17,7 @@ from cdcr import robots, scenarios
 from cdcr.base.extras import require
 from cdcr.cli.complete import FILMS
 from cdcr.files.new_file import check_files, new_files
+from cdcr.model.model import Model
 from cdcr.robot.robot import Robot
 from cdcr.runs.save import write_run
 from cdcr.runs.stats import STATS
@@ -236,10 +237,20 @@ def find_robot(name: str) -> Robot:
     """Return a robot of the package by name, or a user's one by its file."""
     with mistakes():
         if _is_file(name, robots.names()):
-            return Robot.load(name)
+            return load_robot(Path(name))
         if not is_one(name, robots.names()) and is_one(name, scenarios.names()):
             raise Mistake(f"{name} is a scenario: `cdcr run {name}` or `cdcr view {name}`")
         return robots.get(name)
+
+
+def load_robot(path: Path) -> Robot:
+    """Return the robot of a file, or refuse one of which there is no model."""
+    robot = Robot.load(path)
+    try:
+        Model(robot)
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from None
+    return robot
 
 
 def _is_file(name: str, known: tuple[str, ...]) -> bool:

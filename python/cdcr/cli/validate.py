@@ -11,6 +11,7 @@ import typer
 from cdcr.base.check import count
 from cdcr.cli import complete
 from cdcr.cli.plain import AsJson, print_json, told_plainly
+from cdcr.cli.run import load_robot
 from cdcr.files.refusals import os_or_value
 from cdcr.files.toml import read_toml
 from cdcr.robot.robot import Robot
@@ -42,7 +43,7 @@ def validate(file: str) -> Verdict:
 
 def _what_it_holds(path: Path) -> str:
     if "sections" in read_toml(path, "robot or scenario file"):
-        return f"a robot of {_size(Robot.load(path))}"
+        return f"a robot of {_size(load_robot(path))}"
     scenario = load_scenario(path)
     return f"a scenario of {scenario.t_end:g} s, {scenario.method}, {_size(scenario.robot)}"
 

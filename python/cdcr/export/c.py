@@ -12,7 +12,7 @@ import numpy as np
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray
-from cdcr.base.check import Check, count, entry, format_value, require_kind
+from cdcr.base.check import Check, count, entry, format_value, require_kind, require_truth
 from cdcr.files.new_file import file_path, new_files
 from cdcr.model.model import Model
 from cdcr.robot.cable import Cable
@@ -122,6 +122,7 @@ def c_texts(
     many = f"a whole number 1 to {MOST_STEPS}"
     stages = check.whole("steps", steps, many, low=1, high=MOST_STEPS)
     check.done()
+    require_truth("casadi", casadi)
     if limit > _core.max_bending:
         raise ValueError(f"max_bending must be at most 3 pi rad, got {max_bending:g}")
     _refuse_others(robot, limit)

@@ -102,6 +102,7 @@ def write_mjcf(
 def mjcf_text(robot: Robot, file: Path, *, links: int = 10) -> str:
     """Return what `write_mjcf` writes; the name of the file is that of the model."""
     require_kind("robot", robot, Robot)
+    Model(robot)  # refuses one beyond all sizes
     if file.suffix != ".xml":
         raise ValueError(f"the file name must end in .xml, got {file.name!r}")
     check, most = Check(), _MOST_LINKS // len(robot.sections)

@@ -12,7 +12,7 @@ from contextlib import ExitStack, contextmanager, suppress
 from os import PathLike
 from pathlib import Path
 
-from cdcr.base.check import format_value
+from cdcr.base.check import format_value, require_truth
 
 MAX_NAMED = 4  # files named in one sentence
 REPLACE = "pass overwrite=True to replace it"
@@ -86,6 +86,7 @@ def check_files(paths: Sequence[Path], *, overwrite: bool = False, replace: str 
 
 
 def _check(paths: Sequence[Path], overwrite: bool, replace: str) -> None:
+    require_truth("overwrite", overwrite)
     _refuse_file(paths[0].parent)
     for path in paths:
         if path.is_dir():

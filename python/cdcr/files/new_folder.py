@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+from cdcr.base.check import require_truth
 from cdcr.files.new_file import REPLACE, alone, check_folder
 
 ZARR = (".zgroup", "zarr.json")  # one of which stands in such a folder
@@ -51,6 +52,7 @@ def new_folder(path: Path, *, overwrite: bool = False) -> Iterator[Path]:
 
 
 def _check(path: Path, *, overwrite: bool) -> None:
+    require_truth("overwrite", overwrite)
     check_folder(path.parent)
     if not os.path.lexists(path):
         return

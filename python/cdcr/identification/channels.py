@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cdcr.base.arrays import FloatArray, numbers
-from cdcr.base.check import Check, format_value
+from cdcr.base.check import Check
 from cdcr.model.model import Model
 from cdcr.robot.robot import Robot
 
@@ -93,12 +93,6 @@ def of_numbers(value: object) -> bool:
         return numbers(value, "it").size > 0
     except ValueError:
         return False
-
-
-def require_truth(item: str, value: object) -> None:
-    """Refuse what is neither True nor False."""
-    if not isinstance(value, bool | np.bool_):
-        raise ValueError(f"{item} must be True or False, got {format_value(value)}")
 
 
 def increasing(t: FloatArray, where: Where) -> None:

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cdcr.base.arrays import FloatArray
-from cdcr.base.check import Check, require_kind
-from cdcr.identification.channels import measured, require_truth, row_of, whole
+from cdcr.base.check import Check, require_kind, require_truth
+from cdcr.identification.channels import measured, row_of, whole
 from cdcr.identification.data import UnsolvedError
 from cdcr.identification.fit import prepared
 from cdcr.identification.poses import Poses

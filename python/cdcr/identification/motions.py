@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray, numbers
-from cdcr.base.check import Check, format_value, one_of
+from cdcr.base.check import Check, format_value, one_of, require_truth
 from cdcr.identification.channels import (
     Channel,
     Where,
@@ -20,7 +20,6 @@ from cdcr.identification.channels import (
     increasing,
     measured,
     of_numbers,
-    require_truth,
     row_of,
 )
 from cdcr.identification.data import (

@@ -10,13 +10,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cdcr.base.arrays import FloatArray
-from cdcr.base.check import one_of
+from cdcr.base.check import one_of, require_truth
 from cdcr.identification.channels import (
     Channel,
     Where,
     check_commands,
     measured,
-    require_truth,
     row_of,
 )
 from cdcr.identification.data import (

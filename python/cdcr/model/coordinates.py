@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray, finite
+from cdcr.base.check import require_truth
 
 
 def polar(
@@ -42,6 +43,7 @@ def polar(
     >>> print(f"{theta:.4f} rad, {phi:.4f} rad")
     0.5000 rad, 0.9273 rad
     """
+    require_truth("continuous", continuous)
     vectors = finite(q, "q")
     if vectors.ndim == 0 or vectors.shape[-1] % 2 or vectors.shape[-1] == 0:
         raise ValueError(f"q must have shape (2,) or (..., 2n), got {vectors.shape}")

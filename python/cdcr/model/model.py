@@ -11,13 +11,12 @@ from numpy.typing import ArrayLike
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray, finite
-from cdcr.base.check import count, one_of, require_kind
+from cdcr.base.check import count, one_of, require_kind, require_truth
 from cdcr.model.inverse_kinematics import InverseKinematics
 from cdcr.model.modes import Modes
 from cdcr.model.statespace import StateSpaceModel
 from cdcr.model.statics import checked_allocation, checked_equilibrium
 from cdcr.robot.robot import Robot
-from cdcr.robot.units import ask_about_commands
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -182,9 +181,8 @@ class Model(StateSpaceModel):
         ConvergenceError
             If there is no equilibrium within the bending limit, or none was found.
         """
-        found = self.find_equilibrium(tension, q0, wrenches)
-        if tension is not None:
-            ask_about_commands(self.robot, finite(tension, "tension"))
+        require_truth("throw", throw)
+        found = self._rest(tension, q0, wrenches)
         return checked_equilibrium(found, warn=True) if throw else found
 
     def modes(
@@ -298,6 +296,7 @@ class Model(StateSpaceModel):
             If no tensions within the limits give that force; it carries the nearest ones and names
             the cables that are in the way.
         """
+        require_truth("throw", throw)
         found = self.find_tension(force, min_tension, max_tension, method, q)
         return checked_allocation(found, force, (min_tension, max_tension)) if throw else found
 

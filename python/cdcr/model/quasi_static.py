@@ -12,8 +12,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray, ReadOnlyArrays, read_only
+<<<<<<< HEAD
 from cdcr.base.check import count, require_kind
 from cdcr.model.memory import other_drive
+=======
+from cdcr.base.check import count, require_kind, require_truth
+>>>>>>> left
 from cdcr.model.model import Model
 from cdcr.model.statics import ConvergenceError
 from cdcr.robot.units import ask_about_commands
@@ -149,6 +153,7 @@ def quasi_static(
     [0, 1, 1, 0, -1, -1]
     """
     require_kind("model", model, Model)
+    require_truth("throw", throw)
     q, deflection, felt = q0, None, None
     if after is not None:
         require_kind("after", after, QuasiStatic)

@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cdcr import _core
 from cdcr.base.arrays import FloatArray, finite
 from cdcr.model.coordinates import polar
+from cdcr.model.statics import StaticModel
 
 if TYPE_CHECKING:
     from cdcr.model.model import Model
 
 
-class ShapeModel(_core.Model):
+class ShapeModel(StaticModel):
     """The model of the core, and the bending vectors of its sections."""
 
     def bending_vectors(self, q: ArrayLike) -> FloatArray:

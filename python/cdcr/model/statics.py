@@ -4,13 +4,20 @@ from __future__ import annotations
 
 import sys
 import warnings
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from cdcr import _core
-from cdcr.base.arrays import FloatArray
+from cdcr.base.arrays import FloatArray, finite
+from cdcr.robot.units import ask_about_commands
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from cdcr.model.model import Model
+    from cdcr.model.wrench import Wrench
 
 FRICTION_LEFT_OUT = (
     "equilibrium leaves out the friction of the cables: with it the robot rests anywhere in a "
@@ -66,6 +73,61 @@ class InfeasibleError(ValueError):
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle by what it was made of, so that it leaves a process as it is."""
         return type(self), (str(self), self._answer), self.__dict__
+
+
+class StaticModel(_core.Model):
+    """The model of the core, which asks about commands where it looks for rest."""
+
+    def find_equilibrium(
+        self,
+        tension: ArrayLike | None = None,
+        q0: ArrayLike | None = None,
+        wrenches: Wrench | Sequence[Wrench] = (),
+    ) -> _core.Equilibrium:
+        """Point of rest, whether found or not, and whether stable.
+
+        Under constant commands and wrenches: cpp/several-sections.md eqs. (40) to (43).
+
+        Parameters
+        ----------
+        tension : (num_cables,) array_like, optional
+            Cable tensions [N]; lengths [m] for cables driven by length; by default `rest_command`.
+        q0 : (d,) array_like, optional
+            Where to start [rad]; by default the answer without gravity.
+        wrenches : Wrench or sequence of Wrench, optional
+            Constant forces [N] and moments [N m] on the backbone.
+
+        Returns
+        -------
+        Equilibrium
+            The answer, or in `status` why there is none.
+
+        Raises
+        ------
+        ValueError
+            Naming the argument that is not finite, out of its range or of another shape.
+
+        Examples
+        --------
+        >>> import cdcr
+        >>> model = cdcr.Model(cdcr.robots.amouri2020())
+        >>> rest = model.find_equilibrium([5.0, 0.0, 0.0])
+        >>> rest.stable, rest.q.round(4) + 0.0
+        (True, array([0.2614, 0.    ]))
+        """
+        return self._rest(tension, q0, wrenches)
+
+    def _rest(
+        self,
+        tension: ArrayLike | None,
+        q0: ArrayLike | None,
+        wrenches: Wrench | Sequence[Wrench],
+    ) -> _core.Equilibrium:
+        """For public methods: whoever calls these is warned of commands that may be tensions."""
+        found = super().find_equilibrium(tension, q0, wrenches)
+        if tension is not None:
+            ask_about_commands(cast("Model", self).robot, finite(tension, "tension"), stacklevel=4)
+        return found
 
 
 def checked_equilibrium(found: _core.Equilibrium, *, warn: bool = False) -> FloatArray:

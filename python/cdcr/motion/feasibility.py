@@ -9,7 +9,7 @@ import numpy as np
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray
-from cdcr.base.check import Check, require_kind
+from cdcr.base.check import Check, require_kind, require_truth
 from cdcr.base.rotations import rotation_of
 from cdcr.model.memory import warn_of_friction
 from cdcr.model.model import Model
@@ -119,6 +119,7 @@ def check_path(
     fastest = check.number("max_rate", max_rate, "a number")
     samples = check.whole("num_samples", num_samples, "a whole number 5 to 1000000", 5, 1000000)
     check.done()
+    require_truth("orientation", orientation)
     size = model.num_coordinates
     if path.size not in ((6,) if orientation else (size, 3)):
         wanted = "6 values of the tip's pose" if orientation else f"{size} values, or 3 of the tip"

@@ -86,7 +86,7 @@ def _about_angle(name: str, angle: float, in_degrees: str) -> Iterator[str]:
         )
 
 
-def ask_about_commands(robot: Robot, command: FloatArray) -> None:
+def ask_about_commands(robot: Robot, command: FloatArray, stacklevel: int = 3) -> None:
     """Warn of commands (..., num_cables) to cables driven by length that may be tensions."""
     springs = [one.cable_stiffness for one in robot.sections]
     if not any(springs) and not any(cable.stiffness for cable in robot.cables):
@@ -114,6 +114,6 @@ def ask_about_commands(robot: Robot, command: FloatArray) -> None:
                 f"robot takes {length:g} m: is that a tension [N]? Model.rest_command gives the "
                 "lengths of the straight robot, Model.commands those that hold tensions",
                 UserWarning,
-                stacklevel=3,
+                stacklevel=stacklevel,
             )
             return

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Sequence
 from typing import Any
 
@@ -336,6 +337,10 @@ class MomentumObserver(_core.MomentumObserver):
         check.done()
         options |= {"actuators": as_dicts("actuators", actuators, Actuator), "states": states}
         super().__init__(model, options)
+
+    def __copy__(self) -> MomentumObserver:
+        """Return a copy that asks a copy of the other estimator, which each moves on by itself."""
+        return copy.deepcopy(self, {id(self.model): self.model})
 
     def __repr__(self) -> str:
         """Say the bandwidth."""

@@ -165,6 +165,7 @@ def gradient(
     if any(getattr(wrench, "profile", None) is not None for wrench in pushing):
         raise ValueError("wrenches must not change in time for a gradient, got one with a profile")
     check = Check()
+    check.number("step", step, "a number > 0 s and finite", above=0.0)
     check.whole("steps", steps, "a whole number >= 1", low=1)
     check.whole("record_every", record_every, "a divisor of steps", low=1)
     check.done()

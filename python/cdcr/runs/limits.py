@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cdcr.base.arrays import finite
-from cdcr.base.check import Check
+from cdcr.base.check import Check, require_truth
 
 
 def checked(
@@ -31,8 +31,7 @@ def checked(
     for name, value in numbers.items():
         given[name] = check.number(name, value, "a number")
     for name, switch in (switches or {}).items():
-        if not isinstance(switch, (bool, np.bool_)):
-            check.refuse(name, "True or False", switch)
+        require_truth(name, switch)
         given[name] = bool(switch)
     given["cables"] = []
     if cables is not None:

@@ -10,7 +10,7 @@ from typing import Any, Literal, NamedTuple
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray
-from cdcr.base.check import Check, require_kind
+from cdcr.base.check import Check, require_kind, require_truth
 from cdcr.base.keywords import by_keyword
 from cdcr.model.model import Model
 from cdcr.model.wrench import Wrench
@@ -247,6 +247,7 @@ class Loop(_core.Loop):
         duration = check.number("duration", duration, "a number")
         every = check.whole("record_every", record_every, "a whole number >= 1")
         check.done()
+        require_truth("throw", throw)
         found = self._sampled(duration, every, wrenches)
         names = ("t", "q", "qd", "tension", "command", "method", "status", "message", "stats")
         found["message"] += about_step(self.model, found["q"][0], self._rk4_step, found["status"])

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray, ReadOnlyArrays, read_only
-from cdcr.base.check import count, format_value
+from cdcr.base.check import Check, count, format_value
 from cdcr.base.extras import require
 from cdcr.model.model import Model
 from cdcr.runs.parameters import Variation
@@ -103,7 +103,13 @@ class Rollout(ReadOnlyArrays):
         Returns
         -------
         Model
+
+        Raises
+        ------
+        ValueError
+            Where there is no such motion.
         """
+<<<<<<< HEAD
         try:
             i = range(self.num_motions)[motion]
         except IndexError:
@@ -112,6 +118,14 @@ class Rollout(ReadOnlyArrays):
         if self.parameters:
             return Variation(self.model, self.parameters).model_of(i)
         return self.models[i if len(self.models) > 1 else 0]
+=======
+        check, last = Check(), self.num_motions - 1
+        chosen = check.whole("motion", motion, f"a whole number 0 to {last}", low=0, high=last)
+        check.done()
+        if self.parameters:
+            return Variation(self.model, self.parameters).model_of(chosen)
+        return self.models[chosen if len(self.models) > 1 else 0]
+>>>>>>> left
 
     @property
     def num_motions(self) -> int:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray
-from cdcr.base.check import Check, require_kind
+from cdcr.base.check import Check, require_kind, require_truth
 from cdcr.model.model import Model
 from cdcr.model.stability import stable_step
 from cdcr.model.wrench import Wrench, loads
@@ -198,6 +198,7 @@ def simulate(
     14.978 deg after 10 s
     """
     require_kind("model", model, Model)
+    require_truth("throw", throw)
     chosen, options = integrator_options(
         method, rtol=rtol, atol=atol, step=step, max_step=max_step, max_steps=max_steps
     )

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cdcr.base.arrays import FloatArray
-from cdcr.base.check import Check, format_value
+from cdcr.base.check import Check, format_value, require_truth
 from cdcr.base.extras import require
 from cdcr.files.new_file import REPLACE, file_path
 from cdcr.runs.trajectory import Trajectory
@@ -145,6 +145,7 @@ def sweep(
     if chunk is not None:
         check.whole("chunk", chunk, f"a whole number 1 to {LARGEST}", low=1, high=LARGEST)
     check.done()
+    require_truth("overwrite", overwrite)
     if progress is not None and not callable(progress):
         raise TypeError(f"progress must be a function of two numbers, got {format_value(progress)}")
     if scheduler is not None and not isinstance(scheduler, str):

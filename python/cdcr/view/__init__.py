@@ -9,6 +9,7 @@ from cdcr.base.extras import require
 
 require("matplotlib", "view")
 
+from cdcr.base.check import require_truth
 from cdcr.view.server import PORT
 from cdcr.view.session import Session
 from cdcr.view.viewer import View, in_notebook
@@ -34,5 +35,6 @@ def show(session: Session, title: str, *, port: int = PORT, browser: bool = True
     -------
     View
     """
+    require_truth("browser", browser)
     view = View(session, title)
     return view if in_notebook() else view.serve(port, browser=browser)

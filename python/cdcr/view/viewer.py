@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from cdcr.base.arrays import FloatArray
+from cdcr.base.check import require_truth
 from cdcr.files.new_file import file_path
 from cdcr.view.drawing import Drawing
 from cdcr.view.panel import Panel, Task
@@ -101,6 +102,7 @@ class View:
         OSError
             Where the port is in use.
         """
+        require_truth("browser", browser)
         self._server = open_server(port, self._title)
         name_page(self._server, self._title)
         look_at(self._server, self._session.model)
