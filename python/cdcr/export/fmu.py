@@ -10,6 +10,7 @@ import zipfile
 from collections.abc import Iterator
 from dataclasses import fields
 from importlib import metadata
+from numbers import Integral
 from os import PathLike
 from pathlib import Path
 
@@ -91,7 +92,7 @@ def write_fmu(
 def fmu_bytes(robot: Robot, file: Path, *, fmi: int = 3, step: float | None = None) -> bytes:
     """Return what `write_fmu` writes; the name of the file is that of the model."""
     require_kind("robot", robot, Robot)
-    if fmi not in _FOLDERS or isinstance(fmi, bool):
+    if not isinstance(fmi, Integral) or isinstance(fmi, bool) or fmi not in _FOLDERS:
         raise ValueError(f"fmi must be 2 or 3, got {format_value(fmi)}")
     if file.suffix != ".fmu":
         raise ValueError(f"the file name must end in .fmu, got {file.name!r}")

@@ -191,6 +191,13 @@ class Scenario:
         end = check.number("t_end", given, requirement, above=0.0)
         check.done()
         if num_samples is None:
+            spacing = self.t_end / (self.num_samples - 1)
+            longest = (MAX_SAMPLES - 1) * spacing
+            if end > longest:
+                raise ValueError(
+                    f"t_end must be at most {longest:.6g} s, which {MAX_SAMPLES} samples "
+                    f"{spacing:.6g} s apart reach, got {end:g} s"
+                )
             num_samples = 1 + max(1, round((self.num_samples - 1) * end / self.t_end))
         requirement = f"a whole number 2 to {MAX_SAMPLES}"
         num = check.whole("num_samples", num_samples, requirement, low=2, high=MAX_SAMPLES)

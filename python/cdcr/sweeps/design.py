@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cdcr.base.arrays import MAX_SAMPLES, FloatArray, finite
-from cdcr.base.check import Check, format_value, nearest
+from cdcr.base.check import Check, format_value, is_iterable, nearest, short
 from cdcr.base.decimals import whole
 from cdcr.base.extras import require
 
@@ -57,7 +57,7 @@ def make_design(
     parameters: Mapping[str, Values] | Iterable[str], samples: str | ArrayLike | None, seed: int
 ) -> Design:
     """Return the values of a sweep, as `cdcr.sweep` takes them, or refuse them in a sentence."""
-    if isinstance(parameters, str) or not isinstance(parameters, Iterable):
+    if isinstance(parameters, str) or not is_iterable(parameters):
         got = format_value(parameters)
         raise ValueError(f"parameters must be a mapping from names to values, got {got}")
     names = tuple(parameters)
@@ -116,10 +116,11 @@ def _kind_and_number(samples: str, d: int) -> tuple[Kind, int]:
     kind, _, text = samples.partition(":")
     if kind not in SAMPLED:
         guess = nearest(kind, SAMPLED)
-        raise ValueError(f"samples must be {_SHAPE}, got {samples!r}{'.' if guess else ''}{guess}")
+        end = f".{guess}" if guess else ""
+        raise ValueError(f"samples must be {_SHAPE}, got {short(samples)}{end}")
     number = whole(text) or 0
     if number < 1:
-        raise ValueError(f"samples must be {_SHAPE}, got {samples!r}")
+        raise ValueError(f"samples must be {_SHAPE}, got {short(samples)}")
     if kind in _POWER_OF_TWO and number & (number - 1):
         upper = 1 << number.bit_length()
         near = f"{upper // 2} and {upper} are the nearest"
