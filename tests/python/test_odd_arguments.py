@@ -1,6 +1,7 @@
 """Arguments of odd shapes and sizes: a sentence that names the item, and a short one."""
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 import cdcr
 
 MODEL = cdcr.Model(cdcr.robots.amouri2020())
+NONE = cast("Any", None)
 ZERO = [0.0, 0.0]
 PATH = cdcr.ReferencePath.spline([0.0, 1.0], [ZERO, [0.1, 0.0]])
 ARRAY = cast("Any", np.array(1.0))  # can be gone through no more than a number
@@ -125,3 +127,39 @@ def test_a_refusal_is_short_whatever_is_given(call: Callable[[], object]) -> Non
     assert len(set(told)) == len(told)
     assert max(map(len, told)) < 200
     assert (told[-1] == "and 980 more values must be other than given") == (len(told) > 1)
+
+
+def test_what_is_asked_of_pictures(tmp_path: Path) -> None:
+    plotting = pytest.importorskip("cdcr.plotting")
+    scenario, other = cdcr.scenarios.get("step-tension"), cdcr.Model(cdcr.robots.three_sections())
+    plain = run()
+    long = cdcr.simulate(other, [0.0] * 6, [0.0] * 6, t=[0.0, 0.01])
+    film = tmp_path / "film.gif"
+    for call, sentence in (
+        (lambda: plotting.resize(None, "journal"), "figure must be a Matplotlib figure, got None"),
+        (lambda: plotting.show_or_save(5, []), "figure must be a Matplotlib figure, got int"),
+        (lambda: plotting.show_or_save(plain.plot(), 5), "arguments must be a sequence of str"),
+        (lambda: scenario.figure(), "run must be a cdcr.Trajectory, got NoneType"),
+        (lambda: scenario.summary(cast("Any", 5)), "run must be a cdcr.Trajectory, got int"),
+        (lambda: scenario.summary(long), "run must be one of a robot of 2 coordinates, got 6"),
+        (lambda: plain.animate(film, progress=cast("Any", "x")), "progress must be a function of"),
+        (lambda: plain.animate(film, fps=5e-324), "fps must be at least 0.01, got 5e-324"),
+        (lambda: plotting.resize(plain.plot(), (1, 2)), "size must be 'journal' (8.5 cm wide), "),
+        (
+            lambda: cdcr.sweep("step-tension", {"payload": [0.0]}, metrics="steps", seed=NONE),
+            "seed must be a whole number >= 0, got None",
+        ),
+    ):
+        with pytest.raises((TypeError, ValueError)) as caught:
+            call()
+        assert str(caught.value).startswith(sentence)
+    assert plain.animate(film, fps=0.01, speed=1e308) == film  # one picture, at the start
+
+
+def test_a_size_without_room_for_a_picture_is_told() -> None:
+    plotting = pytest.importorskip("cdcr.plotting")
+    long = cdcr.Model(cdcr.robots.three_sections())
+    figure = cdcr.simulate(long, [0.1] * 6, [0.0] * 6, t=[0.0, 0.01]).plot()
+    with pytest.warns(UserWarning, match=r"^20 x 3 cm has no room for all of this picture$"):
+        plotting.resize(figure, (20, 3))
+    figure.canvas.draw()  # without a warning

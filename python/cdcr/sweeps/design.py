@@ -69,6 +69,9 @@ def make_design(
     twice = next((one for i, one in enumerate(names) if one in names[:i]), None)
     if twice is not None:
         raise ValueError(f"parameter {twice!r} must be given once, got it twice")
+    check = Check()
+    check.whole("seed", seed, "a whole number >= 0", low=0)
+    check.done()
     if samples is not None and not isinstance(samples, str):
         return Design("rows", names, _own_rows(names, samples))
     if not isinstance(parameters, Mapping):
@@ -135,9 +138,6 @@ def _shares(kind: Kind, number: int, d: int, seed: int) -> FloatArray:
     Those of "saltelli" are A and B, `number` points each, then A once for each parameter with its
     values from B (Saltelli and others, Computer Physics Communications 181, 2010).
     """
-    check = Check()
-    check.whole("seed", seed, "a whole number >= 0", low=0)
-    check.done()
     if kind == "random":
         return np.random.default_rng(seed).random((number, d))
     qmc: Any = require("scipy.stats", "sweep").qmc
