@@ -18,7 +18,7 @@ from cdcr.base.check import short
 from cdcr.base.decimals import number
 from cdcr.plotting import space
 from cdcr.plotting.legend import legend_of, redraw_above
-from cdcr.plotting.letters import arrange, find_room, shrink_letters
+from cdcr.plotting.letters import MAX_COLUMNS, arrange, find_room, shrink_letters
 from cdcr.plotting.style import NARROW, style
 
 Size = str | tuple[float, float] | None
@@ -224,15 +224,25 @@ def _retell(axes: Any, letters: int) -> int:
     size = TEXT * 9.5
     told = textwrap.fill(note, letters)
     axes.set_title(told, loc="left", fontsize=size, pad=(size + 5.0) if legend else None)
+    rows = 0
     if legend is not None:
         labels = axes.get_legend_handles_labels()[1]
         fits = sum(map(len, labels)) + 4 * len(labels) < letters
-        redraw_above(axes, size, len(labels) if fits else 9)
+        told_names = [text.get_text() for text in legend.get_texts()]
+        columns = len(labels) if fits else _most_columns(told_names, letters)
+        redraw_above(axes, size, columns)
+        rows = max(0, -(-len(told_names) // columns) - 2)
     shared = axes.get_shared_y_axes().get_siblings(axes)
     name = axes.get_ylabel() or next((one.get_ylabel() for one in shared if one.get_ylabel()), "")
     axes.tick_params(labelleft=True)
     axes.set_ylabel(_in_lines(name), fontsize=TEXT * 10.5)
-    return 2 * bool(legend and note) + told.count("\n")
+    return 2 * bool(legend and note) + told.count("\n") + rows
+
+
+def _most_columns(names: list[str], letters: int) -> int:
+    """Return as many columns of a legend as a line has room for, its first name being longest."""
+    rest = max((len(name) for name in names[1:]), default=1) + 4
+    return max(1, min(MAX_COLUMNS, 1 + (letters - len(names[0]) - 4) // rest))
 
 
 def _in_lines(name: str) -> str:
