@@ -103,7 +103,13 @@ def test_info_of_what_does_not_exist(tmp_path: Path) -> None:
         ),
         (
             ["run", "step-tension", "--t-end", "1e9"],
-            "num_samples must be a whole number 2 to 10000000, got 100000000001 (int)",
+            "--t-end must be at most 100000 s, which 10000000 samples 0.01 s apart reach, "
+            "got 1e+09 s",
+        ),
+        (
+            ["run", "step-tension", "--t-end", "1e308"],
+            "--t-end must be at most 100000 s, which 10000000 samples 0.01 s apart reach, "
+            "got 1e+308 s",
         ),
     ],
 )
@@ -211,8 +217,9 @@ def test_names_that_are_no_strings(get: Any, name: object) -> None:
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no full device")
-def test_what_is_printed_onto_a_full_disk() -> None:
-    command = [sys.executable, "-m", "cdcr", "list", "--json"]
+@pytest.mark.parametrize("args", [["list", "--json"], ["list"], ["doctor", "--json"], ["doctor"]])
+def test_what_is_printed_onto_a_full_disk(args: list[str]) -> None:
+    command = [sys.executable, "-m", "cdcr", *args]
     with Path("/dev/full").open("w") as full:
         done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
     assert done.returncode == 2
@@ -232,3 +239,9 @@ def test_a_robot_beyond_all_sizes_is_refused(command: str, tmp_path: Path) -> No
     assert result.exit_code == 2, result.output
     sentence = f"{file}: the robot must be 1e-150 to 1e150 m long in all, got 1e-160"
     assert sentence in result.output.replace("\n", "")
+
+
+def test_a_terminal_whose_width_is_not_known(monkeypatch: pytest.MonkeyPatch) -> None:
+    command = [sys.executable, "-m", "cdcr", "list"]
+    monkeypatch.setenv("COLUMNS", "0")
+    assert "step-tension" in subprocess.run(command, capture_output=True, text=True).stdout

@@ -40,6 +40,16 @@ def switched_on(i: int) -> str:
     return others
 
 
+@pytest.mark.parametrize(
+    ("name", "told"), [("my arm.toml", "'my arm.toml'"), ("-a.toml", "./-a.toml")]
+)
+def test_the_command_to_go_on_with_can_be_copied(
+    name: str, told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert cdcr_("new", "--", name).stdout == f"wrote {name}; next: cdcr run {told}\n"
+
+
 def test_the_file_runs_as_it_is(tmp_path: Path) -> None:
     path, out = tmp_path / "my.toml", tmp_path / "out"
     result = cdcr_("new", path)

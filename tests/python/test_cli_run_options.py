@@ -4,6 +4,7 @@ import re
 import shutil
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -14,6 +15,7 @@ pytest.importorskip("matplotlib")
 pytest.importorskip("h5netcdf")
 
 from cdcr.cli import run as cli_run
+from cdcr.scenarios import Scenario
 from command import cdcr_, everything_in, refused
 
 FILES = ["step-tension.png", "step-tension.csv", "step-tension.nc"]
@@ -99,3 +101,21 @@ def test_limits_of_whole_numbers_are_told() -> None:
     assert "'--jobs': must be a whole number >= 1, got '0'" in jobs
     port = cdcr_("view", "amouri2020", "--port", "65536").stderr
     assert "'--port': must be a whole number 0 to 65535, got '65536'" in port
+
+
+@pytest.mark.usefixtures("quick")
+def test_files_that_appear_during_the_run_are_not_replaced(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    simulate, other = Scenario.simulate, tmp_path / "step-tension.csv"
+
+    def simulate_beside_another(self: Scenario, **options: Any) -> Any:
+        other.write_text("of another process")
+        return simulate(self, **options)
+
+    monkeypatch.setattr(Scenario, "simulate", simulate_beside_another)
+    args = ("run", "step-tension", "--out", tmp_path, "--t-end", 0.1)
+    assert refused(cdcr_(*args)).startswith(f"{other} exists already; give --overwrite")
+    assert everything_in(tmp_path) == ["step-tension.csv"]
+    assert other.read_text() == "of another process"
+    assert cdcr_(*args, "--overwrite").exit_code == 0

@@ -32,7 +32,7 @@ from cdcr.gym import RobotEnv, RobotVectorEnv
         ),
         ({"action": "length", "limit": [0.1, 0.2, 0.81]}, "at most 0.802 m for cable 3, its"),
         ({"control_cost": -0.1}, "control_cost must be a number >= 0 and finite, got -0.1"),
-        ({"period": 0.0}, "period must be a number > 0 s and finite, got 0.0"),
+        ({"period": 0.0}, "period must be a number 1e-09 to 1000 s, got 0.0"),
         ({"randomization": {"colour": (1, 2)}}, "there is no range of randomization 'colour'."),
         ({"randomization": {"mass": (0.0, 1.0)}}, "must be two numbers > 0, from low to high"),
         ({"randomization": {"payload": (0.2, 0.1)}}, "must be two numbers >= 0, from low to high"),

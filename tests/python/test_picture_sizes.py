@@ -1,5 +1,6 @@
 """Sizes of pictures: of a journal's column, of a slide, and any other."""
 
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,7 @@ from PIL import Image
 from typer.testing import CliRunner
 
 from cdcr.cli.app import app
+from cdcr.plotting import resize
 from words import words, words_outside
 
 CM = 1.0 / 2.54  # [in]
@@ -154,3 +156,13 @@ def test_letters_become_no_smaller_than_the_picture() -> None:
     assert large["time [s]"] == usual["time [s]"]
     share = min(15.0 * CM / made[0], 11.0 * CM / made[1])
     assert share <= small["time [s]"] / usual["time [s]"] < 1.0
+
+
+def test_the_legend_of_many_cables_stays_inside_a_column() -> None:
+    section = cdcr.robots.amouri2020(damping=0.01).sections[0]
+    six = replace(section, length=0.1, cable_angles=[k * np.pi / 3.0 for k in range(6)])
+    model = cdcr.Model(cdcr.Robot(sections=[six] * 8))
+    q, tension = np.tile([0.3, 0.1], 8), 0.1 * np.arange(48.0)
+    run = cdcr.simulate(model, q, np.zeros(16), t=np.linspace(0.0, 0.01, 3), tension=tension)
+    figure = resize(run.plot(), "journal")
+    assert not words_outside(figure)

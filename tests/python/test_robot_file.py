@@ -167,15 +167,17 @@ def test_a_file_as_people_write_it(tmp_path: Path) -> None:
 def test_what_may_be_left_out_has_the_defaults(tmp_path: Path) -> None:
     robot = load(
         tmp_path,
-        "[[sections]]\nlength = 1\nbackbone_mass = 2\nbackbone_diameter = 3\n"
+        "[[sections]]\nlength = 1\nbackbone_mass = 2\nbackbone_diameter = 0.3\n"
         "youngs_modulus = 4e9\n",
     )
     assert robot == cdcr.Robot(
-        sections=[cdcr.Section(length=1, backbone_mass=2, backbone_diameter=3, youngs_modulus=4e9)]
+        sections=[
+            cdcr.Section(length=1, backbone_mass=2, backbone_diameter=0.3, youngs_modulus=4e9)
+        ]
     )
 
 
-@pytest.mark.filterwarnings("ignore:.*(full turn|softer|millimetres|material)")
+@pytest.mark.filterwarnings("ignore:.*(full turn|softer|millimetres|material|mm/s)")
 @given(robot=robots())
 def test_round_trip_is_exact(robot: cdcr.Robot, tmp_path_factory: Any) -> None:
     path = tmp_path_factory.mktemp("robot") / "robot.toml"

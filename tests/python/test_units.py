@@ -1,6 +1,7 @@
 """Numbers that look like those of another unit: a warning asks."""
 
 import math
+import re
 import warnings
 from dataclasses import replace
 from pathlib import Path
@@ -63,6 +64,21 @@ def test_a_modulus_in_gigapascals(modulus: float) -> None:
             "in g? Masses are in kg",
         ),
         (
+            {"backbone_diameter": 5.0},
+            "section 2: backbone_diameter = 5 m, of a robot 1.604 m long, looks like millimetres: "
+            "lengths are in m",
+        ),
+        (
+            {"backbone_diameter": 0.9},
+            "section 2: backbone_diameter = 0.9 m, of a robot 1.604 m long, looks like "
+            "millimetres: lengths are in m",
+        ),
+        (
+            {"disk_mass": 12.0},
+            "section 2: disk_mass = 12 kg makes disks denser than any material: is it in g? Masses "
+            "are in kg",
+        ),
+        (
             {"cable_friction": 30.0},
             "section 2: cable_friction = 30 is more than any materials have: is it in per cent?",
         ),
@@ -72,6 +88,34 @@ def test_lengths_masses_and_friction(changes: dict[str, float], sentence: str) -
     with pytest.warns(UserWarning, match="section 2") as caught:
         robot(**changes)
     assert [str(one.message) for one in caught] == [sentence]
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        (
+            {"cables": [cdcr.Cable(radius=(10.0, 12.0), angle=(0.0, 0.0), end_section=0)]},
+            "cable 1 of cables: radius = 12 m, of a robot 0.802 m long, looks like millimetres: ",
+        ),
+        (
+            {"payload": 0.01, "payload_position": (0.0, 3.0, 4.0)},
+            "payload_position = 5 m, of a robot 0.802 m long, looks like millimetres: lengths are",
+        ),
+        (
+            {"tool": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 100], [0, 0, 0, 1]]},
+            "the place of tool = 100 m, of a robot 0.802 m long, looks like millimetres: lengths",
+        ),
+        (
+            {"gravity": (0.0, 0.0, -9810.0)},
+            "gravity = 9810 m/s^2 is a hundred times the earth's: is it in mm/s^2?",
+        ),
+    ],
+)
+def test_what_stands_beside_the_sections(changes: dict[str, Any], sentence: str) -> None:
+    with pytest.warns(UserWarning, match=re.escape(sentence)) as caught:
+        cdcr.Robot(sections=[SECTION], **changes)
+    (told,) = [str(one.message) for one in caught]
+    assert told.startswith(sentence)
 
 
 def test_a_small_robot_in_many_parts_and_a_long_one_are_not_asked() -> None:

@@ -8,20 +8,26 @@ from collections.abc import Collection, Iterable, Mapping, Set
 from contextlib import suppress
 from dataclasses import fields
 from numbers import Integral, Real
-from typing import Any
+from typing import Any, TypeGuard
 
 import numpy as np
 
 from cdcr import _core
 
 MAX_INT = 2**31 - 1  # largest count that the core can be told
+MOST_SENTENCES = 20  # of one refusal; of more faults the number is told
 _IN_WORDS = {3: "three", 4: "four"}
 NO_NUMBERS = (bool, np.bool_, np.timedelta64)  # though Python and NumPy count some among these
 
 
+def short(value: object) -> str:
+    """Return a value as a refusal prints it, in some thirty characters whatever its size."""
+    return reprlib.repr(value)
+
+
 def format_value(value: object) -> str:
     """Return a value as a refusal prints it: short, with its type."""
-    return f"{reprlib.repr(value)} ({type(value).__name__})"
+    return f"{short(value)} ({type(value).__name__})"
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
@@ -49,11 +55,15 @@ def require_truth(item: str, value: object) -> None:
         raise TypeError(f"{item} must be True or False, got {format_value(value)}")
 
 
+def is_iterable(value: object) -> TypeGuard[Iterable[Any]]:
+    """Whether a value can be gone through, which an array without dimensions cannot."""
+    return isinstance(value, Iterable) and getattr(value, "ndim", 1) != 0
+
+
 def as_tuple(item: str, value: object, wanted: str) -> tuple[Any, ...]:
     """Return what can be gone through as a tuple, or refuse what cannot, and text."""
-    if isinstance(value, Iterable) and not isinstance(value, (str, bytes)):
-        with suppress(TypeError):  # an array of no dimension
-            return tuple(value)
+    if is_iterable(value) and not isinstance(value, (str, bytes)):
+        return tuple(value)
     raise TypeError(f"{item} must be {wanted}, got {format_value(value)}")
 
 
@@ -72,7 +82,8 @@ def known_name(noun: str, name: object, known: Collection[str]) -> str:
         Where it is none of them.
     """
     if not isinstance(name, str):
-        told = f"the name of a {noun} must be a string, got {format_value(name)}."
+        article = "an" if noun[0] in "aeiou" else "a"
+        told = f"the name of {article} {noun} must be a string, got {format_value(name)}."
         raise ValueError(f"{told} Known: {', '.join(known)}")
     for one in known:
         if one.replace("_", "-") == name.replace("_", "-"):
@@ -236,4 +247,7 @@ class Check:
         """Raise a ValueError with all sentences, one a line, where there are any."""
         self.sentences += violations
         if self.sentences:
-            raise ValueError("\n".join(self.sentences))
+            told, more = self.sentences[:MOST_SENTENCES], len(self.sentences) - MOST_SENTENCES
+            if more > 0:
+                told.append(f"and {count(more, 'more value')} must be other than given")
+            raise ValueError("\n".join(told))

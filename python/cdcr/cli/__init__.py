@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import os
 import signal
 import sys
 from collections.abc import Sequence
@@ -23,6 +24,8 @@ def main(args: Sequence[str] | None = None) -> None:
         sys.exit(2)
     from cdcr.cli.app import app
 
+    if os.environ.get("COLUMNS") == "0":  # a width that is not known, of which nothing would show
+        del os.environ["COLUMNS"]
     for stream in (sys.stdout, sys.stderr):  # what a terminal cannot show is a question mark
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from pathlib import Path
 from typing import Annotated
 
@@ -238,7 +239,8 @@ def new_command(
             raise run.Mistake("give either --from or --robot, not both")
         else:
             new.write_robot(file, robot, overwrite=overwrite)
-        typer.echo(f"wrote {file}; next: cdcr {'run' if robot is None else 'info'} {file}")
+        told = shlex.quote(f"./{file}" if str(file).startswith("-") else str(file))
+        typer.echo(f"wrote {file}; next: cdcr {'run' if robot is None else 'info'} {told}")
 
 
 @app.command("audit", short_help="Hold the origin paper's claims against its own equations.")

@@ -217,9 +217,9 @@ def doctor_command(as_json: AsJson = False) -> None:
     """
     with told_plainly():
         told = examine(Console(stderr=True))
-    if as_json:
-        print_json(told)
-    else:
-        print_report(Console(), told)
+        if as_json:
+            print_json(told)
+        else:
+            print_report(Console(), told)
     if not told["ok"]:
         raise typer.Exit(1)

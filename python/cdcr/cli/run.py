@@ -133,7 +133,8 @@ def run(
     _check_film(film)
     files = (*_files(scenario, formats), *([f".{film}"] if film else ()))
     targets = tuple(out / f"{scenario.name}{suffix}" for suffix in files)
-    overwrite = overwrite or all(path in own for path in targets if path.exists())
+    there = {path for path in targets if path.exists()}
+    overwrite = overwrite or (bool(there) and there <= set(own))
     of_integrator = {key: value for key, value in options.items() if key != "t_end"}
     with mistakes(as_options):
         scenario.times(options["t_end"])

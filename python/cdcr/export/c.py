@@ -130,7 +130,7 @@ def c_texts(
     _core.Simulator(model)  # refuses a robot without inertia
 
     arcs, shapes = model._tables()
-    pieces = min(math.ceil(limit**2 / math.pi**2), len(arcs))
+    pieces = min(max(math.ceil(limit**2 / math.pi**2), 1), len(arcs))
     arcs, shapes = arcs[:pieces], [table[:pieces] for table in shapes]
     what = f"{count(len(robot.sections), 'section')} and {count(robot.num_cables, 'cable')}"
     values: dict[str, object] = {

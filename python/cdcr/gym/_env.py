@@ -10,7 +10,7 @@ from gymnasium.spaces import Box
 from numpy.typing import ArrayLike, NDArray
 
 from cdcr.base.arrays import FloatArray, finite
-from cdcr.base.check import one_of
+from cdcr.base.check import one_of, short
 from cdcr.gym._picture import Picture, Window
 from cdcr.gym._randomization import Ranges
 from cdcr.gym._task import FAILED, Task
@@ -94,7 +94,7 @@ class RobotEnv(gymnasium.Env[Observation, Action]):
         randomization: Ranges | None = None,
     ) -> None:
         if render_mode is not None and not one_of(render_mode, RENDER_MODES):
-            raise ValueError(f"render_mode must be one of {RENDER_MODES}, got {render_mode!r}")
+            raise ValueError(f"render_mode must be one of {RENDER_MODES}, got {short(render_mode)}")
         self._task = Task(
             1,
             task=task,
@@ -144,9 +144,21 @@ class RobotEnv(gymnasium.Env[Observation, Action]):
         -------
         (num_cables,) array
             Tensions [N], or lengths [m].
+
+        Raises
+        ------
+        ValueError
+            For an action of another shape, or that holds anything but numbers.
         """
         drive = self._task.drive
-        return drive.command(drive.share(action))
+        return drive.command(drive.share(self._checked(action)))
+
+    def _checked(self, action: ArrayLike) -> FloatArray:
+        """Return an action as numbers, one for each cable, or refuse it."""
+        given = finite(action, "action")
+        if given.shape != self.action_space.shape:
+            raise ValueError(f"action must have shape {self.action_space.shape}, got {given.shape}")
+        return given
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
@@ -191,10 +203,7 @@ class RobotEnv(gymnasium.Env[Observation, Action]):
         ValueError
             For an action of another shape, or that holds anything but numbers.
         """
-        given = finite(action, "action")
-        if given.shape != self.action_space.shape:
-            raise ValueError(f"action must have shape {self.action_space.shape}, got {given.shape}")
-        parts, failed = self._task.step(given[None], self._active)
+        parts, failed = self._task.step(self._checked(action)[None], self._active)
         told = {name: float(value[0]) for name, value in parts.items()}
         fails = bool(failed[0])
         reward = FAILED if fails else sum(told.values())

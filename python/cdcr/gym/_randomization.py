@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from cdcr.base.check import Check, format_value, known_name
+from cdcr.base.check import Check, format_value, known_name, short
 from cdcr.robot.robot import Robot
 from cdcr.robot.section import Section
 
@@ -44,7 +44,8 @@ def checked_ranges(ranges: Ranges | None) -> dict[str, tuple[float, float]]:
             or not (pair[0] or least_allowed)
         ):
             bound = ">= 0" if least_allowed else "> 0"
-            raise ValueError(f"{item} must be two numbers {bound}, from low to high, got {given!r}")
+            must = f"two numbers {bound}, from low to high"
+            raise ValueError(f"{item} must be {must}, got {short(given)}")
         checked[name] = (pair[0], pair[1])
     return checked
 

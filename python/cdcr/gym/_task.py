@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray, finite
-from cdcr.base.check import Check, known_name, require_kind
+from cdcr.base.check import Check, known_name, require_kind, short
 from cdcr.gym._drive import Drive
 from cdcr.gym._randomization import Ranges, checked_ranges, draw_robot
 from cdcr.model.model import Model
@@ -29,6 +29,7 @@ REACHED = 0.02  # distance that counts as success [robot lengths]
 FAILED = -100.0  # reward where the robot bends beyond what the model allows
 CYCLE = (3.0, 6.0)  # range of the time in which a target goes round its path [s]
 LEAST_STEPS = 5  # of Runge-Kutta in a period
+SHORTEST, LONGEST = 1e-9, 1e3  # period [s]
 STABLE_SHARE = 3.0  # the largest stable step over the one taken
 MAX_DRAWS = 20  # of commands, until the robot rests under one
 OPTIONS, NO_LOADS = _core.Options(), _core.Loads()
@@ -61,10 +62,14 @@ class Task:
         self.drive = Drive(robot, known_name("action", action, ACTIONS) == "length", limit)
         check = Check()
         self._cost = check.number("control_cost", control_cost, "a number >= 0 and finite")
-        self._period = check.number("period", period, "a number > 0 s and finite", above=0.0)
+        seconds = f"a number {SHORTEST:g} to {LONGEST:g} s"
+        self._period = check.number("period", period, seconds)
+        if not SHORTEST <= self._period <= LONGEST and not check.sentences:
+            check.refuse("period", seconds, period)
         check.done()
         if not 0.0 <= self._cost < math.inf:
-            raise ValueError(f"control_cost must be a number >= 0 and finite, got {control_cost!r}")
+            must = "a number >= 0 and finite"
+            raise ValueError(f"control_cost must be {must}, got {short(control_cost)}")
         self._ranges = checked_ranges(randomization)
         self.model = Model(self.drive.robot)  # not randomised; its geometry is that of all
         self._length = self.drive.robot.length

@@ -11,7 +11,7 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import ArrayLike, NDArray
 
-from cdcr.base.check import Check
+from cdcr.base.check import Check, short
 from cdcr.gym._env import Observation, spaces
 from cdcr.gym._picture import Picture
 from cdcr.gym._randomization import Ranges
@@ -88,7 +88,7 @@ class RobotVectorEnv(VectorEnv[Observation, NDArray[np.float32], NDArray[Any]]):
         check.whole("threads", threads, "a whole number >= 0", low=0)
         check.done()
         if render_mode not in (None, "rgb_array"):
-            raise ValueError(f"render_mode must be 'rgb_array' or None, got {render_mode!r}")
+            raise ValueError(f"render_mode must be 'rgb_array' or None, got {short(render_mode)}")
         self._task = Task(
             self.num_envs,
             task=task,
@@ -143,7 +143,7 @@ class RobotVectorEnv(VectorEnv[Observation, NDArray[np.float32], NDArray[Any]]):
         elif isinstance(several, (Sequence, np.ndarray)) and not isinstance(several, (str, bytes)):
             seeds = list(several)
         else:
-            raise TypeError(f"seed must be a whole number or one of each robot, got {seed!r}")
+            raise TypeError(f"seed must be a whole number or one of each robot, got {short(seed)}")
         if len(seeds) != self.num_envs:
             raise ValueError(f"seed must be one number or {self.num_envs}, got {len(seeds)}")
         for i, one in enumerate(seeds):

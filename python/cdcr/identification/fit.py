@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 from typing import Any
 
 import numpy as np
 
 from cdcr.base.arrays import FloatArray
-from cdcr.base.check import Check, count, one_of, require_kind
+from cdcr.base.check import Check, count, is_iterable, one_of, require_kind, short
 from cdcr.base.extras import require
 from cdcr.identification.channels import whole
 from cdcr.identification.data import Data, UnsolvedError, require_data
@@ -120,7 +120,7 @@ def fit(
     """
     require_kind("robot", robot, Robot)
     if not one_of(loss, LOSSES):
-        raise ValueError(f"loss must be one of {', '.join(LOSSES)}, got {loss!r}")
+        raise ValueError(f"loss must be one of {', '.join(LOSSES)}, got {short(loss)}")
     starts, most = whole("starts", starts, 1), whole("max_evaluations", max_evaluations, 1)
     check = Check()
     seed = check.whole("seed", seed, "a whole number >= 0", 0, LARGEST_SEED)
@@ -162,7 +162,7 @@ def prepared(
     first: int = 0,
 ) -> Problem:
     """Return the problem that data and parameters pose, or refuse them."""
-    if not isinstance(data, Data | Iterable):
+    if not (isinstance(data, Data) or is_iterable(data)):
         require_data("data", data, ", or a sequence of these")
     every = [data] if isinstance(data, Data) else list(data)
     for i, one in enumerate(every):

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields
 from typing import Any
 
-from cdcr.base.check import entry, nearest
+from cdcr.base.check import entry, nearest, short
 from cdcr.identification.setup import MOUNTING, Plain
 from cdcr.robot.cable import Cable
 from cdcr.robot.robot import Robot
@@ -104,7 +104,7 @@ def quantities_of(path: str, robot: Robot, plain: Plain, first: int = 0) -> list
         For a path that names no number of this robot.
     """
     if not isinstance(path, str):
-        raise ValueError(f"a parameter must be named by a path, got {path!r}")
+        raise ValueError(f"a parameter must be named by a path, got {short(path)}")
     words = re.fullmatch(r"(.+?)(?: ([xyz]))?", path.strip())
     if words is None:
         raise ValueError(_unknown(path, robot))
@@ -265,8 +265,9 @@ def _picked(
         return [(i, (i,)) for i in range(count)]
     if not pick.isdigit() or not 0 <= int(pick) - first < count:
         last = first + count - 1
-        allowed = f"{first} to {last}, * or :" if count else "none, as there are no such things"
-        raise ValueError(f"parameter {path!r}: [{pick}] must be one of {allowed}")
+        span = f"one of {first} to {last}" if count > 1 else f"{first}"
+        allowed = f"{span}, * or :" if count else "one of none, as there are no such things"
+        raise ValueError(f"parameter {path!r}: [{pick}] must be {allowed}")
     return [(int(pick) - first, (int(pick) - first,))]
 
 

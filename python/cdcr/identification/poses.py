@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cdcr.base.arrays import FloatArray
-from cdcr.base.check import one_of, require_truth
+from cdcr.base.check import one_of, require_truth, short
 from cdcr.identification.channels import (
     Channel,
     Where,
@@ -114,7 +114,7 @@ class Poses(AtRest):
     def __post_init__(self) -> None:
         """Keep arrays of numbers, or refuse what is none."""
         if not one_of(self.gaps, ("refuse", "skip")):
-            raise ValueError(f"gaps must be 'refuse' or 'skip', got {self.gaps!r}")
+            raise ValueError(f"gaps must be 'refuse' or 'skip', got {short(self.gaps)}")
         for name in ("pulled", "history"):
             require_truth(name, getattr(self, name))
         command = measured("command", self.command, (None, None), self._named)

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray, finite
-from cdcr.base.check import count, one_of, require_kind, require_truth
+from cdcr.base.check import count, one_of, require_kind, require_truth, short
 from cdcr.model.inverse_kinematics import InverseKinematics
 from cdcr.model.modes import Modes
 from cdcr.model.statespace import StateSpaceModel
@@ -54,7 +54,7 @@ class Model(StateSpaceModel):
     def __init__(self, robot: Robot, formulation: str = "exact") -> None:
         require_kind("robot", robot, Robot)
         if not one_of(formulation, FORMULATIONS):
-            raise ValueError(f"formulation must be one of {FORMULATIONS}, got {formulation!r}")
+            raise ValueError(f"formulation must be one of {FORMULATIONS}, got {short(formulation)}")
         super().__init__(robot._to_core(), _core.Formulation[formulation.replace("-", "_")])
         self._robot = robot
         self._formulation = formulation

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import fields
 from typing import Any
 
 from cdcr import _core
+from cdcr.base.check import is_iterable, short
 from cdcr.robot.cable import Cable
 from cdcr.robot.numbers import Place, find, paths, refuse_unknown
 from cdcr.robot.plain import core_robot, plain_robot
@@ -38,12 +39,11 @@ class ParameterSets:
             For what is no path.
         """
         one: Any = asked  # of any kind, as users may give
-        names = tuple(one) if isinstance(one, Iterable) and not isinstance(one, str) else (one,)
+        names = tuple(one) if is_iterable(one) and not isinstance(one, str) else (one,)
         for name in names:
             if not isinstance(name, str):
-                raise TypeError(
-                    f"parameters must be paths, such as 'sections.1.youngs_modulus', got {name!r}"
-                )
+                must = "paths, such as 'sections.1.youngs_modulus'"
+                raise TypeError(f"parameters must be {must}, got {short(name)}")
         found = self._known.get(names)
         if found is None:
             found = _core.ParameterSet(model, [self._described(name, besides) for name in names])

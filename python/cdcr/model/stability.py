@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cdcr.base.check import one_of, require_kind
+from cdcr.base.check import one_of, require_kind, short
 from cdcr.model.model import Model
 from cdcr.model.statics import checked_equilibrium
 
@@ -60,7 +60,9 @@ def stable_step(
     """
     require_kind("model", model, Model)
     if not one_of(method, ("rk4",)):
-        raise ValueError(f"method must be 'rk4', the others choose their steps; got {method!r}")
+        raise ValueError(
+            f"method must be 'rk4', the others choose their steps; got {short(method)}"
+        )
     command = model.rest_command() if tension is None else tension
     shape = checked_equilibrium(model.find_equilibrium(command)) if q is None else q
     A, _ = model.linearize(shape, np.zeros(model.num_coordinates), command)

@@ -239,10 +239,13 @@ class StateSpaceModel(ShapeModel):
             shape = checked_equilibrium(model.find_equilibrium(command, wrenches=wrenches))
         else:
             shape = finite(q, "q")
-        if shape.shape != (model.num_coordinates,):
-            raise ValueError(f"q must have shape ({model.num_coordinates},), got {shape.shape}")
-        rates = np.zeros(model.num_coordinates) if qd is None else qd
-        A, B = model.linearize(shape, rates, command, wrenches)
+        rates = np.zeros(model.num_coordinates) if qd is None else finite(qd, "qd")
+        pulls = finite(command, "tension")
+        d, cables = model.num_coordinates, model.num_cables
+        for name, array, size in (("q", shape, d), ("qd", rates, d), ("tension", pulls, cables)):
+            if array.shape != (size,):
+                raise ValueError(f"{name} must have shape ({size},), got {array.shape}")
+        A, B = model.linearize(shape, rates, pulls, wrenches)
         C = np.vstack([output.derivative(model, shape) for output in chosen])
         return control.StateSpace(
             *(A, B, C, np.zeros((len(C), model.num_cables))),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cdcr import _core
-from cdcr.base.check import Check, format_value, one_of
+from cdcr.base.check import Check, format_value, is_iterable, one_of
 from cdcr.base.keywords import by_keyword
 
 Frame = Literal["base", "local"]
@@ -161,7 +161,7 @@ def loads(wrenches: Wrench | Sequence[Wrench]) -> _core.Loads:
     """Return one wrench or several as the core's loads over time."""
     if isinstance(wrenches, Wrench):
         return _loads((wrenches,))
-    if not isinstance(wrenches, Iterable):
+    if not is_iterable(wrenches):
         raise ValueError(
             f"wrenches must be a sequence of cdcr.Wrench, got {format_value(wrenches)}"
         )

@@ -116,8 +116,10 @@ def check_path(
     check = Check()
     low = check.number("min_tension", min_tension, "a number")
     high = check.number("max_tension", max_tension, "a number")
-    fastest = check.number("max_rate", max_rate, "a number")
+    fastest = check.number("max_rate", max_rate, "a number > 0 N/s")
     samples = check.whole("num_samples", num_samples, "a whole number 5 to 1000000", 5, 1000000)
+    if not fastest > 0.0 and not check.sentences:
+        check.refuse("max_rate", "a number > 0 N/s", max_rate)
     check.done()
     require_truth("orientation", orientation)
     size = model.num_coordinates

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray, ReadOnlyArrays, read_only
-from cdcr.base.check import Check, one_of, require_kind
+from cdcr.base.check import Check, one_of, require_kind, short
 from cdcr.model.memory import warn_of_friction
 from cdcr.model.model import Model
 from cdcr.model.statics import InfeasibleError, in_line
@@ -267,7 +267,7 @@ def _check(model: Model, reference: Reference, infeasible: str) -> None:
     require_kind("model", model, Model)
     require_kind("reference", reference, Reference)
     if not one_of(infeasible, ("raise", "nearest")):
-        raise ValueError(f"infeasible must be 'raise' or 'nearest', got {infeasible!r}")
+        raise ValueError(f"infeasible must be 'raise' or 'nearest', got {short(infeasible)}")
     wanted = (len(reference), model.num_coordinates)
     if reference.q.shape != wanted:
         raise ValueError(

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from cdcr._core import max_bending
 from cdcr.base.arrays import FloatArray, finite
-from cdcr.base.check import Check, require_kind
+from cdcr.base.check import Check, require_kind, short
 from cdcr.model.model import FORMULATIONS
 from cdcr.paper._elements import Sums, cut_sums, disks, rod, sums
 from cdcr.robot.robot import Robot
@@ -117,7 +117,7 @@ def taylor_coefficients(kind: str = "taylor", num_disks: int = 10) -> Factors:
     from fractions import Fraction
 
     if kind not in ("taylor", "printed-taylor"):
-        raise ValueError(f"kind must be 'taylor' or 'printed-taylor', got {kind!r}")
+        raise ValueError(f"kind must be 'taylor' or 'printed-taylor', got {short(kind)}")
     bodies = rod(), disks(_checked_count(num_disks))
     of_rod, of_disks = (Sums(*map(np.array, cut_sums(body, kind))) for body in bodies)
     return _named(of_rod, of_disks, Fraction(1, 2) if kind == "printed-taylor" else 1)
@@ -212,7 +212,7 @@ def inertia_and_slopes(
 def check_kind(kind: str, name: str) -> None:
     """Refuse an unknown kind of factors."""
     if kind not in FORMULATIONS:
-        raise ValueError(f"{name} must be one of {FORMULATIONS}, got {kind!r}")
+        raise ValueError(f"{name} must be one of {FORMULATIONS}, got {short(kind)}")
 
 
 def _checked_count(num_disks: int) -> int:
@@ -246,5 +246,5 @@ def only_section(robot: Robot) -> Section:
         for item in fields(thing):
             value = getattr(thing, item.name)
             if item.metadata["advanced"] and value != item.default:
-                raise ValueError(f"the paper's equations have no {item.name}, got {value!r}")
+                raise ValueError(f"the paper's equations have no {item.name}, got {short(value)}")
     return section

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cdcr.base.arrays import FloatArray, finite
+from cdcr.base.check import short
 from cdcr.paper._elements import bow, disks, rod, sinc, sinc_slope
 from cdcr.paper._factors import check_kind, checked_angles, inertia_and_slopes, only_section
 from cdcr.robot.robot import Robot
@@ -71,7 +72,7 @@ class PolarModel:
         check_kind(self.formulation, "formulation")
         if self.velocity_order not in ("mended", "printed"):
             raise ValueError(
-                f"velocity_order must be 'mended' or 'printed', got {self.velocity_order!r}"
+                f"velocity_order must be 'mended' or 'printed', got {short(self.velocity_order)}"
             )
 
     def mass_matrix(self, theta: ArrayLike) -> FloatArray:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cdcr.base.arrays import FloatArray
-from cdcr.base.check import Check, require_like
+from cdcr.base.check import Check, require_like, short
 from cdcr.files.new_file import file_path, new_file
 from cdcr.plotting import panels, space
 from cdcr.plotting.geometry import states_at
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 SIZE = (11.0, 5.6)  # of the picture [in]
 DPI, SHARP = 100, 144  # of that size, and of others that are wide: a slide has 1080 lines
 ROBOT_ROOM = np.array([5.6, 5.2])  # of the robot's part, left and under the clock [in]
+MIN_FPS = 0.01  # each picture of a .gif may last 655 s
 MOST_FRAMES = 100_000  # an hour of film, near enough
 NUM_FITTED = 50  # shapes that must fit into the picture, besides all tips
 
@@ -74,8 +75,14 @@ def animate(
         check.number(name, value, "a number > 0 and finite", above=0.0)
     check.done()
     if path.suffix.lower() == ".gif" and fps > MAX_GIF_FPS:
-        raise ValueError(f"fps must be at most {MAX_GIF_FPS:g} in a .gif, got {fps!r}")
+        raise ValueError(f"fps must be at most {MAX_GIF_FPS:g} in a .gif, got {short(fps)}")
+    if fps < MIN_FPS:
+        raise ValueError(f"fps must be at least {MIN_FPS:g}, got {fps!r}")
     checked_size(size)
+    if progress is not None and not callable(progress):
+        raise TypeError(
+            f"progress must be a function of two numbers, got {type(progress).__name__}"
+        )
     frame_times(run, speed / fps)
     with new_file(path, overwrite=overwrite) as partial:
         write_frames(run, partial, path.suffix, fps=fps, speed=speed, size=size, progress=progress)
@@ -108,6 +115,7 @@ def frame_times(run: Trajectory, step: float) -> FloatArray:
     """Return the times of the frames: every `step` [s] from the start, as far as the run goes."""
     start, end = run.t[0], run.t[-1]
     frames = (end - start) / step if step > 0.0 else math.inf
+    step = min(step, 2.0 * (end - start + 1.0))  # a step beyond the end may be infinite
     if frames > MOST_FRAMES:
         raise ValueError(
             f"a film has at most {MOST_FRAMES} pictures, of {end - start:g} s it would have "

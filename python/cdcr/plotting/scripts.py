@@ -8,6 +8,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
+from cdcr.base.check import as_tuple
 from cdcr.files.new_file import new_file
 
 MISTAKEN = 2  # exit code of a command line that cannot be done
@@ -36,6 +37,9 @@ def show_or_save(figure: Figure, arguments: Sequence[str]) -> None:
     >>> figure = cdcr.plotting.plot_robot(cdcr.Model(cdcr.robots.amouri2020()), [0.5, 0.0]).figure
     >>> cdcr.plotting.show_or_save(figure, sys.argv[1:])  # doctest: +SKIP
     """
+    if not isinstance(figure, Figure):
+        raise TypeError(f"figure must be a Matplotlib figure, got {type(figure).__name__}")
+    arguments = as_tuple("arguments", arguments, "a sequence of str, as sys.argv[1:]")
     if not arguments:
         from matplotlib import pyplot
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import textwrap
+import warnings
 from functools import partial
 from itertools import pairwise
 from typing import Any, Literal
@@ -13,10 +14,11 @@ from matplotlib.figure import Figure
 from matplotlib.legend import Legend
 from matplotlib.text import Annotation, Text
 
+from cdcr.base.check import short
 from cdcr.base.decimals import number
 from cdcr.plotting import space
 from cdcr.plotting.legend import legend_of, redraw_above
-from cdcr.plotting.letters import arrange, find_room, shrink_letters
+from cdcr.plotting.letters import MAX_COLUMNS, arrange, find_room, shrink_letters
 from cdcr.plotting.style import NARROW, style
 
 Size = str | tuple[float, float] | None
@@ -24,7 +26,7 @@ Size = str | tuple[float, float] | None
 CM = 1.0 / 2.54  # [in]
 COLUMN = 8.5 * CM  # width of a journal's column [in]
 SLIDE = (33.87 * CM, 19.05 * CM)  # 16:9 [in]
-SMALLEST, LARGEST = 1.0, 200.0  # of a side [cm]
+SMALLEST, LARGEST = 3.0, 200.0  # of a side [cm]
 # Of a narrow picture [in]: a panel, room above, below its name and without, sides, the robot, a row
 # of a legend.
 PANEL, ABOVE, BELOW, UNNAMED, LEFT, RIGHT, SPACE, ROW = 0.95, 0.3, 0.4, 0.12, 0.62, 0.1, 2.9, 0.14
@@ -56,7 +58,7 @@ def checked_size(size: Any) -> tuple[float, float] | Literal["journal"] | None:
     if not (SMALLEST <= width <= LARGEST and SMALLEST <= height <= LARGEST):
         raise ValueError(
             "size must be 'journal' (8.5 cm wide), 'slide' (16:9) or width and height of "
-            f"{SMALLEST:g} to {LARGEST:g} cm, got {told!r}"
+            f"{SMALLEST:g} to {LARGEST:g} cm, got {short(told)}"
         )
     return (width * CM, height * CM)
 
@@ -95,10 +97,13 @@ def resize(figure: Figure, size: Size) -> Figure:
     >>> cdcr.plotting.resize(run.plot(), (16, 9)).get_size_inches().round(2)
     array([6.3 , 3.54])
     """
+    if not isinstance(figure, Figure):
+        raise TypeError(f"figure must be a Matplotlib figure, got {type(figure).__name__}")
     sides = checked_size(size)
     if sides is None:
         return figure
-    with style():
+    with style(), warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
         narrow = is_narrow(sides)
         if narrow:
             width = COLUMN if isinstance(sides, str) else sides[0]
@@ -111,7 +116,21 @@ def resize(figure: Figure, size: Size) -> Figure:
         if narrow and not getattr(figure, "narrow", None):
             _keep_all_inside(figure)
         arrange(figure)
+    _pass_on(told, figure)
     return figure
+
+
+def _pass_on(told: list[warnings.WarningMessage], figure: Figure) -> None:
+    """Warn anew, of a layout that finds no room in words of our own; it is then left as it is."""
+    crowded = [one for one in told if "collapsed to zero" in str(one.message)]
+    for one in told:
+        if one not in crowded:
+            warnings.warn_explicit(one.message, one.category, one.filename, one.lineno)
+    if crowded:
+        figure.set_layout_engine("none")
+        width, height = figure.get_size_inches() / CM
+        told_size = f"{width:.3g} x {height:.3g} cm"
+        warnings.warn(f"{told_size} has no room for all of this picture", stacklevel=3)
 
 
 def _stack(figure: Figure, width: float) -> None:
@@ -205,15 +224,25 @@ def _retell(axes: Any, letters: int) -> int:
     size = TEXT * 9.5
     told = textwrap.fill(note, letters)
     axes.set_title(told, loc="left", fontsize=size, pad=(size + 5.0) if legend else None)
+    rows = 0
     if legend is not None:
         labels = axes.get_legend_handles_labels()[1]
         fits = sum(map(len, labels)) + 4 * len(labels) < letters
-        redraw_above(axes, size, len(labels) if fits else 9)
+        told_names = [text.get_text() for text in legend.get_texts()]
+        columns = len(labels) if fits else _most_columns(told_names, letters)
+        redraw_above(axes, size, columns)
+        rows = max(0, -(-len(told_names) // columns) - 2)
     shared = axes.get_shared_y_axes().get_siblings(axes)
     name = axes.get_ylabel() or next((one.get_ylabel() for one in shared if one.get_ylabel()), "")
     axes.tick_params(labelleft=True)
     axes.set_ylabel(_in_lines(name), fontsize=TEXT * 10.5)
-    return 2 * bool(legend and note) + told.count("\n")
+    return 2 * bool(legend and note) + told.count("\n") + rows
+
+
+def _most_columns(names: list[str], letters: int) -> int:
+    """Return as many columns of a legend as a line has room for, its first name being longest."""
+    rest = max((len(name) for name in names[1:]), default=1) + 4
+    return max(1, min(MAX_COLUMNS, 1 + (letters - len(names[0]) - 4) // rest))
 
 
 def _in_lines(name: str) -> str:

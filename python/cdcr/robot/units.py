@@ -8,6 +8,8 @@ from collections.abc import Iterator
 from itertools import accumulate
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from cdcr.base.check import entry
 
 if TYPE_CHECKING:
@@ -20,7 +22,10 @@ SOFTEST = (1e-3, 1e3)  # Young's and shear moduli that nothing has, but in GPa o
 # Lengths in mm, masses in g: a thousand times what they are, so that few are asked in vain.
 LONG, SLENDEREST = 5.0, 2e4  # a section longer than that [m] and than so many diameters
 WIDE, WIDEST = 0.3, 5.0  # whatever is wider than that [m] and than so many lengths of the robot
+THICKEST = 0.5  # a backbone that is thicker than so many lengths of the robot too
 HEAVY, DENSEST = 0.1, 1e6  # a backbone heavier than that [kg] and denser than that [kg/m^3]
+DENSE = 1e5  # of disks that fill all of their section [kg/m^3]
+STRONGEST = 1e3  # gravity, or what a centrifuge has [m/s^2]
 THINNEST = 0.1  # density of a long backbone, a tenth of that of air [kg/m^3]
 ROUGHEST = 5.0  # coefficient of friction
 FARTHEST = 10.0  # commanded length over that of the straight robot, or the other way round
@@ -49,6 +54,21 @@ def _questions(robot: Robot) -> Iterator[str]:
     for j, cable in enumerate(robot.cables):
         if isinstance(cable.angle, float):  # one that winds may wind more than once
             yield from _about_angle(f"{entry('cables', j)}: angle", cable.angle, "angle_deg")
+        farthest = float(np.max(np.abs(cable.radius)))
+        yield from _about_width(f"{entry('cables', j)}: radius", farthest, robot.length)
+    for name, place in (
+        ("payload_position", robot.payload_position),
+        ("the place of tool", [row[3] for row in robot.tool[:3]]),
+    ):
+        yield from _about_width(name, math.hypot(*place), robot.length)
+    strength = math.hypot(*robot.gravity)
+    if strength > STRONGEST:
+        yield f"gravity = {strength:g} m/s^2 is a hundred times the earth's: is it in mm/s^2?"
+
+
+def _about_width(name: str, width: float, length: float, most: float = WIDEST) -> Iterator[str]:
+    if width > max(WIDE, most * length):
+        yield f"{name} = {width:g} m, of a robot {length:g} m long, {_MILLIMETRES}"
 
 
 def _about_sizes(at: str, section: Section, length: float) -> Iterator[str]:
@@ -58,18 +78,21 @@ def _about_sizes(at: str, section: Section, length: float) -> Iterator[str]:
         slender = section.length > SLENDEREST * widest
         if slender or 0.0 < section.backbone_mass < THINNEST * volume:
             yield f"{at}: length = {section.length:g} m {_MILLIMETRES}"
-    for name, width in (
-        ("backbone_diameter", widest),
-        ("disk_diameter", section.disk_diameter),
-        ("cable_radius", section.cable_radius),
-    ):
-        if width > max(WIDE, WIDEST * length):
-            yield f"{at}: {name} = {width:g} m, of a robot {length:g} m long, {_MILLIMETRES}"
+    yield from _about_width(f"{at}: backbone_diameter", widest, length, THICKEST)
+    for name in ("disk_diameter", "cable_radius"):
+        yield from _about_width(f"{at}: {name}", getattr(section, name), length)
     mass = section.backbone_mass
     if mass > max(HEAVY, DENSEST * volume):
         yield (
             f"{at}: backbone_mass = {mass:g} kg makes the backbone denser than any material: is it "
             "in g? Masses are in kg"
+        )
+    disk = section.disk_diameter * section.disk_diameter
+    filled = math.pi / 4.0 * disk * section.length / max(section.num_disks, 1)
+    if filled and section.disk_mass > max(HEAVY, DENSE * filled):
+        yield (
+            f"{at}: disk_mass = {section.disk_mass:g} kg makes disks denser than any material: is "
+            "it in g? Masses are in kg"
         )
     if section.cable_friction > ROUGHEST:
         yield (

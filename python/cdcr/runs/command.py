@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from cdcr import _core
 from cdcr.base.arrays import finite
-from cdcr.base.check import format_value, one_of, require_kind
+from cdcr.base.check import format_value, one_of, require_kind, short
 from cdcr.files.number_csv import RUN_TIME, Layout, read_numbers
 from cdcr.model.model import Model
 
@@ -59,7 +59,7 @@ class TensionTable:
     def __post_init__(self) -> None:
         if not one_of(self.interpolation, ("linear", "previous")):
             raise ValueError(
-                f"interpolation must be 'linear' or 'previous', got {self.interpolation!r}"
+                f"interpolation must be 'linear' or 'previous', got {short(self.interpolation)}"
             )
         t, rows = finite(self.t, "the table's t"), finite(self.tension, "the table's tension")
         if t.ndim != 1:

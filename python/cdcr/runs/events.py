@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from cdcr.base.arrays import FloatArray
-from cdcr.base.check import Check
+from cdcr.base.check import Check, short
 
 EventFunction: TypeAlias = Callable[..., Any]
 Watched: TypeAlias = tuple[EventFunction, int, int]
@@ -77,11 +77,11 @@ def _watched(function: EventFunction, i: int) -> Watched:
         raise TypeError(f"{item} must be a function, got {type(function).__name__}")
     direction = getattr(function, "direction", 0)
     if not isinstance(direction, Real) or not math.isfinite(direction):
-        raise ValueError(f"direction of {item} must be a number, got {direction!r}")
+        raise ValueError(f"direction of {item} must be a number, got {short(direction)}")
     terminal = getattr(function, "terminal", False)
     if not isinstance(terminal, (Integral, np.bool_)) or terminal < 0:
         raise ValueError(
-            f"terminal of {item} must be True, False or a number of times, got {terminal!r}"
+            f"terminal of {item} must be True, False or a number of times, got {short(terminal)}"
         )
     told = _of_state(function, item)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cdcr.base.arrays import FloatArray, ReadOnlyArrays, finite, read_only
-from cdcr.base.check import Check, as_tuple, format_value, require_kind
+from cdcr.base.check import Check, as_tuple, format_value, is_iterable, require_kind, short
 from cdcr.model.model import Model
 from cdcr.model.steps import AnyDynamics, Steps
 from cdcr.model.wrench import Wrench
@@ -161,7 +161,7 @@ def gradient(
             "there is no gradient where cables or drives remember: presliding_stiffness and "
             "backlash must be 0"
         )
-    pushing = tuple(wrenches) if isinstance(wrenches, Iterable) else (wrenches,)
+    pushing = tuple(wrenches) if is_iterable(wrenches) else (wrenches,)
     if any(getattr(wrench, "profile", None) is not None for wrench in pushing):
         raise ValueError("wrenches must not change in time for a gradient, got one with a profile")
     check = Check()
@@ -183,7 +183,7 @@ def gradient(
     )
     moves = Steps(AnyDynamics(model, pushing, names), step)
     walk = _Walk(moves, np.broadcast_to(pulls, (steps, model.num_cables)))
-    start = np.concatenate([finite(q0, "q0"), finite(qd0, "qd0")])
+    start = np.concatenate([_row(model, "q0", q0), _row(model, "qd0", qd0)])
     states, checkpoints = walk.forwards(start, record_every)
     d = model.num_coordinates
     t = np.asarray(step * record_every * np.arange(len(states)), dtype=np.float64)
@@ -202,6 +202,14 @@ def gradient(
         motion=motion,
         parameters=dict(zip(names, by_parameter.tolist(), strict=True)),
     )
+
+
+def _row(model: Model, name: str, given: ArrayLike) -> FloatArray:
+    """Return q0 or qd0 (d,)."""
+    array = np.asarray(finite(given, name))
+    if array.shape != (model.num_coordinates,):
+        raise ValueError(f"{name} must have shape ({model.num_coordinates},), got {array.shape}")
+    return array
 
 
 def _told(answer: object) -> tuple[float, Mapping[str, ArrayLike]]:
@@ -223,7 +231,7 @@ def _state_slopes(model: Model, motion: Motion, slopes: Mapping[str, ArrayLike])
     for name, given in slopes.items():
         if name not in _SLOPES:
             known = ", ".join(map(repr, _SLOPES))
-            raise ValueError(f"a cost has derivatives by {known}, got {name!r}")
+            raise ValueError(f"a cost has derivatives by {known}, got {short(name)}")
         shape = (rows, 3 if name == "tip" else d)
         values = finite(given, f"derivatives of the cost by {name}")
         if values.shape != shape:

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray, finite, read_only
+from cdcr.base.check import short
 from cdcr.model.model import Model
 from cdcr.robot.cable import Cable
 from cdcr.robot.numbers import Place, find, paths, put, refuse_shared, refuse_unknown
@@ -44,9 +45,8 @@ class Variation:
         found: dict[str, list[Place]] = {}
         for path, given in parameters.items():
             if not isinstance(path, str):
-                raise TypeError(
-                    f"parameters must be paths, such as 'sections.1.youngs_modulus', got {path!r}"
-                )
+                must = "paths, such as 'sections.1.youngs_modulus'"
+                raise TypeError(f"parameters must be {must}, got {short(path)}")
             places = find(table, path)
             if not places:
                 refuse_unknown(path, list(paths(table)))

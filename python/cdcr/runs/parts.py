@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from typing import Any, Literal, get_args
 
-from cdcr.base.check import Check, one_of, require_kind
+from cdcr.base.check import Check, one_of, require_kind, short
 from cdcr.base.keywords import by_keyword
 
 SensorKind = Literal[
@@ -174,14 +174,16 @@ class Sensor:
         """Refuse what is of another kind; ranges are looked at where a loop is made."""
         if not one_of(self.kind, KINDS):
             known = ", ".join(map(repr, KINDS))
-            raise ValueError(f"kind must be one of {known}, got {self.kind!r}")
+            raise ValueError(f"kind must be one of {known}, got {short(self.kind)}")
         _numbers({name: getattr(self, name) for name in ("period", "delay", "noise", "bias")})
         check = Check()
         check.whole("seed", self.seed, "a whole number >= 0", low=0, high=2**63 - 1)
         for i, place in enumerate(check.items("places", self.places, "a sequence of places")):
+            before = len(check.sentences)
             pair = check.items(f"places[{i}]", place, "an index of a section and a fraction")
             if len(pair) != 2:
-                check.refuse(f"places[{i}]", "an index of a section and a fraction", place)
+                if len(check.sentences) == before:
+                    check.refuse(f"places[{i}]", "an index of a section and a fraction", place)
                 continue
             check.whole(f"the section of places[{i}]", pair[0], "an index of a section")
             check.number(f"the fraction of places[{i}]", pair[1], "a number 0 to 1")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray, finite
-from cdcr.base.check import Check, require_kind
+from cdcr.base.check import Check, is_iterable, require_kind
 from cdcr.model.model import Model
 from cdcr.model.wrench import Wrench, loads
 from cdcr.robot.units import ask_about_commands
@@ -177,7 +177,7 @@ def rollout(
     )
     if progress is not None and not callable(progress):
         raise TypeError(f"progress must be a function of a number, got {type(progress).__name__}")
-    pushing = tuple(wrenches) if isinstance(wrenches, Iterable) else wrenches
+    pushing = tuple(wrenches) if is_iterable(wrenches) else wrenches
     load = loads(pushing)
     for wrench in (pushing,) if isinstance(pushing, Wrench) else pushing:
         if callable(wrench.profile):

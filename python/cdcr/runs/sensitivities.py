@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray, read_only
+from cdcr.base.check import is_iterable, short
 from cdcr.model.model import Model
 
 _START = ("q0", "qd0")
@@ -69,9 +70,9 @@ def asked_of(model: Model, names: str | Sequence[str]) -> Asked:
     TypeError
         For what is no name.
     """
-    if not isinstance(names, Iterable):
+    if not is_iterable(names):
         must = "names, such as 'q0', 'tension' or 'payload'"
-        raise TypeError(f"sensitivities must be {must}, got {names!r}")
+        raise TypeError(f"sensitivities must be {must}, got {short(names)}")
     given = (names,) if isinstance(names, str) else tuple(names)
     if not given:
         return Asked(())

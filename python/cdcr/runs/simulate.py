@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray
-from cdcr.base.check import Check, require_kind, require_truth
+from cdcr.base.check import Check, require_kind, require_truth, short
 from cdcr.model.model import Model
 from cdcr.model.stability import stable_step
 from cdcr.model.wrench import Wrench, loads
@@ -41,7 +41,7 @@ def find_method(name: object) -> _core.Method:
     """Return the method of that name, which this build of cdcr must have."""
     if not isinstance(name, str) or name not in METHODS:
         known = ", ".join(map(repr, METHODS))
-        raise ValueError(f"method must be one of {known}, got {name!r}")
+        raise ValueError(f"method must be one of {known}, got {short(name)}")
     if not available(name):
         raise ValueError(
             f"method {name!r} needs CVODE, and this cdcr was built without it: use 'dopri5' or "

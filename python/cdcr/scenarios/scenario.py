@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol, cast
 
 import numpy as np
 
 from cdcr._core import Controller
 from cdcr.base.arrays import MAX_SAMPLES, FloatArray
-from cdcr.base.check import Check
+from cdcr.base.check import Check, require_kind
 from cdcr.base.keywords import by_keyword
 from cdcr.model.model import Model
 from cdcr.model.wrench import Wrench
@@ -191,6 +191,13 @@ class Scenario:
         end = check.number("t_end", given, requirement, above=0.0)
         check.done()
         if num_samples is None:
+            spacing = self.t_end / (self.num_samples - 1)
+            longest = (MAX_SAMPLES - 1) * spacing
+            if end > longest:
+                raise ValueError(
+                    f"t_end must be at most {longest:.6g} s, which {MAX_SAMPLES} samples "
+                    f"{spacing:.6g} s apart reach, got {end:g} s"
+                )
             num_samples = 1 + max(1, round((self.num_samples - 1) * end / self.t_end))
         requirement = f"a whole number 2 to {MAX_SAMPLES}"
         num = check.whole("num_samples", num_samples, requirement, low=2, high=MAX_SAMPLES)
@@ -291,7 +298,16 @@ class Scenario:
         -------
         tuple of Metric
         """
+        self._check_run(run)
         return self.summarize(self, run)
+
+    def _check_run(self, run: object) -> None:
+        """Refuse what is no run of this scenario's robot, where anything runs in it."""
+        if self.has_run:
+            require_kind("run", run, Trajectory)
+            d, given = self.model.num_coordinates, cast("Trajectory", run).model.num_coordinates
+            if given != d:
+                raise ValueError(f"run must be one of a robot of {d} coordinates, got {given}")
 
     def figure(self, run: Trajectory | None = None, *, size: Size = None) -> Figure:
         """Return a picture of this scenario and a run of it. Needs the extra ``plot``.
@@ -314,6 +330,7 @@ class Scenario:
         ValueError
             Where `size` is none of these.
         """
+        self._check_run(run)
         if size is None:
             return self.plot(self, run)
         from cdcr.plotting.sizes import checked_size, resize

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cdcr.base.arrays import MAX_SAMPLES, FloatArray, finite
-from cdcr.base.check import Check, format_value, nearest
+from cdcr.base.check import Check, format_value, is_iterable, nearest, short
 from cdcr.base.decimals import whole
 from cdcr.base.extras import require
 
@@ -57,7 +57,7 @@ def make_design(
     parameters: Mapping[str, Values] | Iterable[str], samples: str | ArrayLike | None, seed: int
 ) -> Design:
     """Return the values of a sweep, as `cdcr.sweep` takes them, or refuse them in a sentence."""
-    if isinstance(parameters, str) or not isinstance(parameters, Iterable):
+    if isinstance(parameters, str) or not is_iterable(parameters):
         got = format_value(parameters)
         raise ValueError(f"parameters must be a mapping from names to values, got {got}")
     names = tuple(parameters)
@@ -69,6 +69,9 @@ def make_design(
     twice = next((one for i, one in enumerate(names) if one in names[:i]), None)
     if twice is not None:
         raise ValueError(f"parameter {twice!r} must be given once, got it twice")
+    check = Check()
+    check.whole("seed", seed, "a whole number >= 0", low=0)
+    check.done()
     if samples is not None and not isinstance(samples, str):
         return Design("rows", names, _own_rows(names, samples))
     if not isinstance(parameters, Mapping):
@@ -116,10 +119,11 @@ def _kind_and_number(samples: str, d: int) -> tuple[Kind, int]:
     kind, _, text = samples.partition(":")
     if kind not in SAMPLED:
         guess = nearest(kind, SAMPLED)
-        raise ValueError(f"samples must be {_SHAPE}, got {samples!r}{'.' if guess else ''}{guess}")
+        end = f".{guess}" if guess else ""
+        raise ValueError(f"samples must be {_SHAPE}, got {short(samples)}{end}")
     number = whole(text) or 0
     if number < 1:
-        raise ValueError(f"samples must be {_SHAPE}, got {samples!r}")
+        raise ValueError(f"samples must be {_SHAPE}, got {short(samples)}")
     if kind in _POWER_OF_TWO and number & (number - 1):
         upper = 1 << number.bit_length()
         near = f"{upper // 2} and {upper} are the nearest"
@@ -134,9 +138,6 @@ def _shares(kind: Kind, number: int, d: int, seed: int) -> FloatArray:
     Those of "saltelli" are A and B, `number` points each, then A once for each parameter with its
     values from B (Saltelli and others, Computer Physics Communications 181, 2010).
     """
-    check = Check()
-    check.whole("seed", seed, "a whole number >= 0", low=0)
-    check.done()
     if kind == "random":
         return np.random.default_rng(seed).random((number, d))
     qmc: Any = require("scipy.stats", "sweep").qmc

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from types import MappingProxyType
@@ -12,7 +12,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from cdcr.base.arrays import FloatArray
-from cdcr.base.check import format_value, nearest
+from cdcr.base.check import format_value, is_iterable, nearest, short
 from cdcr.runs.trajectory import Trajectory
 from cdcr.scenarios.metrics import Metric, settling_time, time_mean
 from cdcr.scenarios.scenario import Scenario
@@ -198,11 +198,12 @@ def _pairs(asked: MetricNames) -> Iterator[tuple[str, Function | None]]:
     if isinstance(asked, Mapping):
         for name, function in asked.items():
             if not callable(function):
-                raise ValueError(f"metric {name!r} must be a function of a run, got {function!r}")
+                must = "a function of a run"
+                raise ValueError(f"metric {name!r} must be {must}, got {short(function)}")
             yield _name(name), function
     elif isinstance(asked, str) or callable(asked):
         yield _pair(asked)
-    elif isinstance(asked, Iterable):
+    elif is_iterable(asked):
         yield from map(_pair, asked)
     else:
         raise ValueError(f"metrics must be names or functions of a run, got {format_value(asked)}")
@@ -214,14 +215,15 @@ def _pair(one: str | Function) -> tuple[str, Function | None]:
     name = getattr(one, "__name__", "")
     if not name.isidentifier():
         raise ValueError(
-            f'a function without a name must be given one, as {{"name": function}}, got {one!r}'
+            'a function without a name must be given one, as {"name": function}, got '
+            f"{short(one)}"
         )
     return name, one
 
 
 def _name(name: object) -> str:
     if not isinstance(name, str) or not name.isprintable() or not name or "/" in name:
-        raise ValueError(f"a metric must be a name or a function of a run, got {name!r}")
+        raise ValueError(f"a metric must be a name or a function of a run, got {short(name)}")
     return name
 
 
