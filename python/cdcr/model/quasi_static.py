@@ -12,12 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray, ReadOnlyArrays, read_only
-<<<<<<< HEAD
-from cdcr.base.check import count, require_kind
-from cdcr.model.memory import other_drive
-=======
 from cdcr.base.check import count, require_kind, require_truth
->>>>>>> left
+from cdcr.model.memory import other_drive
 from cdcr.model.model import Model
 from cdcr.model.statics import ConvergenceError
 from cdcr.robot.units import ask_about_commands

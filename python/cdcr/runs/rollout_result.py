@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray, ReadOnlyArrays, read_only
-from cdcr.base.check import Check, count, format_value
+from cdcr.base.check import MAX_INT, Check, count, format_value
 from cdcr.base.extras import require
 from cdcr.model.model import Model
 from cdcr.runs.parameters import Variation
@@ -98,7 +98,7 @@ class Rollout(ReadOnlyArrays):
         Parameters
         ----------
         motion : int
-            Its index.
+            Its index; negative ones count from the last.
 
         Returns
         -------
@@ -106,26 +106,22 @@ class Rollout(ReadOnlyArrays):
 
         Raises
         ------
-        ValueError
+        TypeError, ValueError
+            For what is no whole number.
+        IndexError
             Where there is no such motion.
         """
-<<<<<<< HEAD
+        check = Check()
+        wanted = check.whole("motion", motion, "a whole number", low=-MAX_INT, high=MAX_INT)
+        check.done()
         try:
-            i = range(self.num_motions)[motion]
+            i = range(self.num_motions)[wanted]
         except IndexError:
             there = count(self.num_motions, "motion")
             raise IndexError(f"there is no motion {motion}: there are {there}, from 0") from None
         if self.parameters:
             return Variation(self.model, self.parameters).model_of(i)
         return self.models[i if len(self.models) > 1 else 0]
-=======
-        check, last = Check(), self.num_motions - 1
-        chosen = check.whole("motion", motion, f"a whole number 0 to {last}", low=0, high=last)
-        check.done()
-        if self.parameters:
-            return Variation(self.model, self.parameters).model_of(chosen)
-        return self.models[chosen if len(self.models) > 1 else 0]
->>>>>>> left
 
     @property
     def num_motions(self) -> int:
