@@ -39,7 +39,7 @@ def feedback() -> cdcr.StateFeedback:
 
 def predictive() -> cdcr.control.Mpc:
     pytest.importorskip("piqp", reason="the extra mpc is not installed")
-    return cdcr.control.Mpc(MODEL, max_tension=20.0, horizon=3)
+    return cdcr.control.Mpc(MODEL, max_tension=20.0, horizon=3, substeps=2)
 
 
 ESTIMATORS: dict[str, Callable[[], Any]] = {
