@@ -231,7 +231,8 @@ def test_cables_have_their_pretension() -> None:
     ],
 )
 def test_what_is_left_out_is_told(field: str, left: str, tmp_path: Path) -> None:
-    section = dataclasses.replace(by_length()[0].sections[0], **{field: 1e-3})
+    change: dict[str, Any] = {field: 1e-3}
+    section = dataclasses.replace(by_length()[0].sections[0], **change)
     with pytest.warns(UserWarning, match=f"leaves the {left} out"):
         cdcr.export.write_mjcf(cdcr.Robot(sections=[section]), tmp_path / "a.xml")
 

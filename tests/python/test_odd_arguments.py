@@ -21,7 +21,8 @@ def run(**arguments: Any) -> cdcr.Trajectory:
 
 
 def gradient(**arguments: Any) -> cdcr.Gradient:
-    given = {"q0": ZERO, "qd0": ZERO, "tension": [0.0] * 3, "step": 1e-3, "steps": 1} | arguments
+    usual: dict[str, Any] = {"q0": ZERO, "qd0": ZERO, "tension": [0.0] * 3, "step": 1e-3}
+    given = usual | {"steps": 1} | arguments
     return cdcr.gradient(MODEL, cost=lambda motion: (0.0, {}), **given)
 
 

@@ -160,7 +160,7 @@ def test_letters_become_no_smaller_than_the_picture() -> None:
 
 def test_the_legend_of_many_cables_stays_inside_a_column() -> None:
     section = cdcr.robots.amouri2020(damping=0.01).sections[0]
-    six = replace(section, length=0.1, cable_angles=[k * np.pi / 3.0 for k in range(6)])
+    six = replace(section, length=0.1, cable_angles=tuple(k * np.pi / 3.0 for k in range(6)))
     model = cdcr.Model(cdcr.Robot(sections=[six] * 8))
     q, tension = np.tile([0.3, 0.1], 8), 0.1 * np.arange(48.0)
     run = cdcr.simulate(model, q, np.zeros(16), t=np.linspace(0.0, 0.01, 3), tension=tension)

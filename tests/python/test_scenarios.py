@@ -245,7 +245,8 @@ def test_no_energy_drift_with_damping(scenario: Scenario) -> None:
 @pytest.mark.parametrize("rubs", ["friction", "entry_friction", "viscosity"])
 def test_no_energy_drift_where_cables_rub(rubs: str) -> None:
     section = dataclasses.replace(cdcr.robots.amouri2020().sections[0], cable_angles=())
-    cable = cdcr.Cable(radius=0.008, angle=0.0, end_section=0, **{rubs: 0.1})
+    friction: dict[str, Any] = {rubs: 0.1}
+    cable = cdcr.Cable(radius=0.008, angle=0.0, end_section=0, **friction)
     model = cdcr.Model(cdcr.Robot(sections=[section], cables=[cable]))
     run = cdcr.simulate(model, [0.1, 0.0], [0.0, 0.0], t=[0.0, 0.1], tension=[1.0])
     assert energy_drift(run) is None
