@@ -22,7 +22,7 @@ VectorXd read_one(const py::object& object, const char* name, Index size = any_s
 
 ReferencePath helix(const py::object& center, const py::object& x, const py::object& y,
                     const py::object& climb, double turns, double duration, bool rest_to_rest) {
-  const VectorXd middle = read_one(center, "center");
+  const VectorXd middle = read_one(center, "center", read_one(x, "x").size());
   const Index size = middle.size();
   return ReferencePath::helix(middle, read_one(x, "x", size), read_one(y, "y", size),
                               read_one(climb, "climb", size), turns, duration, rest_to_rest);
@@ -115,7 +115,7 @@ void bind_reference_path(py::module_& m) {
           "circle",
           [](const py::object& center, const py::object& x, const py::object& y, double turns,
              double duration, bool rest_to_rest) {
-            const VectorXd none = VectorXd::Zero(read_one(center, "center").size());
+            const VectorXd none = VectorXd::Zero(read_one(x, "x").size());
             return helix(center, x, y, to_array(none), turns, duration, rest_to_rest);
           },
           "center"_a, "x"_a, "y"_a, "turns"_a, "duration"_a, rests,

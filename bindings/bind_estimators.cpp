@@ -116,11 +116,17 @@ py::tuple update(Estimator& self, const py::sequence& measurements, const py::ob
   const Index d = model.num_coordinates();
   std::vector<Measurement> told;
   const KalmanFilter* filter = filter_of(self);
+  if (PyObject_Size(measurements.ptr()) < 0) {  // an array without dimensions
+    PyErr_Clear();
+    throw py::type_error("measurements must be a sequence of arrays or None, one for each sensor");
+  }
   for (std::size_t i = 0; i < measurements.size(); ++i) {
     const std::string item = "measurements[" + std::to_string(i) + "]";
     const py::object one = measurements[i];
     if (!one.is_none()) {
-      told.push_back({*VectorArgument(one, item.c_str(), any_size), true});
+      const bool known = filter != nullptr && i < filter->options().sensors.size();
+      const Index size = known ? filter->measurement_size(i) : any_size;
+      told.push_back({*VectorArgument(one, item.c_str(), size), true});
     } else if (filter != nullptr && i < filter->options().sensors.size()) {
       told.push_back({VectorXd::Zero(filter->measurement_size(i)), false});
     }

@@ -26,7 +26,7 @@ LoopOptions read_loop(const py::dict& given) {
   LoopOptions options;
   options.step = given["step"].cast<double>();
   options.substeps = given["substeps"].cast<int>();
-  options.method = read_fixed_step(given["method"].cast<std::string>());
+  options.method = read_fixed_step(given["method"]);
   options.actuators = read_actuators(given);
   options.sensors = read_sensors(given);
   return options;

@@ -20,7 +20,8 @@ using namespace py::literals;
 class PythonSimulator final : public Simulator {
  public:
   PythonSimulator(py::object of, double step, int substeps, const std::string& name)
-      : Simulator(read_model(of), step, substeps, read_fixed_step(name)), model(std::move(of)) {}
+      : Simulator(read_model(of), step, substeps, read_fixed_step(py::str(name))),
+        model(std::move(of)) {}
 
   py::object model;
 };

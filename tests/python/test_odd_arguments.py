@@ -31,6 +31,17 @@ def identified(path: str) -> object:
     return cdcr.identify(pose, MODEL.robot, {path: None})
 
 
+def updated(measurements: object) -> object:
+    sensor = cdcr.Sensor(kind="tip", noise=1e-3)
+    filter_ = cdcr.ExtendedKalman(MODEL, sensors=[sensor], period=1e-3)
+    return filter_.update(cast("Any", measurements), [0.0] * 3)
+
+
+def circle(**change: Any) -> cdcr.ReferencePath:
+    usual: dict[str, Any] = {"center": [0.0] * 3, "x": [0.1, 0.0, 0.0], "y": [0.0, 0.1, 0.0]}
+    return cdcr.ReferencePath.circle(**{**usual, "turns": 1.0, "duration": 1.0, **change})
+
+
 CASES: dict[str, tuple[Callable[[], object], str]] = {
     "wrenches without dimensions": (
         lambda: run(wrenches=np.array(1.0)),
@@ -92,6 +103,27 @@ CASES: dict[str, tuple[Callable[[], object], str]] = {
         lambda: cdcr.export.write_fmu(MODEL.robot, "never.fmu", fmi=cast("Any", [3])),
         "fmi must be 2 or 3, got [3] (list)",
     ),
+    "measurements without dimensions": (
+        lambda: updated(ARRAY),
+        "measurements must be a sequence of arrays or None, one for each sensor",
+    ),
+    "what one sensor tells": (
+        lambda: updated(ZERO),
+        "measurements[0] must have shape (3,), got ()",
+    ),
+    "method that is no text": (
+        lambda: cdcr.Loop(MODEL, cdcr.Pid(MODEL, kp=1.0), method="a\udc80"),
+        r"method must be 'rk4' or 'rosenbrock', got 'a\udc80'",
+    ),
+    "center of a path": (
+        lambda: circle(center=[0.0]),
+        "center must have shape (3,), got (1,)",
+    ),
+    "turns of a path": (
+        lambda: circle(turns=1e308),
+        "values, rates and accelerations of a path must be finite all along it, but are not with "
+        "1e+308 turns in a duration of 1 s",
+    ),
     "section of a path": (
         lambda: identified("sections[1].length"),
         "parameter 'sections[1].length': [1] must be 0, * or :",
@@ -116,6 +148,13 @@ def test_the_sentence_names_what_is_wrong(name: str) -> None:
         lambda: cdcr.Sensor(kind=cast("Any", [0.0] * 1000)),
         lambda: cdcr.Model(MODEL.robot, "exact" * 1000),
         lambda: run(method="rk4" * 1000),
+        lambda: cdcr.Loop(MODEL, cdcr.Pid(MODEL, kp=1.0), method="rk4" * 1000),
+        lambda: cdcr.ExtendedKalman(
+            MODEL,
+            sensors=[cdcr.Sensor(kind="tip", noise=1e-3)],
+            period=1e-3,
+            acceleration_noise=[0.0] * 1000,
+        ),
         lambda: cdcr.Pid(MODEL, kp=1.0, cables=cast("Any", [0.5] * 1000)),
         lambda: MODEL.robot.subdivide(cast("Any", [0.5] * 1000)),
     ],

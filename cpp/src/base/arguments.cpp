@@ -4,9 +4,17 @@
 
 namespace cdcr::detail {
 
+std::ostream& operator<<(std::ostream& text, const Listed& all) {
+  constexpr Index most = 20;
+  const Index size = all.numbers.size(), shown = size > most ? most : size;
+  text << "[" << all.numbers.head(shown).transpose();
+  if (size > shown) text << " ... of " << size;
+  return text << "]";
+}
+
 void require_finite(const char* item, const VectorXd& v, Index size) {
-  require(v.size() == size && v.allFinite(), item, " must be ", size, " finite values, got [",
-          v.transpose(), "]");
+  require(v.size() == size && v.allFinite(), item, " must be ", size, " finite values, got ",
+          Listed{v});
 }
 
 void require_increasing(const char* item, const double* times, Index size, bool with_jumps) {

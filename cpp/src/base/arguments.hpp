@@ -29,6 +29,12 @@ void require(bool sound, const Parts&... parts) {
   if (!sound) refuse(parts...);
 }
 
+/// Numbers as a refusal has them, cut after twenty: "[1 nan 3]".
+struct Listed {
+  const VectorXd& numbers;
+  friend std::ostream& operator<<(std::ostream& text, const Listed& all);
+};
+
 /// "reference must be 2 finite values, got [1 nan]".
 void require_finite(const char* item, const VectorXd& v, Index size);
 

@@ -216,7 +216,7 @@ ReferencePath ReferencePath::helix(const VectorXd& center, const VectorXd& x, co
   const VectorXd reach = x.cwiseAbs() + y.cwiseAbs() + std::abs(turns) * climb.cwiseAbs();
   detail::require(
       (center.cwiseAbs() + reach).allFinite() && (2.0 * fastest * fastest * reach).allFinite(),
-      beyond_doubles);
+      beyond_doubles, ", but are not with ", turns, " turns in a duration of ", duration, " s");
   return path;
 }
 

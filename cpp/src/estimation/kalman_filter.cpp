@@ -86,8 +86,8 @@ VectorXd densities(const Model& model, const KalmanOptions& options) {
   const Index d = model.num_coordinates(), forces = options.force_at ? 3 : 0;
   const VectorXd& noise = options.acceleration_noise;
   require((noise.size() == 1 || noise.size() == d) && noise.allFinite() && noise.minCoeff() >= 0.0,
-          "acceleration_noise must be one value, or ", d, ", >= 0 rad/s^1.5, got [",
-          noise.transpose(), "]");
+          "acceleration_noise must be one value, or ", d, ", >= 0 rad/s^1.5, got ",
+          detail::Listed{noise});
   require_not_negative("force_noise", options.force_noise, "N/s^0.5");
   require_not_negative("share_noise", options.share_noise, "1/s^0.5");
   require_not_negative("deviation", options.deviation, "rad");

@@ -247,7 +247,7 @@ InverseKinematics inverse_kinematics(const Model& model, const Vector3d& p,
                                      const InverseKinematicsOptions& options) {
   require(p.allFinite(), "p must be finite, got [", p.transpose(), "]");
   require(q0.size() == 0 || (q0.size() == model.num_coordinates() && q0.allFinite()), "q0 must be ",
-          model.num_coordinates(), " finite angles, got [", q0.transpose(), "]");
+          model.num_coordinates(), " finite angles, got ", detail::Listed{q0});
   InverseSolver solver(model, options);
   InverseKinematics answer =
       solver.solve(p, R ? std::optional<Matrix3d>(read_rotation(*R)) : std::nullopt, q0);
