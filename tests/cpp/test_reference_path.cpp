@@ -158,11 +158,15 @@ TEST_CASE("evaluate allocates nothing; what is no path is refused") {
   CHECK_THROWS_SENTENCE(ReferencePath::polygon(points(), 0.0),
                         "duration of a path must be > 0 s and finite, got 0");
   const VectorXd far = VectorXd::Constant(2, 1e308);
-  CHECK_THROWS_SENTENCE(ReferencePath::circle(far, far, far, 1.0, 1.0),
-                        "values, rates and accelerations of a path must be finite all along it");
+  CHECK_THROWS_SENTENCE(
+      ReferencePath::circle(far, far, far, 1.0, 1.0),
+      "values, rates and accelerations of a path must be finite all along it, but "
+      "are not with 1 turns in a duration of 1 s");
   const Eigen::Vector2d center(1e308, 0.0), down(0.0, 1e300);
-  CHECK_THROWS_SENTENCE(ReferencePath::circle(center, -center, down, 4.0, 1e6),
-                        "values, rates and accelerations of a path must be finite all along it");
+  CHECK_THROWS_SENTENCE(
+      ReferencePath::circle(center, -center, down, 4.0, 1e6),
+      "values, rates and accelerations of a path must be finite all along it, but "
+      "are not with 4 turns in a duration of 1e+06 s");
   CHECK(ReferencePath::polygon(1e200 * points(), 1.0).end() == 1.0);
   CHECK_THROWS_SENTENCE(ReferencePath::polygon(1e308 * points(), 1.0),
                         "corners of a path must be a finite way apart, corners 3 and 4 are not");

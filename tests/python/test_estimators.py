@@ -235,7 +235,7 @@ def test_updates_are_looked_at() -> None:
     with pytest.raises(ValueError, match="reset"):
         kalman.update([None], np.zeros(3))
     kalman.reset([0.0, 0.0], [0.0, 0.0])
-    with pytest.raises(ValueError, match="measurements must have an array of its size, or None"):
+    with pytest.raises(ValueError, match=r"measurements\[0\] must have shape \(3,\), got \(2,\)"):
         kalman.update([np.zeros(2)], np.zeros(3))
     with pytest.raises(ValueError, match="measurements must have an array of its size, or None"):
         kalman.update([], np.zeros(3))

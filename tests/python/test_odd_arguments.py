@@ -112,7 +112,7 @@ CASES: dict[str, tuple[Callable[[], object], str]] = {
         "measurements[0] must have shape (3,), got ()",
     ),
     "method that is no text": (
-        lambda: cdcr.Loop(MODEL, cdcr.Pid(MODEL, kp=1.0), method="a\udc80"),
+        lambda: cdcr.Loop(MODEL, cdcr.Pid(MODEL, kp=1.0), method=cast("Any", "a\udc80")),
         r"method must be 'rk4' or 'rosenbrock', got 'a\udc80'",
     ),
     "center of a path": (
@@ -148,7 +148,7 @@ def test_the_sentence_names_what_is_wrong(name: str) -> None:
         lambda: cdcr.Sensor(kind=cast("Any", [0.0] * 1000)),
         lambda: cdcr.Model(MODEL.robot, "exact" * 1000),
         lambda: run(method="rk4" * 1000),
-        lambda: cdcr.Loop(MODEL, cdcr.Pid(MODEL, kp=1.0), method="rk4" * 1000),
+        lambda: cdcr.Loop(MODEL, cdcr.Pid(MODEL, kp=1.0), method=cast("Any", "rk4" * 1000)),
         lambda: cdcr.ExtendedKalman(
             MODEL,
             sensors=[cdcr.Sensor(kind="tip", noise=1e-3)],
