@@ -1,10 +1,6 @@
 #include <pybind11/native_enum.h>
 #include <pybind11/stl.h>
 
-#include <cmath>
-#include <sstream>
-#include <string>
-
 #include "bind.hpp"
 #include "cdcr/allocation.hpp"
 #include "cdcr/cables.hpp"
@@ -16,44 +12,6 @@ namespace cdcr::python {
 namespace py = pybind11;
 using namespace py::literals;
 
-namespace {
-
-/// Refuses a robot whose lengths squared, stiffness or inertia float64 cannot hold.
-Model sized(Model model) {
-  constexpr double least = 1e-150, most = 1e150;
-  const Robot& robot = model.robot();
-  double length = 0.0, mass = robot.payload, size = robot.payload_position.norm();
-  for (const Section& section : robot.sections) {
-    length += section.length;
-    mass += section.backbone_mass;
-    size += section.length + section.backbone_diameter;
-    for (const Disk& disk : section.disks()) {
-      mass += disk.mass;
-      size = std::fmax(size, disk.diameter);
-    }
-  }
-  const auto told = [](double number) {
-    std::ostringstream text;
-    text << number;
-    return text.str();
-  };
-  if (!(length >= least && length <= most)) {
-    throw py::value_error("the robot must be 1e-150 to 1e150 m long in all, got " + told(length));
-  }
-  for (const double stiffness : model.elastic_stiffness().diagonal()) {
-    if (stiffness > 0.0 && std::isfinite(stiffness)) continue;
-    throw py::value_error("the stiffness of the robot must be > 0 and finite, got " +
-                          told(stiffness));
-  }
-  if (!std::isfinite(mass * size * size)) {
-    throw py::value_error("the inertia of the robot must be finite, got a mass of " + told(mass) +
-                          " kg and a size of " + told(size) + " m");
-  }
-  return model;
-}
-
-}  // namespace
-
 void bind_model(py::module_& m) {
   py::native_enum<Formulation>(m, "Formulation", "enum.Enum", "Which inertia functions to use.")
       .value("exact", Formulation::exact)
@@ -63,22 +21,17 @@ void bind_model(py::module_& m) {
       .finalize();
   PyModel model(m, "Model", "The equations of motion of a robot; see cdcr.Model.");
   model
-      .def(py::init([](const Robot& robot, Formulation formulation) {
-             return sized(Model(robot, formulation));
-           }),
-           "robot"_a, "formulation"_a,
+      .def(py::init<Robot, Formulation>(), "robot"_a, "formulation"_a,
            Doc("A robot made ready for computing.",
                {"robot : Robot\n    The robot.\n",
                 "formulation : Formulation\n    Which inertia functions to use.\n"},
                "", docs::bad_argument))
-      .def(
-          py::init([](const Robot& robot, const Model& like) { return sized(Model(robot, like)); }),
-          "robot"_a, "like"_a,
-          Doc("A robot that differs from another in a few numbers.",
-              {"robot : Robot\n    The robot.\n",
-               "like : Model\n    Of the other, whose formulation it has, and whose tables it\n"
-               "    shares where sections have the same inertia.\n"},
-              "", docs::bad_argument))
+      .def(py::init<Robot, const Model&>(), "robot"_a, "like"_a,
+           Doc("A robot that differs from another in a few numbers.",
+               {"robot : Robot\n    The robot.\n",
+                "like : Model\n    Of the other, whose formulation it has, and whose tables it\n"
+                "    shares where sections have the same inertia.\n"},
+               "", docs::bad_argument))
       .def(py::init([](const Model& other, const py::object& gravity) {
              return other.with_gravity(*VectorArgument(gravity, "gravity", 3));
            }),

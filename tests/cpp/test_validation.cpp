@@ -211,6 +211,20 @@ TEST_CASE("base orientation") {
   CHECK(violations(robot).empty());
 }
 
+TEST_CASE("magnitudes that float64 cannot hold") {
+  const auto refuses = [](const std::function<void(Robot&)>& change, const std::string& sentence) {
+    Robot robot = amouri2020();
+    change(robot);
+    CHECK_THROWS_SENTENCE(Model{robot}, doctest::Contains(sentence.c_str()));
+  };
+  refuses([](Robot& r) { r.sections[0].length = 1.7e308; },
+          "the robot must be 1e-150 to 1e+150 m long in all, got 1.7e+308");
+  refuses([](Robot& r) { r.sections[0].backbone_diameter = 1e-90; },
+          "the stiffness of the robot must be > 0 and finite, got 0");
+  refuses([](Robot& r) { r.payload = 1e308, r.sections[0].length = 10.0; },
+          "the inertia of the robot must be finite, got a mass of 1e+308 kg");
+}
+
 TEST_CASE("base position and tool") {
   check_robot([](Robot& r) { r.base_position[1] = inf; },
               "base_position[1] must be a finite number of m, got inf");

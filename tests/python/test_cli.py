@@ -237,7 +237,7 @@ def test_a_robot_beyond_all_sizes_is_refused(command: str, tmp_path: Path) -> No
     cdcr.Robot(sections=[section]).save(file)
     result = cdcr_(command, file, *(("--out", out) if command.startswith("export") else ()))
     assert result.exit_code == 2, result.output
-    sentence = f"{file}: the robot must be 1e-150 to 1e150 m long in all, got 1e-160"
+    sentence = f"{file}: the robot must be 1e-150 to 1e+150 m long in all, got 1e-160"
     assert sentence in result.output.replace("\n", "")
 
 

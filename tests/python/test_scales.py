@@ -56,8 +56,8 @@ USUAL: dict[str, Any] = {
 @pytest.mark.parametrize(
     ("given", "sentence"),
     [
-        ({"length": 1.7e308}, "the robot must be 1e-150 to 1e150 m long in all, got 1.7e+308"),
-        ({"length": 1e-160}, "the robot must be 1e-150 to 1e150 m long in all, got 1e-160"),
+        ({"length": 1.7e308}, "the robot must be 1e-150 to 1e+150 m long in all, got 1.7e+308"),
+        ({"length": 1e-160}, "the robot must be 1e-150 to 1e+150 m long in all, got 1e-160"),
         ({"backbone_diameter": 1e80}, "the stiffness of the robot must be > 0 and finite, got inf"),
         ({"backbone_diameter": 1e-90}, "the stiffness of the robot must be > 0 and finite, got 0"),
         (

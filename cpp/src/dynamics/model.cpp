@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "base/magnitudes.hpp"
 #include "base/rotation.hpp"
 #include "dynamics/kept.hpp"
 #include "section/inertia_series.hpp"
@@ -43,6 +44,7 @@ Model::Model(Robot robot, Formulation formulation, const Model* like) : formulat
   has_rods_ = parts->chain.has_rods();
   set_elasticity(*parts);
   set_cables(*parts);
+  detail::require_magnitudes(*this);
 
   const bool point = robot_->payload_position.isZero(0.0) && robot_->payload_inertia.isZero(0.0);
   const Section& first = robot_->sections[0];
