@@ -110,7 +110,7 @@ TEST_CASE("what does not fit is refused in a sentence") {
   options.period = 0.0;
   refuses("period must be > 0 s and finite, got 0");
   options.substeps = 0;
-  refuses("substeps must be 1 to 1000000, got 0");
+  refuses("substeps must be 1 to 10000, got 0");
   options.acceleration_noise = Vector3d(1.0, 2.0, 3.0);
   refuses("acceleration_noise must be one value, or 2, >= 0 rad/s^1.5, got [1 2 3]");
   options.force_at = Place{1, 0.5};

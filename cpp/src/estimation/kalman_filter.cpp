@@ -21,7 +21,7 @@ namespace {
 using detail::require;
 using detail::require_not_negative;
 
-constexpr int most_substeps = 1000000;  // an update does not look for interrupts
+constexpr int most_substeps = 10000;  // an update does not look for interrupts
 
 Index periods_late(const Sensor& sensor, double period, const std::string& item = "") {
   return detail::whole_steps(item.c_str(), sensor.delay, period, 0);
