@@ -170,17 +170,18 @@ void bind_estimator(py::module_& m) {
                 "command : (num_cables,) array_like, optional\n    What actuators give there [N], "
                 "[m]; by default what leaves the straight robot alone.\n"},
                "", docs::bad_argument))
-      .def("update", &update, "measurements"_a, "command"_a, "q"_a = py::none(),
-           "qd"_a = py::none(),
-           Doc("Go on by a period, with what sensors tell at its end.",
-               {"measurements : sequence of arrays or None\n    What each sensor tells [of its "
-                "kind]; None where nothing is new.\n",
-                "command : (num_cables,) array_like\n    What the controller asked for over the "
-                "period [N], [m].\n",
-                "q, qd : (d,) array_like, optional\n    The state that an observer is told [rad], "
-                "[rad/s]; filters do without.\n"},
-               "(d,) array, (d,) array\n    Coordinates and rates [rad], [rad/s].",
-               docs::bad_argument))
+      .def(
+          "update", &update, "measurements"_a, "command"_a, "q"_a = py::none(), "qd"_a = py::none(),
+          Doc("Go on by a period, with what sensors tell at its end; the first after reset, at the "
+              "start.",
+              {"measurements : sequence of arrays or None\n    What each sensor tells [of its "
+               "kind]; None where nothing is new.\n",
+               "command : (num_cables,) array_like\n    What the controller asked for over the "
+               "period [N], [m].\n",
+               "q, qd : (d,) array_like, optional\n    The state that an observer is told [rad], "
+               "[rad/s]; filters do without.\n"},
+              "(d,) array, (d,) array\n    Coordinates and rates [rad], [rad/s].",
+              docs::bad_argument))
       .def_property_readonly(
           "values", [](const Estimator& self) { return named(self, false); },
           "What else it estimates, a dict: forces [N], [N m], shares [1].")
