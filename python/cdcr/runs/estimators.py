@@ -70,7 +70,8 @@ class ExtendedKalman(_core.ExtendedKalman):
     tell, at their own periods, and late ones at the time of their measurement: the filter then
     stands as far back as the latest sensor is late, and the state is reckoned to now. Beside
     coordinates and rates it estimates, where asked, a force on the backbone, and parameters: of
-    each of the `variants`, models with one parameter changed, the share of that change.
+    each of the `variants`, models with one parameter changed, the share of that change. It warns
+    where cables or drives remember, and where its steps are too long to be stable.
 
     Parameters
     ----------
@@ -265,7 +266,7 @@ class MomentumObserver(_core.MomentumObserver):
 
     What it tells is the generalised force behind a lag of first order, and the force on one place
     that explains it best. The state it leaves as it is told: by sensors of coordinates and rates,
-    or by another estimator.
+    or by another estimator. It warns where cables or drives remember.
 
     Parameters
     ----------
