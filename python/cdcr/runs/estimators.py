@@ -13,7 +13,7 @@ from cdcr import _core
 from cdcr.base.arrays import finite
 from cdcr.base.check import Check, as_tuple, require_kind
 from cdcr.base.keywords import by_keyword
-from cdcr.model.memory import other_drive, warn_of_memory
+from cdcr.model.memory import other_drive, remembers, warn_of_memory
 from cdcr.model.model import Model
 from cdcr.model.stability import warn_of_long_steps
 from cdcr.runs.limits import told
@@ -48,7 +48,8 @@ def _kalman(
         differs = other_drive(model, variant)
         if differs is not None:
             raise ValueError(f"variants[{i}]: {differs}")
-    warn_of_memory(model, "the filter", stacklevel=4)
+    rubs = next(filter(remembers, (model, *models)), model)
+    warn_of_memory(rubs, "the filter", stacklevel=4)
     warn_of_long_steps(
         model, given["period"] / max(1, given["substeps"]), "the filter", stacklevel=4
     )
