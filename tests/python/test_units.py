@@ -108,7 +108,7 @@ def test_lengths_masses_and_friction(changes: dict[str, float], sentence: str) -
         ),
         (
             {"gravity": (0.0, 0.0, -9810.0)},
-            "gravity = 9810 m/s^2 is a hundred times the earth's: is it in mm/s^2?",
+            "gravity = 9810 m/s^2 is more than a hundred times the earth's: is it in mm/s^2?",
         ),
     ],
 )
