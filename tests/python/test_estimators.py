@@ -195,6 +195,9 @@ def test_what_estimators_know_nothing_of_is_told(changed: Any, told: str) -> Non
     for kind in (cdcr.ExtendedKalman, cdcr.UnscentedKalman):
         with pytest.warns(UserWarning, match=f"the filter knows nothing of .*: it takes {told}$"):
             kind(model, sensors=LENGTHS)
+    if not model.has_backlash:
+        with pytest.warns(UserWarning, match=f"the filter knows nothing of .*: it takes {told}$"):
+            cdcr.ExtendedKalman(MODEL, sensors=LENGTHS, variants=model)
     with pytest.warns(UserWarning, match=f"the observer knows nothing of .*: it takes {told}$"):
         cdcr.MomentumObserver(model)
     with pytest.warns(UserWarning, match=r"a system of python-control knows nothing of"):

@@ -92,6 +92,7 @@ def test_two_crossings_within_a_step_are_found(model: cdcr.Model, method: Any) -
         (lambda a, b, c, d: 0, ValueError, "events[0] must take (t, q, qd), (t, y)"),
         (event(lambda t: t, terminal=-1), ValueError, "terminal of events[0] must be True, False"),
         (event(lambda t: t, direction="up"), ValueError, "direction of events[0] must be a number"),
+        (event(lambda t: t, direction=True), ValueError, "direction of events[0] must be a number"),
         (lambda t, q, qd: q[0] > 0.1, TypeError, "events[0] must return a number that goes"),
         (lambda t: math.nan, ValueError, "the value of an event must be finite, got nan"),
         (lambda t: [1.0, 2.0], ValueError, "the value of an event must have shape (), got (2,)"),

@@ -159,6 +159,13 @@ def test_a_small_and_a_large_robot_are_moved_alike(size: float) -> None:
     assert np.linalg.norm(run.tip[-1] - controller.reference) < 1e-3 * 0.3 * size
 
 
+@pytest.mark.parametrize("most", [1e-200, 1e200])
+def test_limits_far_from_all_tensions_are_no_trouble(most: float) -> None:
+    controller = cdcr.control.Mpc(ONE, max_tension=most)
+    found = controller.update(0.0, np.zeros(2), np.zeros(2))
+    assert np.all((found >= 0.0) & (found <= most))
+
+
 def test_what_it_knows_nothing_of_is_told() -> None:
     section = dataclasses.replace(ONE.robot.sections[0], cable_friction=0.2)
     rubs = dataclasses.replace(ONE.robot, sections=(section,), presliding_stiffness=1e4)

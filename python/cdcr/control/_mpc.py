@@ -46,8 +46,8 @@ class Mpc(_core.Controller):
     - ``tension_weight`` times tensions less ``min_tension``, squared,
     - ``change_weight`` times changes of tension from step to step, squared.
 
-    It knows of no disturbance: where the robot differs from the model, an error stays. Needs PIQP,
-    extra ``mpc``.
+    It knows of no disturbance: where the robot differs from the model, an error stays. It warns
+    where cables remember, and where its steps are too long to be stable. Needs PIQP, extra ``mpc``.
 
     Parameters
     ----------

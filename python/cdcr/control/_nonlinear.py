@@ -57,6 +57,11 @@ def nonlinear_system(
     ImportError
         Where python-control is missing.
 
+    Warns
+    -----
+    UserWarning
+        Where cables or drives remember, of which it knows nothing.
+
     Examples
     --------
     >>> import cdcr

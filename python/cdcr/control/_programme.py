@@ -19,7 +19,8 @@ ENOUGH = {
 
 def unit_near(size: float) -> float:
     """Return the power of 256 near a size: 1 for usual robots, whose numbers stay as they are."""
-    return float(256.0 ** round(math.log(min(max(size, 1e-300), 1e300), 256.0)))
+    # Of at most 1e75, so that neither squares nor quotients of these are beyond doubles.
+    return float(256.0 ** round(math.log(min(max(size, 1e-75), 1e75), 256.0)))
 
 
 class BoxProgramme:

@@ -14,6 +14,7 @@ from cdcr.base.arrays import FloatArray, finite
 from cdcr.base.check import Check, known_name, require_kind, short
 from cdcr.gym._drive import Drive
 from cdcr.gym._randomization import Ranges, checked_ranges, draw_robot
+from cdcr.model.memory import remembers
 from cdcr.model.model import Model
 from cdcr.model.stability import stable_step
 from cdcr.robot.robot import Robot
@@ -80,8 +81,7 @@ class Task:
         self._substeps = np.full(count, self._substeps_of(self.model))
         self._periods = np.zeros(count, dtype=int)  # since the episode began
         # Of a robot that is the only one, and of those that a rollout would make forget.
-        remembers = self.model.num_deflections > 0 or self.model.has_backlash
-        self._by_themselves = count == 1 or remembers
+        self._by_themselves = count == 1 or remembers(self.model)
         self._simulators: dict[int, _core.Simulator] = {}
         self._threads = threads
         self._bounds = self.bounds

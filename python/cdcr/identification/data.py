@@ -23,6 +23,7 @@ from cdcr.identification.channels import (
 )
 from cdcr.identification.loads import Wrenches, check_wrenches, under
 from cdcr.identification.setup import Place, Setup
+from cdcr.model.memory import remembers
 from cdcr.model.model import Model
 
 if TYPE_CHECKING:
@@ -231,7 +232,7 @@ def _on_base(
     """Return force and moment of the robot on its base (N, 6) [N], [N m]."""
     if qd is None or times is None:
         return model.base_wrench(q, np.zeros_like(q), np.zeros_like(q), wrenches)
-    if model.num_deflections > 0 or model.has_backlash:
+    if remembers(model):
         raise UnsolvedError(
             "what a moving robot does to its base is not known where friction or play remembers: "
             "presliding_stiffness and backlash must be 0"

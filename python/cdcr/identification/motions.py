@@ -38,6 +38,7 @@ from cdcr.identification.files import read_measured
 from cdcr.identification.loads import Wrenches, wrenches_at
 from cdcr.identification.motion_slopes import NOTHING, Samples, motion_slopes
 from cdcr.identification.setup import Place, Setup
+from cdcr.model.memory import remembers
 from cdcr.model.model import Model
 from cdcr.runs.command import TensionTable
 from cdcr.runs.simulate import (
@@ -60,11 +61,6 @@ SMOOTH = 1e-10  # rtol, so that steps do not show in differences of two runs
 # rtol of a run that is asked for its sensitivities. Errors of a run bias the estimates; those of
 # its derivatives, a ten-thousandth and less here, move them by as small a share of what noise does.
 ROUGH = 1e-5
-
-
-def remembers(model: Model) -> bool:
-    """Whether a run has more of a past than its state."""
-    return model.num_deflections > 0 or model.has_backlash
 
 
 @dataclass(frozen=True, eq=False)

@@ -35,6 +35,8 @@ def polar(
     ------
     ValueError
         If q has no even last dimension, or is not finite.
+    TypeError
+        For a `continuous` that is neither True nor False.
 
     Examples
     --------

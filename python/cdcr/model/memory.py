@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import warnings
 
+from cdcr import _core
 from cdcr.model.model import Model
 
 
-def remembers(model: Model) -> bool:
+def remembers(model: _core.Model) -> bool:
     """Return whether its motion depends on more than coordinates, rates and commands."""
     return model.num_deflections > 0 or model.has_backlash
 

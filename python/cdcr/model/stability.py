@@ -64,7 +64,7 @@ def stable_step(
             f"method must be 'rk4', the others choose their steps; got {short(method)}"
         )
     command = model.rest_command() if tension is None else tension
-    shape = checked_equilibrium(model.find_equilibrium(command)) if q is None else q
+    shape = checked_equilibrium(model._rest(command)) if q is None else q
     A, _ = model.linearize(shape, np.zeros(model.num_coordinates), command)
     return min(map(_largest_step, np.linalg.eigvals(A)), default=math.inf)
 

@@ -236,7 +236,7 @@ class StateSpaceModel(ShapeModel):
         model = cast("Model", self)
         command = model.rest_command() if tension is None else tension
         if q is None:
-            shape = checked_equilibrium(model.find_equilibrium(command, wrenches=wrenches))
+            shape = checked_equilibrium(model._rest(command, wrenches=wrenches))
         else:
             shape = finite(q, "q")
         rates = np.zeros(model.num_coordinates) if qd is None else finite(qd, "qd")

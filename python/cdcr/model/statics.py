@@ -120,10 +120,10 @@ class StaticModel(_core.Model):
     def _rest(
         self,
         tension: ArrayLike | None,
-        q0: ArrayLike | None,
-        wrenches: Wrench | Sequence[Wrench],
+        q0: ArrayLike | None = None,
+        wrenches: Wrench | Sequence[Wrench] = (),
     ) -> _core.Equilibrium:
-        """For public methods: whoever calls these is warned of commands that may be tensions."""
+        """For public names: whoever calls these is warned of commands that may be tensions."""
         found = super().find_equilibrium(tension, q0, wrenches)
         if tension is not None:
             ask_about_commands(cast("Model", self).robot, finite(tension, "tension"), stacklevel=4)

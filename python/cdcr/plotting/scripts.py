@@ -29,6 +29,8 @@ def show_or_save(figure: Figure, arguments: Sequence[str]) -> None:
     ------
     SystemExit
         With code 2, after one sentence to stderr, where the file cannot be written.
+    TypeError
+        For what is no figure, and arguments that are no sequence.
 
     Examples
     --------

@@ -87,6 +87,13 @@ def resize(figure: Figure, size: Size) -> Figure:
     ------
     ValueError
         For another size.
+    TypeError
+        For what is no figure.
+
+    Warns
+    -----
+    UserWarning
+        Where that size has no room for all of the picture.
 
     Examples
     --------

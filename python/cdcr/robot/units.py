@@ -63,7 +63,8 @@ def _questions(robot: Robot) -> Iterator[str]:
         yield from _about_width(name, math.hypot(*place), robot.length)
     strength = math.hypot(*robot.gravity)
     if strength > STRONGEST:
-        yield f"gravity = {strength:g} m/s^2 is a hundred times the earth's: is it in mm/s^2?"
+        told = f"gravity = {strength:g} m/s^2"
+        yield f"{told} is more than a hundred times the earth's: is it in mm/s^2?"
 
 
 def _about_width(name: str, width: float, length: float, most: float = WIDEST) -> Iterator[str]:

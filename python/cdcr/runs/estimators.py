@@ -13,7 +13,7 @@ from cdcr import _core
 from cdcr.base.arrays import finite
 from cdcr.base.check import Check, as_tuple, require_kind
 from cdcr.base.keywords import by_keyword
-from cdcr.model.memory import other_drive, warn_of_memory
+from cdcr.model.memory import other_drive, remembers, warn_of_memory
 from cdcr.model.model import Model
 from cdcr.model.stability import warn_of_long_steps
 from cdcr.runs.limits import told
@@ -48,7 +48,8 @@ def _kalman(
         differs = other_drive(model, variant)
         if differs is not None:
             raise ValueError(f"variants[{i}]: {differs}")
-    warn_of_memory(model, "the filter", stacklevel=4)
+    rubs = next(filter(remembers, (model, *models)), model)
+    warn_of_memory(rubs, "the filter", stacklevel=4)
     warn_of_long_steps(
         model, given["period"] / max(1, given["substeps"]), "the filter", stacklevel=4
     )
@@ -70,7 +71,8 @@ class ExtendedKalman(_core.ExtendedKalman):
     tell, at their own periods, and late ones at the time of their measurement: the filter then
     stands as far back as the latest sensor is late, and the state is reckoned to now. Beside
     coordinates and rates it estimates, where asked, a force on the backbone, and parameters: of
-    each of the `variants`, models with one parameter changed, the share of that change.
+    each of the `variants`, models with one parameter changed, the share of that change. It warns
+    where cables or drives remember, and where its steps are too long to be stable.
 
     Parameters
     ----------
@@ -265,7 +267,7 @@ class MomentumObserver(_core.MomentumObserver):
 
     What it tells is the generalised force behind a lag of first order, and the force on one place
     that explains it best. The state it leaves as it is told: by sensors of coordinates and rates,
-    or by another estimator.
+    or by another estimator. It warns where cables or drives remember.
 
     Parameters
     ----------

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from cdcr.base.arrays import FloatArray
-from cdcr.base.check import Check, short
+from cdcr.base.check import NO_NUMBERS, Check, short
 
 EventFunction: TypeAlias = Callable[..., Any]
 Watched: TypeAlias = tuple[EventFunction, int, int]
@@ -76,7 +76,8 @@ def _watched(function: EventFunction, i: int) -> Watched:
     if not callable(function):
         raise TypeError(f"{item} must be a function, got {type(function).__name__}")
     direction = getattr(function, "direction", 0)
-    if not isinstance(direction, Real) or not math.isfinite(direction):
+    is_number = isinstance(direction, Real) and not isinstance(direction, NO_NUMBERS)
+    if not (is_number and math.isfinite(direction)):
         raise ValueError(f"direction of {item} must be a number, got {short(direction)}")
     terminal = getattr(function, "terminal", False)
     if not isinstance(terminal, (Integral, np.bool_)) or terminal < 0:

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from cdcr.base.arrays import FloatArray, ReadOnlyArrays, finite, read_only
 from cdcr.base.check import Check, as_tuple, format_value, is_iterable, require_kind, short
+from cdcr.model.memory import remembers
 from cdcr.model.model import Model
 from cdcr.model.steps import AnyDynamics, Steps
 from cdcr.model.wrench import Wrench
@@ -156,7 +157,7 @@ def gradient(
     require_kind("model", model, Model)
     if not callable(cost):
         raise TypeError(f"cost must be a function of a motion, got {type(cost).__name__}")
-    if model.num_deflections or model.has_backlash:
+    if remembers(model):
         raise ValueError(
             "there is no gradient where cables or drives remember: presliding_stiffness and "
             "backlash must be 0"

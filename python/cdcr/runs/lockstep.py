@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray, finite
+from cdcr.model.memory import remembers
 from cdcr.runs.stats import make_stats, total
 
 if TYPE_CHECKING:
@@ -27,7 +28,7 @@ def run_in_lockstep(batch: Batch, function: BatchController, every: int) -> tupl
             f"control_every must divide the {batch.steps} steps, and record_every = {rows} or be a "
             f"multiple of it, got {every}"
         )
-    if any(model.num_deflections or model.has_backlash for model in batch.models):
+    if any(map(remembers, batch.models)):
         raise ValueError(
             "controller must not be a function where cables or drives remember, which would forget "
             "from one call to the next: presliding_stiffness and backlash must be 0"

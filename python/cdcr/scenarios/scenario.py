@@ -297,6 +297,11 @@ class Scenario:
         Returns
         -------
         tuple of Metric
+
+        Raises
+        ------
+        TypeError, ValueError
+            For what is no run, and one of another robot.
         """
         self._check_run(run)
         return self.summarize(self, run)
@@ -327,8 +332,8 @@ class Scenario:
 
         Raises
         ------
-        ValueError
-            Where `size` is none of these.
+        TypeError, ValueError
+            For what is no run, one of another robot, and a `size` that is none of these.
         """
         self._check_run(run)
         if size is None:
