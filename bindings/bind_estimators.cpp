@@ -118,7 +118,9 @@ py::tuple update(Estimator& self, const py::sequence& measurements, const py::ob
   const KalmanFilter* filter = filter_of(self);
   if (PyObject_Size(measurements.ptr()) < 0) {  // an array without dimensions
     PyErr_Clear();
-    throw py::type_error("measurements must be a sequence of arrays or None, one for each sensor");
+    throw py::type_error(
+        "measurements must be a sequence of arrays or None, one for each sensor, got " +
+        std::string(py::str(py::type::of(measurements).attr("__name__"))) + " without dimensions");
   }
   for (std::size_t i = 0; i < measurements.size(); ++i) {
     const std::string item = "measurements[" + std::to_string(i) + "]";

@@ -29,13 +29,20 @@ void explain(PyObject* record, PyObject* const* values, Py_ssize_t num_positiona
     PyErr_SetObject(PyExc_TypeError, sentence.ptr());
   } catch (py::error_already_set& other) {
     other.restore();
+  } catch (const std::exception& other) {
+    PyErr_SetString(PyExc_TypeError, other.what());
   }
 }
 
 /// Whether words are in the error that is set.
 bool error_has(const char* words) {
   py::error_already_set error;
-  const bool has = std::string(py::str(error.value())).find(words) != std::string::npos;
+  bool has = false;
+  try {
+    has = py::str(error.value()).contains(words);
+  } catch (const py::error_already_set&) {  // an error that has no words
+    has = false;
+  }
   error.restore();
   return has;
 }
@@ -57,13 +64,16 @@ bool is_number(PyObject* record, Py_ssize_t i, Py_ssize_t num_positional, PyObje
   const py::detail::function_record* known = py::detail::function_record_ptr_from_PyObject(record);
   const auto place = static_cast<std::size_t>(i);
   if (known == nullptr || (i < num_positional && place >= known->args.size())) return false;
-  const std::string name = i < num_positional
-                               ? known->args[place].name
-                               : PyUnicode_AsUTF8(PyTuple_GET_ITEM(names, i - num_positional));
-  const std::string signature = known->signature;
-  const std::size_t at = signature.find(name + ": typing.Supports");
-  return at != std::string::npos && at > 0 &&
-         (signature[at - 1] == ' ' || signature[at - 1] == '(');
+  const char* name = i < num_positional
+                         ? known->args[place].name
+                         : PyUnicode_AsUTF8(PyTuple_GET_ITEM(names, i - num_positional));
+  if (name == nullptr) {  // no text in UTF-8 either
+    PyErr_Clear();
+    return false;
+  }
+  const std::string signature = known->signature, wanted = name + std::string(": typing.Supports");
+  return signature.find(" " + wanted) != std::string::npos ||
+         signature.find("(" + wanted) != std::string::npos;
 }
 
 PyObject* call(PyObject* record, PyObject* const* values, Py_ssize_t num_positional,
@@ -74,7 +84,12 @@ PyObject* call(PyObject* record, PyObject* const* values, Py_ssize_t num_positio
     explain(record, values, num_positional, names);
     return nullptr;
   }
-  PyObject* result = dispatcher(record, values, num_positional, names);
+  PyObject* result = nullptr;
+  try {
+    result = dispatcher(record, values, num_positional, names);
+  } catch (py::error_already_set& other) {  // a name that is no text in UTF-8
+    other.restore();
+  }
   if (result == nullptr && PyErr_ExceptionMatches(PyExc_TypeError) != 0 &&
       error_has("(): incompatible ")) {
     PyErr_Clear();

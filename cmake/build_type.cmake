@@ -1,7 +1,7 @@
 # Without optimisation cdcr is 200 times slower, and no build type means none: then it is Release.
 # A project that embeds cdcr chooses for itself, and is told.
 get_property(is_multi_config GLOBAL PROPERTY GENERATOR_IS_MULTI_CONFIG)
-string(TOUPPER "${CMAKE_BUILD_TYPE}" type)
+string(TOUPPER "${CMAKE_BUILD_TYPE}" cdcr_build_type)
 if(NOT is_multi_config AND NOT CMAKE_BUILD_TYPE AND PROJECT_IS_TOP_LEVEL)
   message(STATUS "cdcr: no CMAKE_BUILD_TYPE was given, so it is Release")
   set(
@@ -11,11 +11,11 @@ if(NOT is_multi_config AND NOT CMAKE_BUILD_TYPE AND PROJECT_IS_TOP_LEVEL)
     "Debug, Release, RelWithDebInfo or MinSizeRel"
     FORCE
   )
-elseif(NOT is_multi_config AND type MATCHES "^(NONE)?$")
+elseif(NOT is_multi_config AND cdcr_build_type MATCHES "^(NONE)?$")
   # None is for packages of distributions, whose flags are all in CMAKE_CXX_FLAGS.
   if(
     NOT
-      "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${type}}"
+      "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${cdcr_build_type}}"
         MATCHES
         "-O([1-3sgz]|fast)"
   )
@@ -28,13 +28,13 @@ elseif(NOT is_multi_config AND type MATCHES "^(NONE)?$")
 elseif(NOT is_multi_config AND PROJECT_IS_TOP_LEVEL)
   # A type that CMake does not know has no flags, unless they are given with it.
   if(
-    NOT type MATCHES "^(DEBUG|RELEASE|RELWITHDEBINFO|MINSIZEREL)$"
-    AND "${CMAKE_CXX_FLAGS_${type}}" STREQUAL ""
+    NOT cdcr_build_type MATCHES "^(DEBUG|RELEASE|RELWITHDEBINFO|MINSIZEREL)$"
+    AND "${CMAKE_CXX_FLAGS_${cdcr_build_type}}" STREQUAL ""
   )
     message(
       FATAL_ERROR
       "CMAKE_BUILD_TYPE is \"${CMAKE_BUILD_TYPE}\": it must be Debug, Release, RelWithDebInfo, "
-      "MinSizeRel or None, or a type whose flags CMAKE_CXX_FLAGS_${type} are given."
+      "MinSizeRel or None, or a type whose flags CMAKE_CXX_FLAGS_${cdcr_build_type} are given."
     )
   endif()
 endif()

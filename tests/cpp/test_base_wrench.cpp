@@ -225,7 +225,7 @@ TEST_CASE("sensors in a loop feel what the plant does, with friction that rememb
     largest_miss = std::fmax(largest_miss, miss);
     REQUIRE(loop.step(push) == Status::ok);
   }
-  CHECK(largest_miss > by_simulation);
+  CHECK(largest_miss > 1.5 * by_simulation);
   push[0].force[0] = std::nan("");
   CHECK(loop.step(push) == Status::invalid_wrench);
 }

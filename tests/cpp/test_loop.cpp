@@ -221,7 +221,8 @@ TEST_CASE("what does not fit is refused in a sentence") {
                         "limits of actuator 1 must satisfy 0 <= min_command <= max_command, got 3 "
                         "and 2");
   how.actuators[0].min_command = how.actuators[0].max_command = INFINITY;
-  CHECK_THROWS_SENTENCE(Loop(model, steady, how), "min_command of actuator 1 must be finite");
+  CHECK_THROWS_SENTENCE(Loop(model, steady, how),
+                        "min_command of actuator 1 must be finite, got inf");
   how.actuators[0] = {};
   how.actuators[0].resolution = 1e-320;
   CHECK_THROWS_SENTENCE(Loop(model, steady, how),

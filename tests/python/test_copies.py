@@ -39,7 +39,7 @@ def feedback() -> cdcr.StateFeedback:
 
 def predictive() -> cdcr.control.Mpc:
     pytest.importorskip("piqp", reason="the extra mpc is not installed")
-    return cdcr.control.Mpc(MODEL, max_tension=20.0, horizon=3, substeps=2)
+    return cdcr.control.Mpc(MODEL, max_tension=20.0, horizon=3)
 
 
 ESTIMATORS: dict[str, Callable[[], Any]] = {
@@ -110,5 +110,7 @@ def test_a_copied_controller_goes_on_alike_and_by_itself(name: str, way: str) ->
     commanded(one, 0)
     other = WAYS[way](one)
     expected = commanded(one, 8)
-    np.testing.assert_array_equal(commanded(other, 8), expected)
+    # What the optimiser's BLAS adds up may depend on where arrays begin.
+    off = 1e-9 * np.abs(expected).max() if name == "Mpc" else 0.0
+    np.testing.assert_allclose(commanded(other, 8), expected, rtol=0.0, atol=off)
     assert np.ptp(expected, axis=0).max() > 0.0

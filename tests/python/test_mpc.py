@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import pickle
+import warnings
 from typing import Any
 
 import numpy as np
@@ -172,7 +173,10 @@ def test_what_it_knows_nothing_of_is_told() -> None:
     with pytest.warns(UserWarning, match="knows nothing of what cables and drives remember"):
         cdcr.control.Mpc(cdcr.Model(rubs), max_tension=5.0)
     with pytest.warns(UserWarning, match=r"0\.02 s, beyond the 0\.0142 s up to which they are sta"):
-        cdcr.control.Mpc(ARM, max_tension=5.0)
+        cdcr.control.Mpc(ARM, max_tension=5.0, substeps=1)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        cdcr.control.Mpc(ARM, max_tension=5.0)  # with as many as it needs
 
 
 @pytest.mark.parametrize(

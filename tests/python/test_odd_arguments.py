@@ -131,6 +131,17 @@ CASES: dict[str, tuple[Callable[[], object], str]] = {
 }
 
 
+def test_words_that_are_no_utf8_end_no_process() -> None:
+    def breaks(_: float) -> list[float]:
+        raise TypeError("a \udc80")
+
+    with pytest.raises(TypeError, match="a "):
+        run(tension=breaks)
+    named: dict[str, Any] = {"\udc80": 1}
+    with pytest.raises((TypeError, UnicodeEncodeError)):
+        MODEL.pose(ZERO, 0, **named)
+
+
 @pytest.mark.parametrize("name", CASES)
 def test_the_sentence_names_what_is_wrong(name: str) -> None:
     call, sentence = CASES[name]

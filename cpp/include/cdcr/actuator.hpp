@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdlib>
 #include <limits>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 #include "cdcr/export.hpp"
@@ -57,6 +59,7 @@ class Actuators {
     visit(self.given_);
     visit(self.late_);
     visit(self.now_);
+    if constexpr (!std::is_const_v<Self>) self.now_ = std::abs(self.now_) % self.late_.cols();
   }
 
  private:

@@ -26,7 +26,8 @@ void check(const Actuator& a, const Cable& cable, std::size_t j, double step) {
   detail::require(a.min_command >= 0.0 && a.max_command >= a.min_command, "limits of actuator ",
                   j + 1, " must satisfy 0 <= min_command <= max_command, got ", a.min_command,
                   " and ", a.max_command);
-  detail::require(std::isfinite(a.min_command), item("min_command"), " must be finite");
+  detail::require(std::isfinite(a.min_command), item("min_command"), " must be finite, got ",
+                  a.min_command);
   // Below, a command counted in them is no number.
   detail::require(a.resolution == 0.0 || a.resolution >= finest, item("resolution"),
                   " must be 0 (none) or at least ", finest, " N (m of lengths), got ",

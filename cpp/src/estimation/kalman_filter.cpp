@@ -64,12 +64,11 @@ void check_variants(const Model& model, const KalmanOptions& options) {
         model.num_cables(), " cables as the model has, got ", variant.num_coordinates(), " and ",
         variant.num_cables());
     for (std::size_t j = 0; j < model.cables().size(); ++j) {
-      const auto drive = [j](const Model& of) {
-        return of.cables()[j].length_driven() ? "length" : "tension";
-      };
-      require(drive(variant) == drive(model), "cable ", j + 1, " of variant ", k + 1,
-              " must be driven by ", drive(model), " as the model's, got one driven by ",
-              drive(variant));
+      const bool by_length = variant.cables()[j].length_driven();
+      const char* const drives[] = {"tension", "length"};
+      require(by_length == model.cables()[j].length_driven(), "cable ", j + 1, " of variant ",
+              k + 1, " must be driven by ", drives[by_length ? 0 : 1],
+              " as the model's, got one driven by ", drives[by_length ? 1 : 0]);
     }
     require_inertia(variant);
   }

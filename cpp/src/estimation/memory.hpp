@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <type_traits>
 #include <vector>
 
@@ -33,6 +34,9 @@ class MemoryWriter {
   std::vector<double> numbers_;
 };
 
+/// Counts that doubles hold, and switches, are below.
+inline constexpr double largest = 1e15;
+
 /// Reads them in that order. Throws std::invalid_argument where there are not as many.
 class MemoryReader {
  public:
@@ -49,6 +53,8 @@ class MemoryReader {
   }
   template <class T, class = std::enable_if_t<std::is_arithmetic_v<T>>>
   void operator()(T& number) {
+    require(std::abs(*at_) <= largest, "memory must be of an estimator made alike, got ", *at_,
+            " for a count");
     number = static_cast<T>(*at_++);
   }
 

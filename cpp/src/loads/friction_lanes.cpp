@@ -169,6 +169,17 @@ CableLanes::CableLanes(const Model& model) {
   }
 }
 
+double least_friction(const Model& model) noexcept {
+  double least = HUGE_VAL;
+  for (Index k = 0; k < model.num_sections(); ++k) {
+    if (model.robot().sections[static_cast<std::size_t>(k)].bending_order < 0) continue;
+    const auto levers = model.actuation_matrix().middleRows(model.first_coordinate(k), 2);
+    const double arm = levers.size() > 0 ? levers.cwiseAbs().maxCoeff() : 0.0;
+    if (arm > 0.0) least = std::fmin(least, 1e-4 * model.stiffness()[k] / arm);
+  }
+  return std::isfinite(least) ? least : 0.0;
+}
+
 void memory_force_of_arcs(const Model& model, const double* q, const double* qd,
                           const double* command, const double* deflection, double* force,
                           double* rate, int lanes) noexcept {

@@ -33,17 +33,6 @@ double friction_power(const Model& model, const ConstVectorRef& q, const ConstVe
   return heat;
 }
 
-double detail::least_friction(const Model& model) noexcept {
-  double least = HUGE_VAL;
-  for (Index k = 0; k < model.num_sections(); ++k) {
-    if (model.robot().sections[static_cast<std::size_t>(k)].bending_order < 0) continue;
-    const auto levers = model.actuation_matrix().middleRows(model.first_coordinate(k), 2);
-    const double arm = levers.size() > 0 ? levers.cwiseAbs().maxCoeff() : 0.0;
-    if (arm > 0.0) least = std::fmin(least, 1e-4 * model.stiffness()[k] / arm);
-  }
-  return std::isfinite(least) ? least : 0.0;
-}
-
 double deflection_energy(const Model& model, const ConstVectorRef& deflection) noexcept {
   return 0.5 * model.robot().presliding_stiffness * deflection.squaredNorm();
 }

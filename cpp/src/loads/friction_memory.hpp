@@ -171,7 +171,7 @@ template <class S>
 void memory_force(const Model& model, const S* q, const S* qd, const S* command,
                   const S* deflection, S* force, S* rate) {
   if constexpr (std::is_same_v<S, double>) {
-    if (!model.has_rods())
+    if (!model.has_rods() && model.num_deflections() > 0)
       return memory_force_of_arcs(model, q, qd, command, deflection, force, rate);
   }
   for (Index i = 0; i < model.num_coordinates(); ++i) force[i] = S(0.0);

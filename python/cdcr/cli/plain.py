@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import math
+import os
+import sys
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -100,6 +102,16 @@ def _warn_plainly(message: Warning | str, *_: object, **__: object) -> None:
     typer.echo(f"cdcr: warning: {message}", err=True)
 
 
+def _forget_what_is_printed() -> None:
+    """Where stdout can no more be written, keep Python from trying again when it ends."""
+    try:
+        sys.stdout.flush()
+    except OSError:
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, sys.stdout.fileno())
+        os.close(nowhere)
+
+
 @contextmanager
 def told_plainly() -> Iterator[None]:
     """Turn what users can mend into a sentence on stderr and an exit code, without a traceback."""
@@ -114,4 +126,5 @@ def told_plainly() -> Iterator[None]:
     except (run.Mistake, ImportError) as error:
         end(2, error)
     except OSError as error:
+        _forget_what_is_printed()
         end(2, os_or_value(error))

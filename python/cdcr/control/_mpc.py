@@ -16,12 +16,13 @@ from cdcr.base.keywords import by_keyword
 from cdcr.control._programme import BoxProgramme, unit_near
 from cdcr.model.memory import warn_of_memory
 from cdcr.model.model import Model
-from cdcr.model.stability import warn_of_long_steps
+from cdcr.model.stability import stable_step, warn_of_long_steps
 from cdcr.model.steps import AnyDynamics, Steps
 
 FIRST = 10  # quadratic programmes at most where there is no plan to go on from
 PARTS = ("linearize", "condense", "solve")  # of an update
 ATTRIBUTES = ("reference", "path", "plan", "diagnostics", "model", "horizon")
+MOST_SUBSTEPS = 1000  # chosen by itself; more are asked for
 SETTLED = 1e-3  # change of tensions that ends these, over their unit
 USUAL = 8.0, 2e3  # largest tensions [N], and costs of a tip a robot's length away
 
@@ -64,7 +65,7 @@ class Mpc(_core.Controller):
     horizon : int, optional
         How many steps it looks ahead.
     substeps : int, optional
-        Steps of integration in a step ahead; none should be longer than `stable_step`.
+        Steps of integration in a step ahead; by default as many as `stable_step` asks for at rest.
     tip_weight : float, optional
         [1/m^2], > 0.
     rate_weight : float, optional
@@ -113,7 +114,7 @@ class Mpc(_core.Controller):
         period: float = 0.02,
         step: float | None = None,
         horizon: int = 20,
-        substeps: int = 1,
+        substeps: int | None = None,
         tip_weight: float = 1e4,
         rate_weight: float = 1e-2,
         tension_weight: float = 1e-3,
@@ -144,6 +145,9 @@ class Mpc(_core.Controller):
         self._unit = unit_near((max_tension - min_tension) / USUAL[0])
         cost = unit_near(tip_weight * model.robot.length**2 / USUAL[1])
         self._programme = BoxProgramme(self._unit, cost)
+        if substeps is None:
+            wanted = math.ceil(step / stable_step(model, model.rest_shape))
+            substeps = min(max(wanted, 1), MOST_SUBSTEPS)
         self._steps = Steps(dynamics, step, substeps)
         warn_of_long_steps(model, step / substeps, "Mpc", stacklevel=3)
         self._limits = min_tension, max_tension
