@@ -119,3 +119,21 @@ def test_a_refused_reset_changes_nothing(
         envs.reset(**given)
     still = np.zeros((2, 3), dtype=np.float32)
     np.testing.assert_array_equal(envs.step(still)[0], others.step(still)[0])
+
+
+@pytest.mark.parametrize("seed", [True, 1.0, -1, "1"])
+def test_seeds_are_whole_numbers(seed: Any) -> None:
+    with pytest.raises(ValueError, match=r"seed must be a whole number >= 0, got "):
+        RobotEnv().reset(seed=seed)
+    envs = RobotVectorEnv(2)
+    with pytest.raises(ValueError, match=r"seed\[1\] must be a whole number >= 0, got "):
+        envs.reset(seed=[1, seed])
+
+
+def test_seeds_may_be_of_numpy() -> None:
+    env, envs = RobotEnv(), RobotVectorEnv(2)
+    expected = [env.reset(seed=k)[0] for k in (3, 4)]
+    np.testing.assert_array_equal(env.reset(seed=np.int64(3))[0], expected[0])  # type: ignore[arg-type]
+    np.testing.assert_array_equal(envs.reset(seed=np.array([3, 4]))[0], expected)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match=r"^seed must be a whole number >= 0, got True"):
+        envs.reset(seed=True)

@@ -299,3 +299,22 @@ def test_files_of_measurements(tmp_path: Path) -> None:
         Poses.load(tmp_path / "none.csv", ROBOT)
     with refused(f"{good}, line 1: there must be a column 't [s]'"):
         Motion.load(good, ROBOT)
+
+
+def test_commands_are_in_the_unit_of_the_drive(tmp_path: Path) -> None:
+    """A pull of 5 mm is no tension of 5 mN, nor is a tension a length."""
+    file = tmp_path / "poses.csv"
+    for robot, column, unit, wanted in (
+        (ROBOT, "cable", "mm", "N"),
+        (ROBOT, "pull", "mm", "N"),
+        (ROBOT, "command", "m", "N"),
+        (BY_LENGTH, "cable", "mN", "m"),
+        (BY_LENGTH, "command", "N", "m"),
+    ):
+        names = [f"{column} {j + 1} [{unit}]" for j in range(robot.num_cables)]
+        names += [f"tip {axis} [m]" for axis in "xyz"]
+        file.write_text("\n".join([",".join(names), ",".join(["0.1"] * len(names))]))
+        with refused(f"{file}, line 1: column '{names[0]}' must be in {wanted}, got "):
+            Poses.load(file, robot)
+    with refused("columns must be a mapping such as {'tip x [mm]': 'X'}, got 5 (int)"):
+        Poses.load(file, ROBOT, columns=5)

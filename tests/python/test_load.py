@@ -96,3 +96,72 @@ def test_files_that_are_no_run_are_refused(run: cdcr.Trajectory, tmp_path: Path)
     run.to_xarray().drop_vars("qd").to_netcdf(tmp_path / "half.nc", engine="h5netcdf")
     with refuses(ValueError, f"{tmp_path / 'half.nc'} is no run that cdcr has written: "):
         cdcr.Trajectory.load(tmp_path / "half.nc")
+
+
+def test_files_of_another_unit_order_or_robot_are_refused(
+    run: cdcr.Trajectory, tmp_path: Path
+) -> None:
+    path, whole = tmp_path / "other.nc", run.to_xarray()
+    degrees = np.degrees(whole.q).assign_attrs(units="deg")
+    drive = cdcr.Model(cdcr.Robot(sections=run.model.robot.sections))
+    odd: list[tuple[Any, cdcr.Model | None, str]] = [
+        (whole.assign(q=degrees), None, "q must be in rad, got deg"),
+        (
+            whole.assign_coords(time=(1e3 * whole.time).assign_attrs(units="ms")),
+            None,
+            "time must be in s, got ms",
+        ),
+        (whole.isel(component=[1, 0]), None, "component of q must be ['x', 'y'], got ['y', 'x']"),
+        (whole.isel(time=slice(None, None, -1)), None, "its times do not increase"),
+        (whole.isel(time=slice(0)), None, "it has no samples"),
+        (whole.assign_attrs(robot="{"), None, "Expecting property name"),
+        (whole.assign_attrs(slack_events="[[0.1, 9, true]]"), None, "its slack events tell of"),
+        (whole, drive, "its cables are driven by length, those of the model by tension"),
+    ]
+    for dataset, model, told in odd:
+        path.unlink(missing_ok=True)
+        dataset.to_netcdf(path, engine="h5netcdf")
+        with refuses(ValueError, f"{path} is no run ") as refusal:
+            cdcr.Trajectory.load(path, model=model)
+        assert told in str(refusal.value)
+    path.unlink()
+    whole.transpose(..., "time").to_netcdf(path, engine="h5netcdf")  # another order in the file
+    np.testing.assert_array_equal(cdcr.Trajectory.load(path).q, run.q)
+
+
+def test_a_damaged_netcdf_file_is_refused(
+    run: cdcr.Trajectory, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = run.save(tmp_path / "run.nc")
+
+    def damaged(*_: object, **__: object) -> None:
+        raise RuntimeError("Link iteration failed")  # as h5py says
+
+    monkeypatch.setattr("xarray.open_dataset", damaged)
+    with refuses(ValueError, f"{path} is no run that cdcr has written: Link iteration failed"):
+        cdcr.Trajectory.load(path)
+
+
+def test_csv_files_of_another_robot_or_out_of_order_are_refused(
+    run: cdcr.Trajectory, tmp_path: Path
+) -> None:
+    path = run.save(tmp_path / "run.csv")
+    header, *rows = path.read_text().splitlines()
+    sections = run.model.robot.sections
+    drive = cdcr.Model(
+        cdcr.Robot(sections=sections, cables=[cdcr.Cable(radius=0.02, angle=1.0, end_section=1)])
+    )
+    short = cdcr.Model(cdcr.Robot(sections=sections[:1]))
+    for model, lines, told in (
+        (run.model, [header, *rows[::-1]], "its times do not increase"),
+        (run.model, [header], "it has no samples"),
+        (run.model, [f"{header},t [s]", *(f"{row},0" for row in rows)], "has 2 columns 't [s]'"),
+        (drive, [header, *rows], "has a column 'command1 [N or m]', which no run of this model"),
+        (short, [header, *rows], "has a column 'q2_x [rad]', which no run of this model has"),
+    ):
+        path.write_text("\n".join(lines))
+        with refuses(ValueError, str(path)) as refusal:
+            cdcr.Trajectory.load(path, model=model)
+        assert told in str(refusal.value)
+    with refuses(TypeError, "model must be a cdcr.Model, got Robot"):
+        cdcr.Trajectory.load(path, model=run.model.robot)  # type: ignore[arg-type]

@@ -314,3 +314,31 @@ def test_a_robot_of_micrometres_is_drawn_as_one_of_metres() -> None:
     for value in ratio:  # each an integer power of the scale
         power = np.log(value) / np.log(1e-5)
         assert abs(power - round(power)) < 1e-2
+
+
+@pytest.mark.parametrize(
+    ("scale", "unit", "last"),
+    [
+        (1e-8, "nm", "8"),
+        (1e-5, "um", "8"),
+        (1e-2, "mm", "8"),
+        (100.0, "m", "80"),
+        (5e4, "km", "40"),
+    ],
+)
+def test_tiny_and_huge_robots_are_drawn_in_a_unit_of_their_size(
+    scale: float, unit: str, last: str
+) -> None:
+    section = cdcr.Section(
+        length=0.8 * scale,
+        backbone_mass=1.0,
+        backbone_diameter=0.01 * scale,
+        youngs_modulus=1e9,
+        cable_radius=0.05 * scale,
+        cable_angles=[0.0, 2.1, 4.2],
+    )
+    axes = plot_robot(cdcr.Model(cdcr.Robot(sections=[section])), [0.0, 0.0])
+    axes.figure.draw_without_rendering()
+    assert axes.get_zlabel() == f"z [{unit}]"
+    assert axes.get_zticklabels()[-1].get_text() == last
+    assert axes.zaxis.get_offset_text().get_text() == ""

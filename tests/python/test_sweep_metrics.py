@@ -78,3 +78,22 @@ def test_every_metric_says_its_unit_and_what_it_is() -> None:
         assert metric.unit
         assert metric.about[0].islower()
         assert not metric.about.endswith(".")
+
+
+@pytest.mark.parametrize("told", ["0.5", None, [0.5], 1j])
+def test_a_metric_is_a_number(told: object) -> None:
+    def odd(run: cdcr.Trajectory) -> object:
+        return told
+
+    with pytest.raises(TypeError, match=r"^metric 'odd' must return a number, got "):
+        cdcr.sweep(short, {"pull": [1.0]}, metrics=odd)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("name", ["status", "message", "run", "pull"])
+def test_a_metric_has_a_name_of_its_own(name: str) -> None:
+    with pytest.raises(ValueError, match=f"^metric '{name}' must not have "):
+        cdcr.sweep(short, {"pull": [1.0]}, metrics={name: lambda run: run.theta[-1, 0]})
+
+
+def short(pull: float) -> cdcr.Trajectory:
+    return cdcr.simulate(MODEL, [0, 0], [0, 0], t=[0.0, 0.1], tension=[pull, 0, 0])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -13,8 +14,8 @@ from cdcr.base.arrays import FloatArray
 pytest.importorskip("matplotlib", reason="the view draws with the colours of pictures")
 
 from cdcr.view import Session
-from cdcr.view.live import PERIOD, LiveModel, LiveRobot, Pull, command_ranges, round_up
-from cdcr.view.session import TRAIL, TRAIL_POINTS, circling
+from cdcr.view.live import PERIOD, LiveModel, LiveRobot, Pull, circling, command_ranges, round_up
+from cdcr.view.session import TRAIL, TRAIL_POINTS
 
 ROUNDING = 1e-12
 SIMULATED = 1e-6  # RK4 in steps of a few ms at most, beside dopri5 at 1e-10 [rad]
@@ -248,3 +249,34 @@ def test_refusals(run: cdcr.Trajectory) -> None:
         Session(arm(), run=run, reference=one)
     with pytest.raises(TypeError, match=r"reference must be a cdcr\.Trajectory or .*, got 3 \(int"):
         Session(arm(), run=run, reference=3)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("is_played", [True, False])
+def test_times_that_are_none_are_refused(run: cdcr.Trajectory, is_played: bool) -> None:
+    session = Session(arm(), run=run if is_played else None)
+    for bad in (math.nan, "1", None, True):
+        with pytest.raises(ValueError, match=r"^time must be a number in s, got "):
+            session.seek(bad)  # type: ignore[arg-type]
+        with pytest.raises(ValueError, match=r"^elapsed must be a number >= 0 in s, got "):
+            session.advance(bad)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match=r"^elapsed must be a number >= 0 in s, got -1"):
+        session.advance(-1.0)
+    assert session.advance(0.1) > 0.0
+
+
+def test_what_is_refused_of_a_live_robot_leaves_it_as_it_was() -> None:
+    session = Session(arm())
+    live = session.live
+    assert live is not None
+    for section, fraction, target in ((9, 1.0, [0, 0, 1]), (0, 2.0, [0, 0, 1]), (0, 1.0, [0, 0])):
+        with pytest.raises(ValueError, match="must be"):
+            session.pull_to(section, fraction, target)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match=r"^target must be three finite numbers in m, got "):
+        session.pull_to(0, 1.0, (0.0, 0.0, math.nan))
+    assert live.pull is None
+    for share in (-1.0, math.nan):
+        with pytest.raises(ValueError, match=r"^added_damping must be a number >= 0 and finite"):
+            live.change(added_damping=share)
+    live.change(payload=0.01)
+    assert live.robot.payload == 0.01
+    assert session.advance(0.1) > 0.0

@@ -32,12 +32,13 @@ class Layout(NamedTuple):
     def places(self, header: Sequence[str]) -> list[int] | None:
         """Return where times and columns stand in a file with that header; None for another's."""
         wanted = [self.time, *self.columns]
-        kinds = {_kind(name) for name in wanted}
-        same = [name for name in header if self.time != RUN_TIME or _kind(name) in kinds]
+        kinds = {digits_apart(name) for name in wanted}
+        same = [name for name in header if self.time != RUN_TIME or digits_apart(name) in kinds]
         return [header.index(name) for name in wanted] if sorted(same) == sorted(wanted) else None
 
 
-def _kind(name: str) -> str:
+def digits_apart(name: str) -> str:
+    """Return what the names of like columns have in common: q1_x, q2_x -> q#_x."""
     return re.sub(r"[0-9]+", "#", name)
 
 

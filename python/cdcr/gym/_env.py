@@ -10,7 +10,7 @@ from gymnasium.spaces import Box
 from numpy.typing import ArrayLike, NDArray
 
 from cdcr.base.arrays import FloatArray, finite
-from cdcr.base.check import one_of, short
+from cdcr.base.check import Check, one_of, short
 from cdcr.gym._picture import Picture, Window
 from cdcr.gym._randomization import Ranges
 from cdcr.gym._task import FAILED, Task
@@ -176,8 +176,13 @@ class RobotEnv(gymnasium.Env[Observation, Action]):
         -------
         tuple
             Observation and info.
+
+        Raises
+        ------
+        ValueError
+            For a seed that is none, and options that are none of those.
         """
-        super().reset(seed=seed)
+        super().reset(seed=seed_of(seed))
         self._task.reset([0], [self.np_random], options)
         if self.render_mode == "human":
             self.render()
@@ -239,6 +244,18 @@ class RobotEnv(gymnasium.Env[Observation, Action]):
     def _info(self) -> dict[str, Any]:
         task = self._task
         return {"distance": float(task.distance[0]), "is_success": bool(task.reached[0])}
+
+
+def seed_of(seed: object, item: str = "seed") -> int | None:
+    """Return a seed, of NumPy too, as Gymnasium takes it, or refuse it."""
+    if seed is None:
+        return None
+    if type(seed) is int and seed >= 0:
+        return seed  # of any size, as Gymnasium allows
+    check = Check()
+    found = check.whole(item, seed, "a whole number >= 0", low=0)
+    check.done()
+    return found
 
 
 def spaces(task: Task) -> tuple[Any, Any]:

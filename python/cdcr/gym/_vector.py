@@ -12,7 +12,7 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import ArrayLike, NDArray
 
 from cdcr.base.check import Check, short
-from cdcr.gym._env import Observation, spaces
+from cdcr.gym._env import Observation, seed_of, spaces
 from cdcr.gym._picture import Picture
 from cdcr.gym._randomization import Ranges
 from cdcr.gym._task import FAILED, Task
@@ -139,9 +139,10 @@ class RobotVectorEnv(VectorEnv[Observation, NDArray[np.float32], NDArray[Any]]):
         seeds: list[int | None]
         several: Any = seed  # of any kind, as users may give
         if seed is None or isinstance(seed, (int, np.integer)):
-            seeds = [None if seed is None else seed + i for i in range(self.num_envs)]
+            first = seed_of(seed)
+            seeds = [None if first is None else first + i for i in range(self.num_envs)]
         elif isinstance(several, (Sequence, np.ndarray)) and not isinstance(several, (str, bytes)):
-            seeds = list(several)
+            seeds = [seed_of(one, f"seed[{i}]") for i, one in enumerate(several)]
         else:
             raise TypeError(f"seed must be a whole number or one of each robot, got {short(seed)}")
         if len(seeds) != self.num_envs:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from cdcr.base.arrays import FloatArray
-from cdcr.base.check import nearest
+from cdcr.base.check import format_value, nearest
 from cdcr.base.decimals import number
 from cdcr.files.new_file import file_path
 from cdcr.files.number_csv import read_rows
@@ -91,6 +91,9 @@ class Table:
                     "none has"
                 )
             return {one: one for one in header}
+        if not isinstance(columns, Mapping):
+            must = "a mapping such as {'tip x [mm]': 'X'}"
+            raise TypeError(f"columns must be {must}, got {format_value(columns)}")
         for label, column in columns.items():
             if column not in header:
                 raise ValueError(
@@ -132,12 +135,17 @@ class Table:
         """Return what a column is called in the file."""
         return self._header[name]
 
-    def commands(self, kind: str, count: int, units: Sequence[str]) -> FloatArray:
-        """Return the columns that are commands; refusals call them by the names they have."""
-        names = [f"{kind} {j + 1}" for j in range(count)]
-        found = self.take(names, units, needed=True)
-        assert found is not None
-        for j, name in enumerate(names):
+    def commands(self, kind: str, units: Sequence[Sequence[str]]) -> FloatArray:
+        """Return the columns that are commands, of each cable in one of its units.
+
+        Refusals call them by the names they have.
+        """
+        found = np.empty((len(self._lines), len(units)))
+        for j, known in enumerate(units):
+            name = f"{kind} {j + 1}"
+            column = self.take([name], known, needed=True)
+            assert column is not None
+            found[:, j] = column[:, 0]
             self._header[f"cable {j + 1}"] = self._header[name]
         return found
 
@@ -169,9 +177,10 @@ class Table:
                     f"columns are {known}"
                 )
             if self._units[name] not in units:
+                known = " or ".join(unit for unit in units if unit != "N or m")
                 raise ValueError(
-                    f"{self.file}, line 1: column {self._header[name]!r} must be in "
-                    f"{' or '.join(units)}, got {self._units[name]}"
+                    f"{self.file}, line 1: column {self._header[name]!r} must be in {known}, got "
+                    f"{self._units[name]}"
                 )
         return np.stack([self.columns.pop(name) for name in names], axis=-1)
 
@@ -238,10 +247,11 @@ def _measured(
     """Return the arguments of a measurement, those of the file among them."""
     cables = range(1, robot.num_cables + 1)
     given: dict[str, Any] = {"name": table.file.name, "where": table.where} | dict(options)
-    count = robot.num_cables
+    # A tension in metres, or a length in newtons, is another robot's.
+    units = [["m" if cable.length_driven else "N"] for cable in robot.all_cables]
     command: Any
     if any(f"pull {j}" in table.columns for j in cables):
-        given["pulled"], command = True, table.commands("pull", count, ["m"])
+        given["pulled"], command = True, table.commands("pull", units)
     elif "command" in given:
         command = given.pop("command")
         twice = [name for name in table.columns if re.fullmatch(r"(cable|command) \d+", name)]
@@ -251,12 +261,12 @@ def _measured(
                 "what 'command' tells: leave out one of them"
             )
     elif "command 1" in table.columns:
-        command = table.commands("command", count, ["N or m", "N", "m"])
+        command = table.commands("command", [[*one, "N or m"] for one in units])
         table.take([f"tension {j}" for j in cables], ["N"])  # in a run's file: what came of it
     elif "tension 1" in table.columns and "cable 1" not in table.columns:
-        command = table.commands("tension", count, ["N"])
+        command = table.commands("tension", [["N"]] * robot.num_cables)
     else:
-        command = table.commands("cable", count, ["N", "m"])
+        command = table.commands("cable", units)
     names = {
         "tip": ([f"tip {axis}" for axis in "xyz"], "m"),
         "tension": ([f"tension {j}" for j in cables], "N"),

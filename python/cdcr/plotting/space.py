@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import Formatter, MaxNLocator, ScalarFormatter
 from mpl_toolkits.mplot3d import proj3d  # type: ignore[import-untyped]
 
 from cdcr.base.arrays import FloatArray
@@ -15,6 +15,8 @@ from cdcr.plotting.style import LIGHT_GREY
 
 # Of three cables, the first along X, none hides another.
 VIEW = {"elev": 24.0, "azim": -74.0}  # [deg]
+UNITS = {"km": 1e3, "m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}  # of lengths [m]
+NEAR, FAR = 1e-2, 1e4  # where metres begin and end [m]
 MAX_TICKS = 7  # along the longest side
 FORESHORTENED = 0.6  # the y axis, in this view
 SLENDEREST = 0.3  # shortest side of the box over its longest: room for the numbers
@@ -45,6 +47,29 @@ def label(axes: Any) -> None:
             axis.set_label_text(f"{name} [m]")
 
 
+def _choose_units(axes: Any) -> None:
+    """Give what `label` has labelled mm, um or km where metres would need a power of ten."""
+    largest = float(np.max(np.abs(_limits(axes))))
+    small = next((one for one in ("mm", "um") if largest >= UNITS[one]), "nm")
+    unit = "km" if largest >= FAR else "m" if largest >= NEAR else small
+    labels = {f"{name} [{one}]" for name in "xyz" for one in UNITS}
+    for axis, name in zip((axes.xaxis, axes.yaxis, axes.zaxis), "xyz", strict=True):
+        if axis.get_label_text() in labels:
+            axis.set_label_text(f"{name} [{unit}]")
+            axis.set_major_formatter(ScalarFormatter() if unit == "m" else _Scaled(UNITS[unit]))
+
+
+class _Scaled(Formatter):
+    """Numbers in another unit than metres; unlike a function it pickles, and so do figures."""
+
+    def __init__(self, unit: float) -> None:
+        self.unit = unit
+
+    def __call__(self, x: float, pos: int | None = None) -> str:
+        """Return a number as it is shown."""
+        return f"{x / self.unit:.6g}".replace("-", "\N{MINUS SIGN}")
+
+
 def show_points(axes: Any, points: FloatArray) -> None:
     """Widen Axes3D to show points (P, 3) [m], with the same scale in all directions."""
     low, high = points.min(axis=0), points.max(axis=0)
@@ -67,6 +92,7 @@ def _number_axes(axes: Any, low: FloatArray, high: FloatArray) -> None:
         ticks = MaxNLocator(max(2, round(room)), steps=[1, 2, 5, 10]).tick_values(low[k], high[k])
         corner = low[k] + 0.15 * size[k] * (k == 1)  # where x and y meet, x is numbered
         axis.set_ticks(ticks[(ticks >= corner) & (ticks <= high[k])])
+    _choose_units(axes)
     keep_off(axes)
 
 

@@ -255,4 +255,8 @@ def values_of(asked: Sequence[Asked], scenario: Scenario | None, run: Trajectory
 def _value(one: Asked, run: Trajectory, findings: Mapping[str, float]) -> float:
     if one.in_summary:
         return float(findings.get(one.name, math.nan))
-    return float((one.function or METRICS[one.name].function)(run))
+    value = (one.function or METRICS[one.name].function)(run)
+    number = np.asarray(value)
+    if number.ndim or number.dtype.kind not in "biuf":
+        raise TypeError(f"metric {one.name!r} must return a number, got {format_value(value)}")
+    return float(number)

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 SUFFIXES = (".nc", ".zarr")
 ZARR_FORMAT = 2  # in which strings are specified
 _BESIDE = ("status", "message")  # variables that are no metrics
+NAMES = (*_BESIDE, "run")  # that no metric can have
 
 
 def require_sweep(result: object) -> None:

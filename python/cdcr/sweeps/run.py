@@ -156,6 +156,7 @@ def sweep(
         result.check_path(target)
     design = make_design(parameters, samples, seed)
     job = _job(source, design, metrics)
+    _check_names(job, design)
     about = _about(job, design)
     if target is not None and target.exists() and not overwrite:
         return _known(target, about)
@@ -185,6 +186,15 @@ def _job(source: Any, design: Design, metrics: MetricNames) -> Job:
     runs = file_source(source, design.names)
     _check_values(runs, design)
     return Job(runs, find_metrics(metrics, partial(_summary, runs)))
+
+
+def _check_names(job: Job, design: Design) -> None:
+    """Refuse metrics with names that the result has for something else."""
+    for metric in job.metrics:
+        if metric.name in design.names:
+            raise ValueError(f"metric {metric.name!r} must not have the name of a parameter")
+        if metric.name in result.NAMES:
+            raise ValueError(f"metric {metric.name!r} must not have a name of the result itself")
 
 
 def _summary(runs: FileSource) -> Sequence[Metric]:

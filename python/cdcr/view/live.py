@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import math
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from numbers import Real
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from cdcr import _core
 from cdcr.base.arrays import FloatArray
+from cdcr.base.check import Check, format_value
 from cdcr.plotting.panels import is_damped
 
 if TYPE_CHECKING:
@@ -23,6 +26,8 @@ ADDED_DAMPING = 0.1  # share of critical damping, given to a robot that has none
 # First coefficient of each strain of a section, and what damps it.
 DAMPINGS = {"q{}_x": "damping", "t{}": "twist_damping", "e{}": "stretch_damping"}
 MOST_BENT = 2.5  # bending angle that the largest command of a slider gives one section [rad]
+CIRCLE, RAMP = 6.0, 1.0  # time of one round of `circling`, and how it begins [s]
+CIRCLING = 0.5  # its share of the sliders' range, over the number of sections
 
 
 class LiveModel(_core.Model):
@@ -151,15 +156,34 @@ class LiveRobot:
         added_damping: float | None = None,
     ) -> None:
         """Go on under another gravity [m/s^2], payload [kg], share of critical damping added."""
-        given = self._given
+        given, share = self._given, self.added_damping
         if gravity is not None:
             given = replace(given, gravity=gravity)
         if payload is not None:
             given = replace(given, payload=payload)
-        self._given = given
         if added_damping is not None:
-            self.added_damping = added_damping
+            if not 0.0 <= added_damping < math.inf:
+                must = "must be a number >= 0 and finite"
+                raise ValueError(f"added_damping {must}, got {format_value(added_damping)}")
+            share = added_damping
+        self._given, self.added_damping = given, share
         self._build()
+
+    def pull_to(self, section: int, fraction: float, target: Sequence[float]) -> None:
+        """Pull a point of the backbone, by section and fraction, towards a point in space [m].
+
+        Raises
+        ------
+        ValueError
+            For a point that the backbone has not, and a target that is none.
+        """
+        self.model.pose(self.q, section, fraction)  # refuses another place
+        check = Check()
+        place = check.vector("target", target, "three numbers in m", "a finite number of m")
+        if not all(map(math.isfinite, place)) and not check.sentences:
+            check.refuse("target", "three finite numbers in m", target)
+        check.done()
+        self.pull = Pull(section, fraction, place, self.pull_stiffness)
 
     def advance(self, seconds: float, budget: float = math.inf) -> None:
         """Go on for so long [s], but compute no longer than the budget [s].
@@ -214,6 +238,14 @@ class LiveRobot:
             self._simulator.reset(self.q, self.qd)
 
 
+def seconds_of(name: str, value: float, low: float = -math.inf) -> float:
+    """Return a time [s], or refuse what is none."""
+    if isinstance(value, bool) or not isinstance(value, Real) or not value >= low:
+        limit = "" if math.isinf(low) else f" >= {low:g}"
+        raise ValueError(f"{name} must be a number{limit} in s, got {format_value(value)}")
+    return float(value)
+
+
 def first_damping(robot: Robot) -> float:
     """Return the share of critical damping that is added to a robot unless somebody changes it."""
     return 0.0 if is_damped(robot) else ADDED_DAMPING
@@ -264,3 +296,15 @@ def round_up(value: float) -> float:
     """Return the least of ..., 0.5, 1, 2, 5, 10, ... that is not less than a value > 0."""
     power = 10.0 ** math.floor(math.log10(value))
     return float(next(m * power for m in (1, 2, 5, 10) if m * power >= value * (1 - 1e-9)))
+
+
+def circling(ranges: list[tuple[float, float]], model: LiveModel, time: float) -> FloatArray:
+    """Return commands (num_cables,) that lead a robot round in a circle, begun gently."""
+    share = CIRCLING / model.num_sections * min(1.0, time / RAMP)
+    rest, command = model.rest_command(), []
+    for j, (cable, (low, high)) in enumerate(zip(model.robot.all_cables, ranges, strict=True)):
+        angle = np.mean(cable.route(cable.end_section)[1])
+        pulled = share * max(0.0, np.cos(2.0 * np.pi * time / CIRCLE - angle))
+        toward = low if cable.length_driven else high
+        command.append(rest[j] + pulled * (toward - rest[j]))
+    return np.array(command)

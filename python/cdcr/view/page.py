@@ -13,8 +13,9 @@ from cdcr.base.arrays import FloatArray
 from cdcr.files.new_file import REPLACE, new_file
 from cdcr.view.colors import legend
 from cdcr.view.drawing import Drawing
+from cdcr.view.live import CIRCLE, RAMP, circling
 from cdcr.view.server import WIDTH, close_server, look_at, open_server
-from cdcr.view.session import CIRCLE, RAMP, Session, circling
+from cdcr.view.session import Session
 
 FPS = 30.0
 MOST_FRAMES = 900  # longer recordings have fewer pictures a second

@@ -12,7 +12,14 @@ import numpy as np
 from cdcr.base.arrays import FloatArray
 from cdcr.base.check import Check, count, format_value
 from cdcr.plotting.geometry import Motion, states_at
-from cdcr.view.live import LiveModel, LiveRobot, Pull, command_ranges, first_damping, round_up
+from cdcr.view.live import (
+    LiveModel,
+    LiveRobot,
+    command_ranges,
+    first_damping,
+    round_up,
+    seconds_of,
+)
 from cdcr.view.live_loop import LiveLoop, LoopMaker
 from cdcr.view.markers import Markers
 
@@ -24,8 +31,6 @@ KEPT = 60.0  # of what was simulated, to look back at [s]
 TRAIL, TRAIL_POINTS = 2.0, 60  # how far back the path of the tip is shown [s]
 BUDGET = 0.03  # most computing for one picture [s]
 DIMMED = 10.0  # full range of a slider over the scale of colours at first
-CIRCLE, RAMP = 6.0, 1.0  # time of one round of `circling`, and how it begins [s]
-CIRCLING = 0.5  # its share of the sliders' range, over the number of sections
 
 
 class Moment(NamedTuple):
@@ -180,8 +185,8 @@ class Session:
         time : float
             The time [s]; the nearest in `span` where it lies outside.
         """
+        self.time = float(np.clip(seconds_of("time", time), *self.span))
         self.playing = False
-        self.time = float(np.clip(time, *self.span))
 
     def restart(self) -> None:
         """Begin anew: the run, or the robot at rest without tension, or as the run began."""
@@ -229,7 +234,7 @@ class Session:
         """
         self.go_live()
         assert self.live is not None
-        self.live.pull = Pull(section, fraction, target, self.live.pull_stiffness)
+        self.live.pull_to(section, fraction, target)
         if not self.playing:
             self.play()
 
@@ -251,6 +256,7 @@ class Session:
         float
             Time simulated or played [s].
         """
+        elapsed = seconds_of("elapsed", elapsed, low=0.0)
         if not self.playing:
             return 0.0
         before = self.time
@@ -276,7 +282,7 @@ class Session:
             How far [s].
         """
         assert self.live is not None
-        self.live.advance(seconds)
+        self.live.advance(seconds_of("seconds", seconds, low=0.0))
         self.time = self.live.time
         self._keep()
 
@@ -336,15 +342,3 @@ def _state(motion: Motion | None, time: float) -> FloatArray | None:
 def _rates_at(run: Trajectory, time: float) -> FloatArray:
     """Return qd (d,) at a time, on a line between samples."""
     return np.array([np.interp(time, run.t, rates) for rates in run.qd.T])
-
-
-def circling(ranges: list[tuple[float, float]], model: LiveModel, time: float) -> FloatArray:
-    """Return commands (num_cables,) that lead a robot round in a circle, begun gently."""
-    share = CIRCLING / model.num_sections * min(1.0, time / RAMP)
-    rest, command = model.rest_command(), []
-    for j, (cable, (low, high)) in enumerate(zip(model.robot.all_cables, ranges, strict=True)):
-        angle = np.mean(cable.route(cable.end_section)[1])
-        pulled = share * max(0.0, np.cos(2.0 * np.pi * time / CIRCLE - angle))
-        toward = low if cable.length_driven else high
-        command.append(rest[j] + pulled * (toward - rest[j]))
-    return np.array(command)
