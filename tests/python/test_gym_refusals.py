@@ -133,7 +133,7 @@ def test_seeds_are_whole_numbers(seed: Any) -> None:
 def test_seeds_may_be_of_numpy() -> None:
     env, envs = RobotEnv(), RobotVectorEnv(2)
     expected = [env.reset(seed=k)[0] for k in (3, 4)]
-    np.testing.assert_array_equal(env.reset(seed=np.int64(3))[0], expected[0])  # type: ignore[arg-type]
+    np.testing.assert_array_equal(env.reset(seed=np.int64(3))[0], expected[0])
     np.testing.assert_array_equal(envs.reset(seed=np.array([3, 4]))[0], expected)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match=r"^seed must be a whole number >= 0, got True"):
         envs.reset(seed=True)
