@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -126,7 +127,9 @@ py::tuple run_rollout(const py::sequence& models, const py::object& q0, const py
     return rollout(motions, options, out, report);
   };
   const RolloutOutcome outcome = unlocked_run();
-  interruption.forgive();
+  interruption.forgive(std::any_of(
+      outcome.failures.begin(), outcome.failures.end(),
+      [](const RolloutFailure& failure) { return failure.status == Status::interrupted; }));
   return py::make_tuple(std::move(q), std::move(qd), std::move(command), failures_of(outcome),
                         outcome.stats);
 }

@@ -81,9 +81,11 @@ void Interruption::raise() const {
   if (found_) throw py::error_already_set();
 }
 
-void Interruption::forgive() const {
+void Interruption::forgive(bool told) const {
   if (!found_) return;
-  if (PyErr_ExceptionMatches(PyExc_KeyboardInterrupt) == 0) throw py::error_already_set();
+  if (!told || PyErr_ExceptionMatches(PyExc_KeyboardInterrupt) == 0) {
+    throw py::error_already_set();
+  }
   PyErr_Clear();
 }
 

@@ -44,9 +44,9 @@ class Interruption {
   [[nodiscard]] bool operator()();
   /// Raises what the handler of a signal raised.
   void raise() const;
-  /// In its place where what is done is handed back: Ctrl-C is forgotten, what else a handler
-  /// raised is raised.
-  void forgive() const;
+  /// In its place where what is done is handed back: Ctrl-C is forgotten where the answer tells of
+  /// it, as one does not that was done by then; what else a handler raised is raised.
+  void forgive(bool told) const;
 
  private:
   static constexpr std::chrono::milliseconds pause_{50};

@@ -49,7 +49,7 @@ class _Lockstep:
         self.now = [np.array(batch.q0), np.array(batch.qd0)]
         self.alive = np.arange(motions)
         self.failures: list[tuple[int, _core.Status, str]] = []
-        self.costs = [make_stats()]
+        self.cost = make_stats()
 
     def run(self) -> tuple[Any, ...]:
         """Go through all periods, or as far as Ctrl-C lets it."""
@@ -71,7 +71,7 @@ class _Lockstep:
             self.qd,
             self.command,
             sorted(self.failures, key=lambda failure: failure[0]),
-            total(self.costs),
+            self.cost,
         )
 
     def _asked(self, step: int) -> FloatArray:
@@ -112,7 +112,7 @@ class _Lockstep:
             progress=None,
         )
         q, qd, _, failures, cost = part.run()
-        self.costs.append(cost)
+        self.cost = total((self.cost, cost))
         first = -(-k // batch.record_every)  # the row at k or the next
         if k % batch.record_every == 0:
             self.command[alive, first] = command[alive]
