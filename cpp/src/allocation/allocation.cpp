@@ -84,13 +84,15 @@ void Allocator::set_actuation() noexcept {
     double largest = 0.0;  // column of rows of this kind
     for (Index j = 0; j < B_.cols(); ++j) {
       double square = 0.0;
-      for (Index i = 0; i < B_.rows(); ++i)
-        square += along_[i] == along ? B_(i, j) * B_(i, j) : 0.0;
+      for (Index i = 0; i < B_.rows(); ++i) {
+        if (along_[i] == along) square += B_(i, j) * B_(i, j);
+      }
       largest = std::fmax(largest, std::sqrt(square));
     }
-    if (along == false) moment_ = largest > 0.0 ? largest : 1.0;
+    if (!(largest > 0.0)) largest = 1.0;
+    if (!along) moment_ = largest;
     for (Index i = 0; i < B_.rows(); ++i) {
-      if (along_[i] == along) scale_[i] = largest > 0.0 ? largest : 1.0;
+      if (along_[i] == along) scale_[i] = largest;
     }
   }
   for (Index j = 0; j < B_.cols(); ++j) B_.col(j).array() /= scale_.array();

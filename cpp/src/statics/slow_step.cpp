@@ -117,8 +117,9 @@ void SlowStep::add_cable(CableGeometry<double>& at, Index j, const VectorXd& q,
     if (slid < 0.0) way = Sliding::paid_out;
   } else {
     profile.set_friction(limited(stick_ * deflection_[j], profile.most_in(), profile.most_out()));
-    for (int k = at.first(); k <= at.last(); ++k)
+    for (int k = at.first(); k <= at.last(); ++k) {
       slid += profile.share(at.ways()[k]) * at.pulled_in(k, moved_.data());
+    }
     const double asked = stick_ * (deflection_[j] + slid);
     friction = limited(asked, profile.most_in(), profile.most_out());
     if (asked >= profile.most_in()) way = Sliding::pulled_in;
